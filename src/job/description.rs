@@ -25,7 +25,7 @@ pub struct ParameterFigure {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Value {
-    /// A number, rounded to what the planner tells apart: a micrometre, a thousandth of a degree.
+    /// A number, rounded to what the planner distinguishes: a micrometre, a thousandth of a degree.
     Number(f64),
     /// A word of the language.
     Word(&'static str),

@@ -25,7 +25,7 @@ use vcutc_machine::{LimitPlaces, Model};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sourced<T> {
     pub value: T,
-    /// Where the value stands (not the field's name).
+    /// Where the value is (not the field's name).
     pub span: Option<Span>,
 }
 
@@ -54,7 +54,7 @@ pub struct CheckedJob {
     pub name: String,
     pub name_span: Span,
     pub stock: Stock,
-    /// Where the stock's size stands.
+    /// Where the stock's size is.
     pub stock_span: Span,
     /// The part's profile, spanning the stock from side to side and lying within it.
     pub profile: Profile,
@@ -158,7 +158,7 @@ pub struct Machine {
     pub head_span: Span,
     /// What it is: its axes and how they move it.
     pub model: Arc<Model>,
-    /// Where the model's name stands.
+    /// Where the model's name is.
     pub model_span: Span,
     /// Where the file of the machine states the limits of its axes; empty for machines of the catalogue.
     pub limit_spans: Vec<LimitPlaces>,
@@ -178,7 +178,7 @@ pub struct Machine {
     pub targets: Vec<TargetOptions>,
 }
 
-/// Options of one target, evaluated but not yet held against what the target takes.
+/// Options of one target, evaluated but not yet compared with what the target takes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetOptions {
     pub target: String,

@@ -68,7 +68,7 @@ pub trait Operation: OperationValue + Any + Debug + Send + Sync {
     /// Plans it.
     ///
     /// # Errors
-    /// Why there is no plan: at once, before anything that helps is looked for.
+    /// Why there is no plan: at once, before suggestions are searched.
     fn plan<'j>(&'j self, ground: Ground<'j>) -> Result<Laid, Box<dyn Unplanned + 'j>>;
 
     /// Whether there is a plan of it with nothing wrong, as far as is seen with so much work; none where planning and proving
@@ -180,7 +180,7 @@ pub trait Trials {
     fn planned(&mut self, change: &dyn Fn(&mut dyn Operation)) -> Option<Box<dyn PlannedOperation>>;
 }
 
-/// What values of operations have in common with other values; every type that can be cloned and compared has it.
+/// Cloning and comparing of operations; every type that can be cloned and compared has it.
 pub trait OperationValue {
     /// A copy.
     fn copied(&self) -> Box<dyn Operation>;

@@ -34,6 +34,7 @@ pub mod quantity;
 pub mod range;
 pub mod read;
 pub mod report;
+mod scope;
 pub mod session;
 pub mod setup;
 mod stock;
@@ -83,7 +84,7 @@ pub struct Typed<'a> {
 
 /// Loads a job and everything it uses, and works out what it means.
 ///
-/// Gives the root file's tree, and the job when it is without errors of meaning. What there is to tell goes to
+/// Gives the root file's tree, and the job when it is without errors of meaning. Diagnostics go to
 /// `diagnostics` in the order of the source, file by file; all texts go to `sources`.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! What all operations state: the blade, how it is held and moved, and how far it keeps from the stock.
+//! What all operations state: the blade, its rake and its speeds, and how far it keeps from the stock.
 
 use super::{Auto, Blade, Direction, Sourced};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};

@@ -73,10 +73,7 @@ impl Kind for Line {
     fn check(&self, written: Written<'_>, session: &mut Session<'_>) -> Checked<Box<dyn Operation>> {
         let fields = Fields::sort(&SPEC, written.place, &written.block.entries, session);
         let setup = setup::check(&fields, written, session);
-        let mut reader = Reader {
-            scope: written.scope,
-            reports: &mut session.reports,
-        };
+        let mut reader = Reader::new(written.scope, &mut session.reports);
         let (swing, at) = (reader.required(&fields, "swing"), reader.required(&fields, "at"));
         let depth = reader.required(&fields, "depth");
         Ok(Box::new(Mark {

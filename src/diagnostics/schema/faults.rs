@@ -49,6 +49,13 @@ pub fn missing(code: Code, holder: &str, fields: &[&str], span: Span) -> Diagnos
     )
 }
 
+/// A field that its block has already.
+pub fn twice(code: Code, name: &str, span: Span, first: Span) -> Diagnostic {
+    Diagnostic::new(code, format!("`{name}` is given twice"), span, "given again here")
+        .and(first, "first given here")
+        .help("delete one of the two")
+}
+
 /// A value of another kind than `taker` takes.
 pub fn wrong_kind(code: Code, taker: &str, wanted: &str, found: &str, span: Span) -> Diagnostic {
     Diagnostic::new(

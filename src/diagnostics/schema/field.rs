@@ -110,16 +110,34 @@ impl FieldSpec {
         }
     }
 
-    /// The range of its values; all values of a dimension where the description states none.
-    pub fn range(&self, dimension: Dimension) -> Range {
+    /// The range of its values, if it takes a quantity.
+    pub const fn quantity(&self) -> Option<Range> {
         match self.takes {
-            Takes::Quantity(range) => range,
+            Takes::Quantity(range) => Some(range),
             Takes::Anything
             | Takes::Words(_)
             | Takes::Blade
             | Takes::Machine
             | Takes::Calls(_)
-            | Takes::Fields(_) => Range::all(dimension),
+            | Takes::Fields(_) => None,
+        }
+    }
+
+    /// The range of its values; all values of a dimension where the description states none.
+    pub fn range(&self, dimension: Dimension) -> Range {
+        self.quantity().unwrap_or(Range::all(dimension))
+    }
+
+    /// The fields in it, if it is a block.
+    pub const fn inner(&self) -> Option<&'static BlockSpec> {
+        match self.takes {
+            Takes::Fields(inner) => Some(inner),
+            Takes::Anything
+            | Takes::Quantity(_)
+            | Takes::Words(_)
+            | Takes::Blade
+            | Takes::Machine
+            | Takes::Calls(_) => None,
         }
     }
 
@@ -169,7 +187,7 @@ pub struct BlockSpec {
     pub title: &'static str,
     /// Its fields, in the order in which people write them.
     pub fields: &'static [FieldSpec],
-    /// What becomes of inner blocks that are no fields.
+    /// What inner blocks that are not fields are.
     pub inner: Inner,
 }
 
@@ -180,7 +198,7 @@ impl BlockSpec {
     }
 }
 
-/// What becomes of inner blocks that are no fields.
+/// What inner blocks that are not fields are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inner {
     /// They are unknown.

@@ -269,7 +269,7 @@ crate::words! {
     TipOrigin { Lattice = "lattice", Given = "given", Lifted = "lifted", Shifted = "shifted", Relieved = "relieved" }
 }
 
-/// What values of plans have in common with other values; every type that can be cloned and compared has it.
+/// Cloning and comparing of plans; every type that can be cloned and compared has it.
 pub trait PlannedValue {
     /// A copy.
     fn copied(&self) -> Box<dyn PlannedOperation>;

@@ -35,10 +35,7 @@ pub(crate) fn check(
     session: &mut Session<'_>,
 ) -> Checked<Blade> {
     let fields = Fields::sort(&SPEC, place, &block.entries, session);
-    let mut reader = Reader {
-        scope,
-        reports: &mut session.reports,
-    };
+    let mut reader = Reader::new(scope, &mut session.reports);
     let cutting_length = reader.required(&fields, "cutting_length");
     let half_apex = reader.required(&fields, "half_apex");
     let thickness = reader.required(&fields, "thickness");

@@ -40,7 +40,7 @@ pub(crate) struct Said<'a> {
     pub(crate) in_the_job: Option<Placed<'a>>,
 }
 
-/// The name behind `--machine`, as a text of its own that diagnostics can point into.
+/// The name after `--machine`, as a text of its own that diagnostics can point into.
 pub(crate) fn wanted(name: Option<&str>, session: &mut Session<'_>) -> Option<Spanned<String>> {
     let name = name?;
     let file = session.sources.add(format!("--machine {name}"), name.to_owned());
@@ -137,7 +137,7 @@ fn typed(
             }),
             _,
         ) => Ok(index),
-        // It may stand in text that could not be read.
+        // It may be in text that could not be read.
         (None, Some(reported)) => Err(reported),
         (other, _) => Err(session.reports.push(no_machine(wanted, other, blocks))),
     }

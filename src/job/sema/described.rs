@@ -1,4 +1,4 @@
-//! Files that describe something and are no jobs: machines, and the habits of machines.
+//! Files that describe machines, and the profiles of their post-processors.
 
 use super::files::{Relative, not_loaded, text_of};
 use super::report::Checked;

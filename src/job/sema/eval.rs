@@ -6,11 +6,11 @@
 
 use super::dimension::Dimension;
 use super::functions;
-use super::lets::Let;
-use super::mismatch::{Mismatch, mend};
-use super::names::{Names, Thing, did_you_mean};
+use super::mismatch::{Mismatch, offer_units, same_dimension};
+use super::names::{Thing, did_you_mean};
 use super::quantity::{Quantity, number};
 use super::report::{Checked, Reports};
+pub use super::scope::{Operand, Scope};
 use super::units;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -18,28 +18,6 @@ use vcutc_syntax::ast::{Expr, Operator};
 
 /// Deepest nesting of an expression.
 const DEEPEST: usize = 200;
-
-/// What names stand for while an expression is evaluated.
-#[derive(Clone, Copy)]
-pub struct Scope<'a> {
-    /// All names of the job.
-    pub names: &'a Names<'a>,
-    /// The job's `let`s.
-    pub(crate) lets: &'a [Let<'a>],
-    /// Their values; none while they are still being worked out.
-    pub values: &'a [Option<Checked<Quantity>>],
-    /// The variable of a formula.
-    pub variable: Option<(&'a str, Quantity)>,
-}
-
-/// A value with the expression it came from.
-#[derive(Clone, Copy)]
-pub struct Operand<'e> {
-    /// The expression.
-    pub expr: &'e Spanned<Expr>,
-    /// Its value.
-    pub quantity: Quantity,
-}
 
 impl Scope<'_> {
     /// The value of an expression.
@@ -70,16 +48,7 @@ impl Scope<'_> {
         Err(reports.push(mismatch.diagnostic(self)))
     }
 
-    /// The `let` whose name the expression is.
-    pub(crate) fn let_named_by(&self, expr: &Spanned<Expr>) -> Option<&Let<'_>> {
-        let Expr::Name(name) = &expr.node else { return None };
-        match self.names.get(name)?.thing {
-            Thing::Let(index) => self.lets.get(index),
-            Thing::Blade(_) | Thing::Machine(_) => None,
-        }
-    }
-
-    /// The value of an expression that stands `depth` levels deep in another.
+    /// The value of an expression `depth` levels deep in another.
     pub fn at_depth(&self, expr: &Spanned<Expr>, depth: usize, reports: &mut Reports) -> Checked<Quantity> {
         if depth > DEEPEST {
             let diagnostic = Diagnostic::new(
@@ -178,7 +147,7 @@ impl Scope<'_> {
     }
 }
 
-/// An expression and all that stand in it, from left to right, each before its parts.
+/// An expression and all that are in it, from left to right, each before its parts.
 pub fn walk(expr: &Spanned<Expr>) -> impl Iterator<Item = &Spanned<Expr>> {
     // A stack of its own: expressions may be long.
     let mut open = vec![expr];
@@ -249,36 +218,6 @@ fn combine(
     }
 }
 
-/// The common dimension of two values that are added or compared; `joint` is what joins them, as it is written.
-pub fn same_dimension(
-    joint: &str,
-    left: Operand<'_>,
-    right: Operand<'_>,
-) -> Result<Dimension, Box<Diagnostic>> {
-    let (a, b) = (left.quantity.dimension, right.quantity.dimension);
-    if a == b {
-        return Ok(a);
-    }
-    let diagnostic = Diagnostic::new(
-        Code::WrongDimension,
-        format!(
-            "`{joint}` takes values of one kind, not {} and {}",
-            a.words(),
-            b.words()
-        ),
-        right.expr.span,
-        format!("this is {}", b.words()),
-    )
-    .and(left.expr.span, format!("this is {}", a.words()));
-    // The one without a unit is the one to mend.
-    let diagnostic = match (a == Dimension::PURE, b == Dimension::PURE) {
-        (true, false) => mend(diagnostic, left.expr, b),
-        (false, true) => mend(diagnostic, right.expr, a),
-        _ => diagnostic.help("give both the same kind of unit"),
-    };
-    Err(Box::new(diagnostic))
-}
-
 fn no_dimension(span: Span) -> Box<Diagnostic> {
     let diagnostic = Diagnostic::new(
         Code::WrongDimension,
@@ -298,7 +237,7 @@ fn power(base: Operand<'_>, exponent: Operand<'_>) -> Result<Quantity, Box<Diagn
             exponent.expr.span,
             format!("this is {}", b.dimension.words()),
         );
-        return Err(Box::new(mend(diagnostic, exponent.expr, Dimension::PURE)));
+        return Err(Box::new(offer_units(diagnostic, exponent.expr, Dimension::PURE)));
     }
     if a.value == 0.0 && b.value < 0.0 {
         let diagnostic = Diagnostic::new(

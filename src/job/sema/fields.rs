@@ -45,7 +45,7 @@ impl Written {
     }
 }
 
-/// Where a block stands, as far as its fields need to know.
+/// The places of a block that its fields need.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
     /// Its head: where to point when something is missing.
@@ -68,7 +68,7 @@ pub struct Fields<'a> {
     spec: &'static BlockSpec,
     place: Place,
     slots: BTreeMap<&'static str, (Slot<'a>, Span)>,
-    /// Bounds from below, which may stand beside those from above.
+    /// Bounds from below, which may be beside those from above.
     least: BTreeMap<&'static str, (Slot<'a>, Span)>,
     /// Inner blocks that are options for targets.
     pub targets: Vec<&'a Block>,
@@ -173,15 +173,7 @@ impl<'a> Fields<'a> {
             Written::Limit(Relation::AtLeast) => &mut self.least,
         };
         if let Some((_, first)) = slots.get(spec.name) {
-            let diagnostic = Diagnostic::new(
-                Code::FieldTwice,
-                format!("`{}` is given twice", spec.name),
-                name.span,
-                "given again here",
-            )
-            .and(*first, "first given here")
-            .help("delete one of the two");
-            reports.push(diagnostic);
+            reports.push(faults::twice(Code::FieldTwice, spec.name, name.span, *first));
             return;
         }
         let slot = if given.written.fits(spec.form) {
@@ -216,7 +208,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// A field that is a row of points, if it is given, and where it stands.
+    /// A field that is a row of points, if it is given, and where it is.
     pub fn points(&self, name: &str) -> Checked<Option<(&'a [Point], Span)>> {
         match self.slots.get(name) {
             Some((Slot::Points(points), span)) => Ok(Some((points, *span))),
@@ -225,7 +217,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Where the name of a field stands, if it is given in whatever form.
+    /// The place of the name of a field, in whatever form it is given.
     pub fn place_of(&self, name: &str) -> Option<Span> {
         self.slots.get(name).map(|(_, span)| *span)
     }
@@ -279,15 +271,8 @@ impl<'a> Fields<'a> {
 
     /// The block within this one that has a field of that name, and how it is written there.
     fn block_with(&self, name: &str) -> Option<(&'static str, String)> {
-        self.spec.fields.iter().find_map(|field| match field.takes {
-            Takes::Fields(inner) => Some((field.name, inner.field(name)?.sample())),
-            Takes::Anything
-            | Takes::Quantity(_)
-            | Takes::Words(_)
-            | Takes::Blade
-            | Takes::Machine
-            | Takes::Calls(_) => None,
-        })
+        let sample = |field: &FieldSpec| Some((field.name, field.inner()?.field(name)?.sample()));
+        self.spec.fields.iter().find_map(sample)
     }
 
     fn belongs_in_profile(&self, what: &str, span: Span) -> Diagnostic {
@@ -353,7 +338,7 @@ struct Given<'n, 'a> {
     written: Written,
     slot: Slot<'a>,
     whole: Span,
-    /// What stands between name and value.
+    /// What is between name and value.
     between: Option<Span>,
     relation: Option<Span>,
 }
@@ -508,7 +493,7 @@ struct Insertion {
 }
 
 impl Insertion {
-    /// Just before the closing bracket, in the manner of the block: on a line of its own when the bracket has one, behind a
+    /// Just before the closing bracket, in the manner of the block: on a line of its own when the bracket has one, after a
     /// comma in the short form of a profile. A piece of a profile without options gets brackets of its own.
     fn before_end_of(whole: Span, sources: &SourceMap) -> Self {
         match sources.slice(whole).bytes().last() {

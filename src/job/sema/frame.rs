@@ -2,9 +2,8 @@
 //! that the controller keeps too.
 
 use super::arguments::{Arguments, Parameter, calls};
-use super::machine::table_number;
 use super::quantity::number;
-use super::range::{COORDINATE, FRAME_ANGLE, QUATERNION_PART};
+use super::range::{COORDINATE, FRAME_ANGLE, QUATERNION_PART, TABLE_NUMBER};
 use super::read::{Reader, looks_like};
 use super::report::Checked;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
@@ -48,6 +47,11 @@ pub(crate) const WITH_ANGLES: &[Parameter<'_>; 6] = &[
     angle("b"),
     angle("c"),
 ];
+
+/// A number of the controller's own table, from 1.
+pub(crate) fn table_number(expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<u32> {
+    reader.whole(expr, TABLE_NUMBER, "a number of the controller's table")
+}
 
 /// The field of a frame.
 pub(crate) fn read(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<PlacedFrame> {

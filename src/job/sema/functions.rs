@@ -1,11 +1,11 @@
 //! The functions of expressions.
 
 use super::dimension::Dimension;
-use super::eval::{Operand, Scope, same_dimension};
-use super::mismatch::Mismatch;
+use super::mismatch::{Mismatch, same_dimension};
 use super::names::did_you_mean;
 use super::quantity::{Quantity, number};
 use super::report::{Checked, Reports};
+use super::scope::{Operand, Scope};
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};

@@ -2,19 +2,18 @@
 
 use super::fields::{Place, head_span};
 use super::files::Files;
-use super::heads::{Kind, classify};
+use super::heads::{Head, Kind, classify};
 use super::kind::{Kind as OperationKind, Operations};
-use super::lets::Let;
-use super::machine::Head;
 use super::names::{Names, Thing, did_you_mean, more_than_one};
 use super::overrides::Overrides;
 use super::report::{Reported, Reports};
+use super::scope::Let;
 use super::session::Session;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::{Block, Expr, Item};
 
-/// A block and where it stands.
+/// A block and where it is.
 #[derive(Clone, Copy)]
 pub(crate) struct Placed<'a> {
     pub(crate) block: &'a Block,
@@ -34,7 +33,7 @@ pub(crate) struct MachineBlock<'a> {
     pub(crate) head: Head<'a>,
     /// The block.
     pub(crate) placed: Placed<'a>,
-    /// Where its file stands.
+    /// Where its file is.
     pub(crate) standing: Standing,
 }
 
@@ -224,7 +223,7 @@ fn single<'a>(
     }
 }
 
-/// What belongs to one job only may not stand in a file that is used.
+/// What belongs to one job only cannot be in a file that is used.
 fn is_allowed(what: &str, span: Span, standing: Standing, reports: &mut Reports) -> bool {
     let used_at = match standing {
         Standing::Root => return true,

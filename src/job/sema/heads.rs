@@ -2,7 +2,6 @@
 
 use super::fields::head_span;
 use super::kind::{Kind as OperationKind, Operations};
-use super::machine;
 use super::names::did_you_mean;
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_diagnostics::source::{Span, Spanned};
@@ -24,7 +23,16 @@ pub(crate) enum Kind<'a> {
     /// An operation such as `rough vcut`.
     Operation(&'static dyn OperationKind),
     /// `machine NAME = robot "model"`.
-    Machine(machine::Head<'a>),
+    Machine(Head<'a>),
+}
+
+/// What the head of a machine's block says.
+#[derive(Clone, Copy)]
+pub(crate) struct Head<'a> {
+    pub(crate) name: Spanned<&'a str>,
+    pub(crate) kind: Spanned<MachineKind>,
+    /// Its model.
+    pub(crate) model: Spanned<&'a str>,
 }
 
 /// First words of heads, and how a whole head looks.
@@ -137,7 +145,7 @@ fn plain<'a>(kind: Kind<'a>, first: &str, rest: &[(&HeadPart, Span)]) -> Result<
     }
 }
 
-/// Something behind a head that is complete.
+/// Text after a complete head.
 fn surplus(first: &str, at: Span, form: &str) -> Box<Diagnostic> {
     let diagnostic = Diagnostic::new(
         Code::Misplaced,
@@ -231,7 +239,7 @@ fn machine<'a>(at: Span, rest: &[(&'a HeadPart, Span)]) -> Result<Kind<'a>, Box<
     match behind {
         [(HeadPart::Text(model), span)] => {
             let model = Spanned::new(model.as_str(), *span);
-            Ok(Kind::Machine(machine::Head { name, kind, model }))
+            Ok(Kind::Machine(Head { name, kind, model }))
         }
         [(HeadPart::Text(_), _), (_, span), ..] => Err(surplus("machine", *span, &form_of("machine"))),
         _ => Err(incomplete("machine", "its model", name.span, &form_of("machine"))),

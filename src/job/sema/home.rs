@@ -1,4 +1,4 @@
-//! Home: where the axes are when a program starts and ends, held against their limits.
+//! Home: where the axes are when a program starts and ends, compared with their limits.
 
 use super::arguments::{Parameter, calls};
 use super::dimension::Dimension;

@@ -8,19 +8,10 @@ use super::eval::{Scope, walk};
 use super::names::{Names, Thing};
 use super::quantity::Quantity;
 use super::report::{Checked, Reports};
+use super::scope::Let;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::Expr;
-
-/// A `let`.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Let<'a> {
-    pub(crate) name: &'a Spanned<String>,
-    /// What it is worth: the file's word, or that of the command line.
-    pub(crate) value: &'a Spanned<Expr>,
-    /// What the file says, when the command line says something else.
-    pub(crate) original: Option<&'a Spanned<Expr>>,
-}
 
 /// A `let` on the way to its value.
 struct Visit {
@@ -133,7 +124,7 @@ fn keeps_dimension(
     let Some(original) = subject.original else {
         return Ok(value);
     };
-    // A trial: what is wrong with a definition that is not used concerns nobody. A definition by names that are not
+    // A trial: what is wrong with a definition that is not used does not matter. A definition by names that are not
     // worked out yet has no value here; then the places that use the name check the dimension.
     let Ok(before) = scope.evaluate(original, &mut Reports::default()) else {
         return Ok(value);
@@ -173,7 +164,7 @@ fn report_circle(
     let Some(subject) = lets.get(first) else { return };
     let start = path.iter().rposition(|visit| visit.index == first).unwrap_or(0);
     let circle = path.get(start..).unwrap_or_default();
-    // Two circles through one name are one fault to mend first.
+    // Two circles through one name are one fault to correct first.
     let known = circle.iter().find_map(|visit| match values.get(visit.index) {
         Some(Some(Err(reported))) => Some(*reported),
         _ => None,

@@ -3,17 +3,18 @@
 use super::arguments::{Parameter, calls};
 use super::eval::Scope;
 use super::fields::{BlockSpec, Fields, Inner, Place, Takes, value};
-use super::frame::{self, FRAME, coordinate};
+use super::frame::{self, FRAME, coordinate, table_number};
+use super::heads::Head;
 use super::home::{self, JOINTS};
-use super::model::{self, Described};
+use super::model;
 use super::options;
-use super::range::{MASS, SIGNAL, TABLE_NUMBER, WAIT};
+use super::range::{MASS, SIGNAL, WAIT};
 use super::read::{Reader, default, sourced};
 use super::report::Checked;
-use super::session::Session;
+use super::session::{Described, Session};
 use crate::{Machine, Sourced};
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Load, MachineKind, PlacedFrame, Ready, Registered};
+use vcutc_backend_api::ir::{Load, PlacedFrame, Ready, Registered};
 use vcutc_backend_api::units::{Duration, Mass};
 use vcutc_diagnostics::source::Spanned;
 use vcutc_syntax::ast::{Block, Expr};
@@ -57,15 +58,6 @@ pub(crate) const LOAD_PARAMETERS: &[Parameter<'_>; 4] = &[
 /// reference asks users to measure theirs.
 const SETTLED: Duration = Duration::s(0.5);
 
-/// What the head of a machine's block says.
-#[derive(Clone, Copy)]
-pub(crate) struct Head<'a> {
-    pub(crate) name: Spanned<&'a str>,
-    pub(crate) kind: Spanned<MachineKind>,
-    /// Its model.
-    pub(crate) model: Spanned<&'a str>,
-}
-
 /// The machine.
 pub(crate) fn check(
     head: &Head<'_>,
@@ -77,10 +69,7 @@ pub(crate) fn check(
     let fields = Fields::sort(&SPEC, place, &block.entries, session);
     let targets = options::read(&fields.targets, scope, session);
     let model = model::resolve(head, session);
-    let mut reader = Reader {
-        scope,
-        reports: &mut session.reports,
-    };
+    let mut reader = Reader::new(scope, &mut session.reports);
     let tool = required_frame(&fields, "tool", &mut reader);
     let base = required_frame(&fields, "base", &mut reader);
     let load = optional(&fields, "load", &mut reader, load);
@@ -124,11 +113,6 @@ fn optional<T>(
         Some(expr) => Ok(Some(sourced(read(name, expr, reader)?, expr.span))),
         None => Ok(None),
     }
-}
-
-/// A number of the controller's own table, from 1.
-pub(crate) fn table_number(expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<u32> {
-    reader.whole(expr, TABLE_NUMBER, "a number of the controller's table")
 }
 
 fn load(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Registered<Load>> {

@@ -1,23 +1,22 @@
-//! Values of the wrong dimension: the diagnostic, and the change that mends it.
+//! Values of the wrong dimension: the diagnostic, and the change that corrects it.
 //!
-//! By far the most frequent slip is a forgotten unit. It has a mend that a machine can make, whether the number
-//! stands in the field itself or in the `let` that the field names.
+//! By far the most frequent slip is a forgotten unit. The compiler can offer the change, whether the number
+//! is in the field itself or in the `let` that the field names.
 
 use super::dimension::Dimension;
-use super::eval::Scope;
-use super::lets::Let;
 use super::quantity::Quantity;
+use super::scope::{Let, Operand, Scope};
 use vcutc_diagnostics::source::Spanned;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::Expr;
 
-/// What stands where another dimension is wanted.
+/// A value where another dimension is wanted.
 pub(crate) struct Mismatch<'a> {
     /// Who wants it, as it goes into a sentence: `` `rake` ``.
     pub(crate) taker: &'a str,
     pub(crate) wanted: Dimension,
     pub(crate) expr: &'a Spanned<Expr>,
-    /// What that comes out as.
+    /// Its value.
     pub(crate) found: Quantity,
     /// A value that works, such as `60 deg`, for those who gave no number to build on.
     pub(crate) typical: Option<&'a str>,
@@ -26,7 +25,7 @@ pub(crate) struct Mismatch<'a> {
 impl Mismatch<'_> {
     pub(crate) fn diagnostic(&self, scope: &Scope<'_>) -> Diagnostic {
         let (wanted, found) = (self.wanted.words(), self.found.dimension.words());
-        let (label, mends) = match literal(self.expr) {
+        let (label, is_literal) = match literal(self.expr) {
             Some(Literal { unit: None, .. }) if self.wanted != Dimension::PURE => {
                 ("its unit is missing".to_owned(), true)
             }
@@ -39,8 +38,8 @@ impl Mismatch<'_> {
             self.expr.span,
             label,
         );
-        if mends {
-            return mend(diagnostic, self.expr, self.wanted);
+        if is_literal {
+            return offer_units(diagnostic, self.expr, self.wanted);
         }
         match scope.let_named_by(self.expr) {
             Some(by) => self.through_name(diagnostic, by),
@@ -57,7 +56,7 @@ impl Mismatch<'_> {
         );
         if by.original.is_none() {
             return match literal(by.value) {
-                Some(_) => mend(diagnostic, by.value, self.wanted),
+                Some(_) => offer_units(diagnostic, by.value, self.wanted),
                 None => self.of_expression(diagnostic),
             };
         }
@@ -86,36 +85,59 @@ impl Mismatch<'_> {
     }
 }
 
-/// A number as it stands in the text, a minus before it included.
+/// The common dimension of two values that are added or compared; `joint` is what joins them, as it is written.
+pub(crate) fn same_dimension(
+    joint: &str,
+    left: Operand<'_>,
+    right: Operand<'_>,
+) -> Result<Dimension, Box<Diagnostic>> {
+    let (a, b) = (left.quantity.dimension, right.quantity.dimension);
+    if a == b {
+        return Ok(a);
+    }
+    let diagnostic = Diagnostic::new(
+        Code::WrongDimension,
+        format!(
+            "`{joint}` takes values of one kind, not {} and {}",
+            a.words(),
+            b.words()
+        ),
+        right.expr.span,
+        format!("this is {}", b.words()),
+    )
+    .and(left.expr.span, format!("this is {}", a.words()));
+    // The one without a unit is the one to change.
+    let diagnostic = match (a == Dimension::PURE, b == Dimension::PURE) {
+        (true, false) => offer_units(diagnostic, left.expr, b),
+        (false, true) => offer_units(diagnostic, right.expr, a),
+        _ => diagnostic.help("give both the same kind of unit"),
+    };
+    Err(Box::new(diagnostic))
+}
+
+/// A number as it is written, a minus before it included.
 struct Literal<'a> {
     value: f64,
     unit: Option<&'a Spanned<String>>,
 }
 
 fn literal(expr: &Spanned<Expr>) -> Option<Literal<'_>> {
-    match &expr.node {
-        Expr::Number { value, unit } => Some(Literal {
-            value: *value,
-            unit: unit.as_ref(),
-        }),
-        Expr::Negate(inner) => match &inner.node {
-            Expr::Number { value, unit } => Some(Literal {
-                value: -value,
-                unit: unit.as_ref(),
-            }),
-            Expr::Text(_)
-            | Expr::Name(_)
-            | Expr::Call { .. }
-            | Expr::Negate(_)
-            | Expr::Binary { .. }
-            | Expr::Tuple(_) => None,
-        },
-        Expr::Text(_) | Expr::Name(_) | Expr::Call { .. } | Expr::Binary { .. } | Expr::Tuple(_) => None,
-    }
+    let (sign, number) = if let Expr::Negate(inner) = &expr.node {
+        (-1.0, &inner.node)
+    } else {
+        (1.0, &expr.node)
+    };
+    let Expr::Number { value, unit } = number else {
+        return None;
+    };
+    Some(Literal {
+        value: sign * value,
+        unit: unit.as_ref(),
+    })
 }
 
 /// Offers the units that make a number what is wanted.
-pub(crate) fn mend(diagnostic: Diagnostic, expr: &Spanned<Expr>, wanted: Dimension) -> Diagnostic {
+pub(crate) fn offer_units(diagnostic: Diagnostic, expr: &Spanned<Expr>, wanted: Dimension) -> Diagnostic {
     let Some(Literal { value, unit }) = literal(expr) else {
         return diagnostic;
     };

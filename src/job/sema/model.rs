@@ -2,23 +2,15 @@
 
 use super::described;
 use super::files::Relative;
-use super::heads::MACHINES;
-use super::machine::Head;
+use super::heads::{Head, MACHINES};
 use super::names::did_you_mean;
 use super::report::{Checked, Reports};
-use super::session::Session;
+use super::session::{Described, Session};
 use std::sync::Arc;
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_diagnostics::source::{Spanned, join_path};
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_machine::{self as machine, FileKind, LimitPlaces, Model, Origin, catalogue, limit_places};
-
-/// A model, and where its file states the limits of its axes.
-#[derive(Clone, Debug)]
-pub(crate) struct Described {
-    pub(crate) model: Arc<Model>,
-    pub(crate) limits: Vec<LimitPlaces>,
-}
+use vcutc_machine::{self as machine, FileKind, Origin, catalogue, limit_places};
 
 /// The model, which is of the kind that the head says.
 pub(crate) fn resolve(head: &Head<'_>, session: &mut Session<'_>) -> Checked<Described> {
@@ -49,7 +41,7 @@ fn from_catalogue(model: Spanned<&str>, session: &mut Session<'_>) -> Checked<De
                 .insert(model.node.to_owned(), Ok(described.clone()));
             Ok(described)
         }
-        // Not kept: every place that names it is to be told.
+        // Not kept: it is reported at every place that names it.
         None => {
             let diagnostic = unknown(model, &session.reports);
             Err(session.reports.push(diagnostic))
@@ -64,7 +56,7 @@ fn unknown(model: Spanned<&str>, reports: &Reports) -> Diagnostic {
         model.span,
         "not in the catalogue",
     );
-    // Comparing with all names takes time, and nobody reads on.
+    // Comparing with all names takes time, and so many messages are not read.
     let names: Vec<String> = if reports.are_many() {
         Vec::new()
     } else {
@@ -78,7 +70,7 @@ fn unknown(model: Spanned<&str>, reports: &Reports) -> Diagnostic {
         .help("`vcutc machines` lists them; describe your own machine in a file such as `\"arm.toml\"`")
 }
 
-/// The machine that a file describes. The path is relative to the file in which the machine's block stands.
+/// The machine that a file describes. The path is relative to the file with the machine's block.
 fn from_file(kind: FileKind, model: Spanned<&str>, session: &mut Session<'_>) -> Checked<Described> {
     let path = join_path(session.sources.name(model.span.file), model.node);
     if let Some(known) = session.machines.get(&path) {

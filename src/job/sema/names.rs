@@ -125,7 +125,7 @@ impl<'a> Names<'a> {
                 );
                 reports.push(diagnostic.and(definition.span, "defined here"))
             }
-            // Its definition may stand in text that could not be read, unless it looks like a slip of a known name.
+            // Its definition may be in text that could not be read, unless it looks like a slip of a known name.
             (None, Some(reported)) if self.near(what, name, is_wanted, reports).is_empty() => reported,
             (None, Some(_) | None) => {
                 let fault = self.unknown(what, name, span, is_wanted, reports);

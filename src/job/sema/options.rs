@@ -1,4 +1,4 @@
-//! Options for targets, such as `krl { ... }` in a machine: evaluated here, held against the target later.
+//! Options for targets, such as `krl { ... }` in a machine: evaluated here, compared with the target later.
 
 use super::Typed;
 use super::described;
@@ -14,6 +14,7 @@ use crate::{GivenOption, GivenValue, Machine, TargetOptions};
 use std::collections::BTreeMap;
 use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::schema::faults;
 use vcutc_diagnostics::source::{Span, Spanned, join_path};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_machine::habits;
@@ -83,14 +84,8 @@ fn one(block: &Block, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Gi
                 }
                 None => option(name, value, scope, session).map(|option| options.push(option)),
                 Some(earlier) => {
-                    let diagnostic = Diagnostic::new(
-                        Code::FieldTwice,
-                        format!("`{}` is given twice", name.node),
-                        name.span,
-                        "given again here",
-                    )
-                    .and(earlier, "first given here");
-                    Err(session.reports.push(diagnostic.help("delete one of the two")))
+                    let fault = faults::twice(Code::FieldTwice, &name.node, name.span, earlier);
+                    Err(session.reports.push(fault))
                 }
             },
             Entry::Limit { span, .. } => Err(misplaced("a limit", *span, session)),
@@ -263,7 +258,7 @@ fn given(
         .push(diagnostic.help("see `vcutc targets` for the options of each target")))
 }
 
-/// A name that is no `let`, and with that a word of the target.
+/// A name that is not a `let`, and so a word of the target.
 fn word<'e>(value: &'e Expr, scope: Scope<'_>) -> Option<&'e str> {
     let Expr::Name(word) = value else {
         return None;
@@ -273,24 +268,19 @@ fn word<'e>(value: &'e Expr, scope: Scope<'_>) -> Option<&'e str> {
 }
 
 fn texts(values: &[Spanned<Expr>], session: &mut Session<'_>) -> Checked<Vec<String>> {
-    let text = |value: &Spanned<Expr>| match &value.node {
-        Expr::Text(text) => Ok(text.clone()),
-        Expr::Name(_)
-        | Expr::Number { .. }
-        | Expr::Call { .. }
-        | Expr::Negate(_)
-        | Expr::Binary { .. }
-        | Expr::Tuple(_) => {
-            let diagnostic = Diagnostic::new(
-                Code::WrongKind,
-                "a list of lines holds texts in quotes",
-                value.span,
-                "this is not a text",
-            );
-            Err(session
-                .reports
-                .push(diagnostic.help("write every line in quotes")))
+    let text = |value: &Spanned<Expr>| {
+        if let Expr::Text(text) = &value.node {
+            return Ok(text.clone());
         }
+        let diagnostic = Diagnostic::new(
+            Code::WrongKind,
+            "a list of lines holds texts in quotes",
+            value.span,
+            "this is not a text",
+        );
+        Err(session
+            .reports
+            .push(diagnostic.help("write every line in quotes")))
     };
     let lines: Vec<Checked<String>> = values.iter().map(text).collect();
     lines.into_iter().collect()

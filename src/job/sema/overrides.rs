@@ -142,7 +142,7 @@ fn parse(switch: &Switch, id: FileId, text: &str, reports: &mut Reports) -> Opti
     }
 }
 
-/// What is wrong with a text that is no name and value.
+/// What is wrong with a text that is not a name and a value.
 fn malformed(switch: &Switch, id: FileId, text: &str) -> Diagnostic {
     let whole = Span::of_bytes(id, 0..text.len());
     let headline = format!("`{}` takes {}", switch.word, switch.takes);

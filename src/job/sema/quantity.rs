@@ -1,4 +1,4 @@
-//! Quantities: a number with its dimension, held in mm, rad, s and kg.
+//! Quantities: a number with its dimension, stored in mm, rad, s and kg.
 
 use super::dimension::Dimension;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
@@ -17,7 +17,7 @@ pub struct Quantity {
 const LARGEST: f64 = 1e9;
 
 impl Quantity {
-    /// A value held in the units of its dimension.
+    /// A value in the base units of its dimension.
     pub const fn new(value: f64, dimension: Dimension) -> Self {
         Self { value, dimension }
     }

@@ -14,12 +14,12 @@ pub const DISTANCE: Range = Range::closed(Dimension::LENGTH, 0.0, LONGEST);
 pub const COORDINATE: Range = Range::closed(Dimension::LENGTH, -LONGEST, LONGEST);
 /// Half the apex angle of a blade.
 pub const HALF_APEX: Range = Range::new(Dimension::ANGLE, Bound::Included(0.0), Bound::Excluded(90.0));
-/// Rake: at 90 deg the blade stands square to the feed.
+/// Rake: at 90 deg the blade is square to the feed.
 pub const RAKE: Range = Range::positive(Dimension::ANGLE, 90.0);
-/// Swing: half the opening angle of a V. Swings are chosen to a thousandth of a degree; less than that is no V.
+/// Swing: half the opening angle of a V. Swings are chosen to a thousandth of a degree; less than that is not a V.
 pub const SWING: Range = Range::new(Dimension::ANGLE, Bound::Included(0.001), Bound::Excluded(90.0));
 pub const FRAME_ANGLE: Range = Range::closed(Dimension::ANGLE, -360.0, 360.0);
-/// Parts of a quaternion. Whether all four make a rotation is looked at together.
+/// Parts of a quaternion. Whether all four make a rotation is checked together.
 pub const QUATERNION_PART: Range = Range::closed(Dimension::PURE, -1000.0, 1000.0);
 /// Angles of robot axes, which may turn more than once.
 pub const AXIS_ANGLE: Range = Range::closed(Dimension::ANGLE, -1080.0, 1080.0);

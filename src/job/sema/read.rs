@@ -20,7 +20,7 @@ pub struct Reader<'s> {
     pub reports: &'s mut Reports,
 }
 
-/// A value that stands in the text.
+/// A value that the text states.
 pub const fn sourced<T>(value: T, span: Span) -> Sourced<T> {
     Sourced {
         value,
@@ -40,7 +40,11 @@ fn as_percent(expr: &Spanned<Expr>, value: f64, range: Range) -> Option<String> 
     (is_plain && is_share && value >= 1.0).then(|| format!("{} %", number(value)))
 }
 
-impl Reader<'_> {
+impl<'s> Reader<'s> {
+    pub const fn new(scope: Scope<'s>, reports: &'s mut Reports) -> Self {
+        Self { scope, reports }
+    }
+
     /// The value of an expression within a range, in mm, rad, s, kg. `taker` names who takes it: `` `rake` ``.
     pub fn within(
         &mut self,
@@ -221,19 +225,13 @@ impl Reader<'_> {
             found,
             expr.span,
         );
-        let diagnostic = match &expr.node {
-            Expr::Name(word) => diagnostic.fix("put it in quotes", expr.span, format!("\"{word}\"")),
-            Expr::Number { .. }
-            | Expr::Text(_)
-            | Expr::Call { .. }
-            | Expr::Negate(_)
-            | Expr::Binary { .. }
-            | Expr::Tuple(_) => match fields.typical(name) {
-                Some(typical) => diagnostic.help(format!("write it like `{name} = {typical}`")),
-                None => diagnostic,
-            },
-        };
-        Err(self.reports.push(diagnostic))
+        Err(self.reports.push(if let Expr::Name(word) = &expr.node {
+            diagnostic.fix("put it in quotes", expr.span, format!("\"{word}\""))
+        } else if let Some(typical) = fields.typical(name) {
+            diagnostic.help(format!("write it like `{name} = {typical}`"))
+        } else {
+            diagnostic
+        }))
     }
 
     /// A whole number within a range.

@@ -1,17 +1,25 @@
 //! What the checks of one run share: the loader, the source texts, and what has been found so far.
 
-use super::model::Described;
 use super::report::{Checked, Reported, Reports};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use vcutc_backend_api::profile::Profile;
 use vcutc_diagnostics::source::{FileId, Loader, SourceMap, Span};
+use vcutc_machine::{LimitPlaces, Model};
+
+/// A model, and where its file states the limits of its axes.
+#[derive(Clone, Debug)]
+pub(crate) struct Described {
+    pub(crate) model: Arc<Model>,
+    pub(crate) limits: Vec<LimitPlaces>,
+}
 
 /// One run.
 pub struct Session<'a> {
     /// Where files come from.
     pub loader: &'a dyn Loader,
     pub sources: &'a mut SourceMap,
-    /// What there is to tell.
+    /// What has been found.
     pub reports: Reports,
     /// Files of which a part could not be read. What seems to be missing there may be in the unreadable part.
     damaged: BTreeMap<FileId, Reported>,

@@ -57,10 +57,7 @@ pub fn check(fields: &Fields<'_>, written: Written<'_>, session: &mut Session<'_
     let feeds = fields
         .required_block("feed", &mut session.reports)
         .and_then(|inner| feeds(inner, written, session));
-    let mut reader = Reader {
-        scope,
-        reports: &mut session.reports,
-    };
+    let mut reader = Reader::new(scope, &mut session.reports);
     let blade = fields
         .required_value("blade", reader.reports)
         .and_then(|expr| find_blade(expr, written.blades, &mut reader));
@@ -102,10 +99,7 @@ struct Feeds {
 
 fn feeds(inner: &Block, written: Written<'_>, session: &mut Session<'_>) -> Checked<Feeds> {
     let fields = Fields::sort(&FEEDS, inner_place(inner), &inner.entries, session);
-    let mut reader = Reader {
-        scope: written.scope,
-        reports: &mut session.reports,
-    };
+    let mut reader = Reader::new(written.scope, &mut session.reports);
     let cut = reader.required(&fields, "cut");
     let travel = reader.required(&fields, "travel");
     let reorient = reader.required(&fields, "reorient");

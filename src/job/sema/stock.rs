@@ -19,7 +19,7 @@ pub(crate) const SPEC: BlockSpec = BlockSpec {
     inner: Inner::Refused,
 };
 
-/// The stock and where its size stands.
+/// The stock and where its size is.
 pub(crate) fn check(
     block: &Block,
     place: Place,
@@ -27,10 +27,7 @@ pub(crate) fn check(
     session: &mut Session<'_>,
 ) -> Checked<Spanned<Stock>> {
     let fields = Fields::sort(&SPEC, place, &block.entries, session);
-    let mut reader = Reader {
-        scope,
-        reports: &mut session.reports,
-    };
+    let mut reader = Reader::new(scope, &mut session.reports);
     let size = fields.required_value("size", reader.reports)?;
     let Expr::Tuple(sides) = &size.node else {
         return Err(reader.reports.push(not_three(size.span, looks_like(&size.node))));

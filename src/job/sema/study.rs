@@ -62,7 +62,7 @@ pub struct Value(Quantity);
 
 /// Loads a job or a library and everything it uses, and finds out what can be known of it.
 ///
-/// What there is to tell goes to `diagnostics` in the order of the source, file by file; all texts go to `sources`.
+/// Diagnostics go to `diagnostics` in the order of the source, file by file; all texts go to `sources`.
 ///
 /// # Errors
 /// When the root file cannot be loaded.
@@ -230,7 +230,7 @@ impl Value {
         })
     }
 
-    /// What values of this kind are held in: mm, rad, s, kg.
+    /// The unit in which values of this kind are stored: mm, rad, s, kg.
     fn base_unit(self) -> String {
         self.0.dimension.unit().replace("deg", "rad")
     }

@@ -94,7 +94,7 @@ fn find(name: &str) -> Option<&'static Unit> {
     UNITS.iter().find(|unit| unit.name == name)
 }
 
-/// So many of a unit, which is a simple one or a quotient such as `mm/s`; none when there is no such unit.
+/// A number of a unit, which is a simple one or a quotient such as `mm/s`; none for an unknown unit.
 pub fn quantity(number: f64, name: &str) -> Option<Quantity> {
     let Some((above, below)) = split(name) else {
         let unit = find(name)?;
@@ -105,7 +105,7 @@ pub fn quantity(number: f64, name: &str) -> Option<Quantity> {
     Some(Quantity::new(number * above.size / below.size, dimension))
 }
 
-/// What a unit is called: `metre per minute`; none when there is no such unit.
+/// The name of a unit: `metre per minute`; none for an unknown unit.
 pub(super) fn spoken(name: &str) -> Option<String> {
     let Some((above, below)) = split(name) else {
         return Some(find(name)?.spoken.to_owned());
@@ -130,7 +130,7 @@ fn split(name: &str) -> Option<(&str, &str)> {
     Some((above.trim(), below.trim()))
 }
 
-/// The units somebody may have meant, best first.
+/// The units that may have been meant, best first.
 pub(crate) fn meant(name: &str) -> Vec<String> {
     if let Some(&(_, compound)) = COMPOUND_ALIASES
         .iter()

@@ -1,4 +1,4 @@
-//! The words of the language, for those who help people to write it: what can stand where.
+//! The words of the language for editors: what can be written where.
 //!
 //! Everything here is taken from the tables that the checks read by, so that nothing is offered that they refuse.
 
@@ -16,7 +16,7 @@ use vcutc_backend_api::ir::MachineKind;
 pub use vcutc_diagnostics::schema::field::{BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Takes};
 use vcutc_syntax::ast::Block;
 
-/// What can stand at the top of a file: its first word, and how all of it looks.
+/// What can be at the top of a file: its first word, and how all of it looks.
 pub fn items(operations: Operations) -> impl Iterator<Item = (&'static str, String)> {
     const PLAIN: &[(&str, &str)] = &[
         ("job", "job \"NAME\""),
@@ -46,7 +46,7 @@ pub fn block(first: &str, second: Option<&str>, operations: Operations) -> Optio
     }
 }
 
-/// The fields behind a file of a profile: points, airfoils and drawings.
+/// The fields after a file of a profile: points, airfoils and drawings.
 pub fn data_file(word: &str) -> Option<&'static BlockSpec> {
     match word {
         "points" => Some(&data::POINTS),
@@ -184,18 +184,18 @@ pub fn units() -> impl Iterator<Item = (&'static str, String, String)> {
     })
 }
 
-/// What a unit as written comes to: `25.4 mm`; none if there is no such unit.
+/// The size of a unit as written: `25.4 mm`; none for an unknown unit.
 pub fn unit_in_words(unit: &str) -> Option<(String, String)> {
     let one = units::quantity(1.0, unit)?;
     Some((one.dimension.words(), one.text()))
 }
 
-/// What a unit as written is called: `metre per minute`; none if there is no such unit.
+/// The name of a unit as written: `metre per minute`; none for an unknown unit.
 pub fn unit_spoken(unit: &str) -> Option<String> {
     units::spoken(unit)
 }
 
-/// Where a block may stand: in a job only, or in a library as well; none if its head is not right.
+/// Where a block may be: in a job only, or in a library as well; none if its head is not right.
 pub fn standing(block: &Block, operations: Operations) -> Option<Part> {
     Some(match heads::classify(block, operations).ok()? {
         Kind::Stock | Kind::Profile | Kind::Cell | Kind::Operation(_) => Part::Job,

@@ -99,10 +99,7 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
         .block("limits")
         .and_then(|inner| limits::check(inner, scope, session));
     let setup = setup::check(&fields, written, session);
-    let mut reader = Reader {
-        scope,
-        reports: &mut session.reports,
-    };
+    let mut reader = Reader::new(scope, &mut session.reports);
     let lattice = reader.auto_choice(&fields, "lattice", Lattice::WORDS);
     let swing = reader.auto(&fields, "swing");
     let layer = reader.auto(&fields, "layer");

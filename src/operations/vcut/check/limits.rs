@@ -34,10 +34,7 @@ pub(super) fn check(inner: Option<&Block>, scope: Scope<'_>, session: &mut Sessi
         return Ok(Limits::default());
     };
     let fields = Fields::sort(&LIMITS, inner_place(inner), &inner.entries, session);
-    let mut reader = Reader {
-        scope,
-        reports: &mut session.reports,
-    };
+    let mut reader = Reader::new(scope, &mut session.reports);
     let swing = both(&fields, "swing", &mut reader);
     let layer = both(&fields, "layer", &mut reader);
     let step = both(&fields, "step", &mut reader);
