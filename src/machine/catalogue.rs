@@ -8,127 +8,59 @@ use vcutc_backend_api::ir::MachineKind;
 use vcutc_diagnostics::source::FileId;
 use vcutc_diagnostics::suggest::closest;
 
-/// Names and sheets, in the order of the names.
-const SHEETS: &[(&str, &str)] = &[
-    ("abb/irb120_3_058", include_str!("robots/abb/irb120_3_058.toml")),
-    ("abb/irb1600_x_120", include_str!("robots/abb/irb1600_x_120.toml")),
-    ("abb/irb1600_x_145", include_str!("robots/abb/irb1600_x_145.toml")),
-    ("abb/irb2400_16", include_str!("robots/abb/irb2400_16.toml")),
-    (
-        "abb/irb4600_20_250",
-        include_str!("robots/abb/irb4600_20_250.toml"),
-    ),
-    (
-        "abb/irb4600_40_255",
-        include_str!("robots/abb/irb4600_40_255.toml"),
-    ),
-    (
-        "abb/irb4600_60_205",
-        include_str!("robots/abb/irb4600_60_205.toml"),
-    ),
-    (
-        "abb/irb6640_185_280",
-        include_str!("robots/abb/irb6640_185_280.toml"),
-    ),
-    (
-        "abb/irb6640_235_255",
-        include_str!("robots/abb/irb6640_235_255.toml"),
-    ),
-    (
-        "abb/irb6650s_125_350",
-        include_str!("robots/abb/irb6650s_125_350.toml"),
-    ),
-    (
-        "abb/irb6650s_90_390",
-        include_str!("robots/abb/irb6650s_90_390.toml"),
-    ),
-    (
-        "abb/irb6660_205_190",
-        include_str!("robots/abb/irb6660_205_190.toml"),
-    ),
-    (
-        "abb/irb6700_155_285",
-        include_str!("robots/abb/irb6700_155_285.toml"),
-    ),
-    (
-        "abb/irb6700_200_260",
-        include_str!("robots/abb/irb6700_200_260.toml"),
-    ),
-    (
-        "abb/irb6700_235_265",
-        include_str!("robots/abb/irb6700_235_265.toml"),
-    ),
-    ("generic/head_head_ac", include_str!("generic/head_head_ac.toml")),
-    (
-        "generic/head_head_ac_spindle",
-        include_str!("generic/head_head_ac_spindle.toml"),
-    ),
-    ("generic/head_head_ba", include_str!("generic/head_head_ba.toml")),
-    ("generic/head_head_bc", include_str!("generic/head_head_bc.toml")),
-    (
-        "generic/head_table_ab",
-        include_str!("generic/head_table_ab.toml"),
-    ),
-    (
-        "generic/table_table_ab",
-        include_str!("generic/table_table_ab.toml"),
-    ),
-    (
-        "generic/table_table_ac",
-        include_str!("generic/table_table_ac.toml"),
-    ),
-    ("kuka/kr10_r1100_2", include_str!("robots/kuka/kr10_r1100_2.toml")),
-    (
-        "kuka/kr10_r1100_sixx",
-        include_str!("robots/kuka/kr10_r1100_sixx.toml"),
-    ),
-    (
-        "kuka/kr120_r2500_pro",
-        include_str!("robots/kuka/kr120_r2500_pro.toml"),
-    ),
-    ("kuka/kr16_2", include_str!("robots/kuka/kr16_2.toml")),
-    ("kuka/kr16_r1610_2", include_str!("robots/kuka/kr16_r1610_2.toml")),
-    ("kuka/kr16_r2010_2", include_str!("robots/kuka/kr16_r2010_2.toml")),
-    ("kuka/kr210_l150_2", include_str!("robots/kuka/kr210_l150_2.toml")),
-    (
-        "kuka/kr210_r2700_2",
-        include_str!("robots/kuka/kr210_r2700_2.toml"),
-    ),
-    (
-        "kuka/kr210_r2700_extra",
-        include_str!("robots/kuka/kr210_r2700_extra.toml"),
-    ),
-    (
-        "kuka/kr210_r2700_prime",
-        include_str!("robots/kuka/kr210_r2700_prime.toml"),
-    ),
-    (
-        "kuka/kr210_r3100_2",
-        include_str!("robots/kuka/kr210_r3100_2.toml"),
-    ),
-    (
-        "kuka/kr210_r3100_ultra",
-        include_str!("robots/kuka/kr210_r3100_ultra.toml"),
-    ),
-    (
-        "kuka/kr240_r2900_2",
-        include_str!("robots/kuka/kr240_r2900_2.toml"),
-    ),
-    (
-        "kuka/kr240_r2900_ultra",
-        include_str!("robots/kuka/kr240_r2900_ultra.toml"),
-    ),
-    ("kuka/kr240_r3330", include_str!("robots/kuka/kr240_r3330.toml")),
-    (
-        "kuka/kr6_r700_sixx",
-        include_str!("robots/kuka/kr6_r700_sixx.toml"),
-    ),
-    ("kuka/kr6_r900_2", include_str!("robots/kuka/kr6_r900_2.toml")),
-    (
-        "kuka/kr6_r900_sixx",
-        include_str!("robots/kuka/kr6_r900_sixx.toml"),
-    ),
-];
+/// Names with the texts of their sheets, each in the folder before it.
+macro_rules! sheets {
+    ($($folder:literal: $($name:literal)+;)+) => {
+        &[$($(($name, include_str!(concat!($folder, $name, ".toml"))),)+)+]
+    };
+}
+
+/// In the order of the names.
+const SHEETS: &[(&str, &str)] = sheets! {
+    "robots/":
+        "abb/irb120_3_058"
+        "abb/irb1600_x_120"
+        "abb/irb1600_x_145"
+        "abb/irb2400_16"
+        "abb/irb4600_20_250"
+        "abb/irb4600_40_255"
+        "abb/irb4600_60_205"
+        "abb/irb6640_185_280"
+        "abb/irb6640_235_255"
+        "abb/irb6650s_125_350"
+        "abb/irb6650s_90_390"
+        "abb/irb6660_205_190"
+        "abb/irb6700_155_285"
+        "abb/irb6700_200_260"
+        "abb/irb6700_235_265";
+    "":
+        "generic/head_head_ac"
+        "generic/head_head_ac_spindle"
+        "generic/head_head_ba"
+        "generic/head_head_bc"
+        "generic/head_table_ab"
+        "generic/table_table_ab"
+        "generic/table_table_ac";
+    "robots/":
+        "kuka/kr10_r1100_2"
+        "kuka/kr10_r1100_sixx"
+        "kuka/kr120_r2500_pro"
+        "kuka/kr16_2"
+        "kuka/kr16_r1610_2"
+        "kuka/kr16_r2010_2"
+        "kuka/kr210_l150_2"
+        "kuka/kr210_r2700_2"
+        "kuka/kr210_r2700_extra"
+        "kuka/kr210_r2700_prime"
+        "kuka/kr210_r3100_2"
+        "kuka/kr210_r3100_ultra"
+        "kuka/kr240_r2900_2"
+        "kuka/kr240_r2900_ultra"
+        "kuka/kr240_r3330"
+        "kuka/kr6_r700_sixx"
+        "kuka/kr6_r900_2"
+        "kuka/kr6_r900_sixx";
+};
 
 /// The names of all machines, sorted.
 pub fn names() -> impl Iterator<Item = &'static str> {
@@ -157,7 +89,7 @@ pub fn find(name: &str) -> Option<Model> {
 /// Most names that [`near`] offers.
 const MOST_NEAR: usize = 6;
 
-/// Names that somebody may have meant: those that go on where `wanted` ends (`kuka/kr210_r3100` is near `_2` and
+/// Names that may have been meant: those that go on where `wanted` ends (`kuka/kr210_r3100` is near `_2` and
 /// `_ultra`), those that say the same without the maker, else those spelt alike.
 #[must_use]
 pub fn near(wanted: &str) -> Vec<&'static str> {
