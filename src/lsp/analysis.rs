@@ -1,6 +1,6 @@
 //! What is known of a root file: a job, or a library that no open job uses.
 //!
-//! Text and meaning are looked at as soon as a text changes. What `auto` becomes and whether the machine follows takes
+//! Text and meaning are checked as soon as a text changes. What `auto` becomes and whether the machine follows takes
 //! longer, so it is a [`Task`] that is done beside and handed back. The analysis holds the interest in it: a text that changes
 //! has another analysis, and the task for the one before ends early. An answer that came all the same is thrown away, because
 //! the analysis it belongs to is no longer there.
@@ -20,7 +20,7 @@ use vcutc_job::sema::study::{Study, study};
 use vcutc_job::sema::{Choices, Part};
 use vcutc_syntax::ast::{Ast, Item};
 
-/// The texts of open documents, by their paths. They stand for the files.
+/// The texts of open documents, by their paths. They replace the files.
 pub(super) type OpenTexts = BTreeMap<String, Text>;
 
 /// Open documents over files.
@@ -47,13 +47,13 @@ impl Loader for Overlay<'_> {
 pub(super) struct Analysis {
     /// The path of the root file.
     pub(super) root: String,
-    /// What it was looked at as.
+    /// As what it was checked.
     pub(super) part: Part,
-    /// The number of this analysis; no other one has it.
+    /// The number of this analysis, which is unique.
     pub(super) stamp: u64,
-    /// All texts, as they were looked at.
+    /// All texts, as they were checked.
     pub(super) sources: SourceMap,
-    /// What there is to tell about text and meaning.
+    /// Diagnostics about text and meaning.
     pub(super) diagnostics: Vec<Diagnostic>,
     /// Trees, names and the job.
     pub(super) study: Study,
@@ -67,9 +67,9 @@ pub(super) enum Planning {
     Needless,
     /// To be done.
     Due,
-    /// Being done, for as long as this is held.
+    /// Running, until this is dropped.
     UnderWay(Interest),
-    /// Refused, or made slow by its machine, and help is being looked for as long as this is held.
+    /// Refused, or made slow by its machine, and suggestions are searched until this is dropped.
     Helping(
         #[expect(dead_code, reason = "it is held, and ends when it is dropped")] Interest,
         Box<Planned>,
@@ -82,7 +82,7 @@ pub(super) enum Planning {
 pub(super) struct Planned {
     /// All texts, as they were planned.
     pub(super) sources: SourceMap,
-    /// Everything there is to tell about the job.
+    /// All diagnostics of the job.
     pub(super) diagnostics: Vec<Diagnostic>,
     /// The plan, when one could be made.
     pub(super) plan: Option<PlannedJob>,
@@ -147,7 +147,7 @@ impl Analysis {
         self
     }
 
-    /// Whether a file of that path was looked at, or looked for.
+    /// Whether a file of that path was read, or looked for.
     pub(super) fn concerns(&self, path: &str) -> bool {
         self.sources.iter().any(|(_, file)| file.name == path)
     }
@@ -159,8 +159,8 @@ impl Analysis {
         Some((file.id, &file.ast))
     }
 
-    /// The latest there is to tell, with the texts that it is about.
-    pub(super) fn told(&self) -> (&SourceMap, &[Diagnostic]) {
+    /// The latest diagnostics, with the texts that they are about.
+    pub(super) fn reported(&self) -> (&SourceMap, &[Diagnostic]) {
         match &self.planning {
             Planning::Done(planned) | Planning::Helping(_, planned) => {
                 (&planned.sources, &planned.diagnostics)
@@ -237,7 +237,7 @@ impl Task {
         self.run_telling(files, targets, memory, (&mut Unhurried, &mut |_| ()))
     }
 
-    /// As [`Self::run`]; what is known of a job is told at once, before help is looked for.
+    /// As [`Self::run`]; what is known of a job is published at once, before suggestions are searched.
     #[must_use]
     pub fn run_telling(
         self,

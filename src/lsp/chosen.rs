@@ -1,4 +1,4 @@
-//! What `auto` came out as, at the place where it stands.
+//! The value chosen for an `auto`, at its place.
 
 use super::analysis::Analysis;
 use super::sites::Site;

@@ -13,7 +13,7 @@ use super::values::{Begun, Place};
 use lsp_types::CompletionItemKind;
 use vcutc_backend_api::backend::Backend;
 use vcutc_job::sema::kind::Operations;
-use vcutc_job::sema::vocabulary::{self, BlockSpec, FieldSpec, Form, Inner, Need, Takes};
+use vcutc_job::sema::vocabulary::{self, BlockSpec, FieldSpec, Form, Inner, Need};
 use vcutc_machine::catalogue;
 
 /// What is offered, and the bytes that it replaces.
@@ -73,15 +73,7 @@ impl Desk<'_> {
         let outer = blocks.next()?;
         let mut spec = vocabulary::block(outer.name(), outer.second(), self.operations());
         for inner in blocks {
-            spec = match spec.and_then(|spec| spec.field(inner.name()))?.takes {
-                Takes::Fields(spec) => Some(spec),
-                Takes::Anything
-                | Takes::Quantity(_)
-                | Takes::Words(_)
-                | Takes::Blade
-                | Takes::Machine
-                | Takes::Calls(_) => None,
-            };
+            spec = spec.and_then(|spec| spec.field(inner.name()))?.inner();
         }
         spec
     }
@@ -90,7 +82,7 @@ impl Desk<'_> {
         self.context.blocks.last()
     }
 
-    /// The fields behind a file of a profile.
+    /// The fields after a file of a profile.
     fn data_spec(&self) -> Option<&'static BlockSpec> {
         let [outer, inner] = self.context.blocks.as_slice() else {
             return None;
@@ -253,7 +245,7 @@ fn field_snippet(field: &FieldSpec, number: usize) -> String {
     format!("{}{joint}${{{number}:{}}}", field.name, verbatim(field.typical))
 }
 
-/// What can stand at the top of a file. What a job has once only is not offered again.
+/// What can be at the top of a file. What a job has once only is not offered again.
 fn items(text: &str, operations: Operations) -> Vec<Offer> {
     const ONCE: &[&str] = &["job", "stock", "profile", "cell"];
     let is_there = |word: &str| {

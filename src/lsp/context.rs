@@ -38,7 +38,7 @@ pub(super) enum Wanted {
     /// The path of a file, with quotes.
     File,
     Value(Slot),
-    /// A unit behind a number.
+    /// A unit after a number.
     Unit(Slot),
     /// The name of a value in a call, or a value without one.
     Label {

@@ -66,7 +66,7 @@ pub(super) fn in_protocol(
         .into_iter()
         .filter_map(|label| related(label, lines))
         .collect();
-    let told = lsp_types::Diagnostic {
+    let reported = lsp_types::Diagnostic {
         range: lines.range(shown.span),
         severity: Some(match diagnostic.severity() {
             Severity::Error => DiagnosticSeverity::ERROR,
@@ -78,7 +78,7 @@ pub(super) fn in_protocol(
         related_information: (!related.is_empty()).then_some(related),
         ..lsp_types::Diagnostic::default()
     };
-    (path, told)
+    (path, reported)
 }
 
 /// A hint at the first place that it changes, with the path of its file; none where nothing is to be changed in a file.
@@ -87,14 +87,14 @@ pub(super) fn hint_in_protocol(
     lines: &mut Lines<'_>,
 ) -> Option<(String, lsp_types::Diagnostic)> {
     let place = hint.fix.edits.first()?.span;
-    let told = lsp_types::Diagnostic {
+    let reported = lsp_types::Diagnostic {
         range: lines.range(place),
         severity: Some(DiagnosticSeverity::INFORMATION),
         source: Some("vcutc".to_owned()),
         message: format!("the machine makes this job slower: {}", hint.fix.title),
         ..lsp_types::Diagnostic::default()
     };
-    Some((lines.sources.name(place.file).to_owned(), told))
+    Some((lines.sources.name(place.file).to_owned(), reported))
 }
 
 fn related(label: &Label, lines: &mut Lines<'_>) -> Option<DiagnosticRelatedInformation> {

@@ -1,4 +1,4 @@
-//! The open documents, and which root files they are looked at from.
+//! The open documents, and the root files from which they are analysed.
 
 use super::Workspace;
 use super::analysis::{Analysis, OpenTexts, Overlay};
@@ -15,7 +15,7 @@ pub(super) struct Called {
     pub(super) uri: Uri,
     /// Its latest version.
     pub(super) version: i32,
-    /// Whether it is a file of the language; others are open next to it and stand for their files.
+    /// Whether it is a file of the language; other open documents only replace their files.
     pub(super) language: Language,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct Documents {
     pub(super) analyses: BTreeMap<String, Analysis>,
     /// What was known before something changed that they may depend on. What still says the same goes on from there.
     earlier: BTreeMap<String, Analysis>,
-    /// Roots that are no open documents: a job of the workspace for an open library.
+    /// Roots that are not open documents: a job of the workspace for an open library.
     homes: BTreeSet<String>,
     /// Whether it must be found out anew which roots there are.
     roots: Roots,
@@ -93,7 +93,7 @@ impl Documents {
         self.roots = Roots::Unknown;
     }
 
-    /// Everything that is known has to be looked at again: files may have changed.
+    /// Everything known has to be checked again: files may have changed.
     pub(super) fn forget_all(&mut self) {
         self.earlier.append(&mut self.analyses);
         self.homes.clear();

@@ -14,7 +14,7 @@ pub(super) fn formatting(text: &Text) -> Option<Vec<TextEdit>> {
     if new == old {
         return Some(Vec::new());
     }
-    // Between `\r` and `\n` is no place that a client can name.
+    // Between `\r` and `\n` there is no place that a client can name.
     if old.contains('\r') {
         return Some(vec![TextEdit {
             range: text.range(0..old.len()),

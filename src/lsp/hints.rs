@@ -1,4 +1,4 @@
-//! Values beside the text: what `auto` came out as, and what calculations come to.
+//! Values beside the text: the values chosen for `auto`, and the results of calculations.
 
 use super::analysis::Analysis;
 use super::chosen::{Chosen, chosen};
@@ -11,7 +11,7 @@ use vcutc_syntax::ast::Expr;
 /// Most hints of an answer. Nobody looks at more at once.
 const MOST_HINTS: usize = 5000;
 
-/// A value to be shown behind a place.
+/// A value to be shown after a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Hint {
     /// Behind this byte.
@@ -64,7 +64,7 @@ fn of_value(value: &Spanned<Expr>, site: &Site<'_>, evaluator: &Evaluator<'_>, f
             Expr::Number { .. } | Expr::Text(_) => {}
             Expr::Tuple(values) => open.extend(values.iter().rev()),
             Expr::Negate(inner) if matches!(inner.node, Expr::Number { .. }) => {}
-            // Words of the field are no values; names of blades have none.
+            // Words of the field are not values; names of blades have none.
             Expr::Name(name) if name == "pi" || is_word(site, part) => {}
             Expr::Name(_) | Expr::Negate(_) | Expr::Binary { .. } => {
                 found.extend(computed(part, evaluator));

@@ -1,4 +1,4 @@
-//! What is shown beside the word under the cursor: what it is worth, what `auto` came out as, and what the language reference
+//! What is shown beside the word under the cursor: its value, the value chosen for `auto`, and what the language reference
 //! says about it, with the formula it enters.
 
 use super::analysis::Analysis;
@@ -16,7 +16,7 @@ use vcutc_syntax::lexical::{TokenKind, tokens};
 
 /// What there is to say about a place.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Told {
+pub(super) struct Reported {
     pub(super) span: Span,
     /// Markdown.
     pub(super) text: String,
@@ -28,9 +28,9 @@ pub(super) fn hover(
     path: &str,
     offset: usize,
     targets: &[&'static dyn Backend],
-) -> Option<Told> {
-    if let Some(told) = keyword(analysis, path, offset) {
-        return Some(told);
+) -> Option<Reported> {
+    if let Some(reported) = keyword(analysis, path, offset) {
+        return Some(reported);
     }
     let sites = sites_at(analysis, path, offset);
     let inner = sites
@@ -60,14 +60,14 @@ pub(super) fn hover(
         Kind::Formula | Kind::Variable => manual_of_formula()?,
         Kind::Value(_) => return None,
     };
-    Some(Told {
+    Some(Reported {
         span: inner.span,
         text,
     })
 }
 
-/// A word of the language that is no site of the tree: `let`, `use`, `job`, `tips`, and what pieces of a profile are made of.
-fn keyword(analysis: &Analysis, path: &str, offset: usize) -> Option<Told> {
+/// A word of the language that is not a site of the tree: `let`, `use`, `job`, `tips`, and what pieces of a profile are made of.
+fn keyword(analysis: &Analysis, path: &str, offset: usize) -> Option<Reported> {
     let (file, ast) = analysis.file(path)?;
     let text = analysis.sources.get(file)?.text.as_str();
     let token = tokens(text)
@@ -80,7 +80,7 @@ fn keyword(analysis: &Analysis, path: &str, offset: usize) -> Option<Told> {
         return None;
     }
     let text = keyword_explained(text.get(token.start..token.end)?)?;
-    Some(Told { span, text })
+    Some(Reported { span, text })
 }
 
 /// What the reference says about a word that means the same everywhere.
@@ -95,7 +95,7 @@ fn keyword_explained(word: &str) -> Option<String> {
     Some(format!("`{word}`: {}", row?.text()))
 }
 
-/// A word behind the first one of a head: a kind of operation, or of machine.
+/// A word after the first one of a head: a kind of operation, or of machine.
 fn head_word(block: &str, word: &str) -> Option<String> {
     match manual::row(Table::Machines, word).filter(|_| block == "machine") {
         Some(row) => Some(format!("`{word}`: {}", row.text())),
@@ -118,7 +118,7 @@ fn label(analysis: &Analysis, function: &str, name: Span) -> Option<String> {
     ))
 }
 
-/// The value behind a name in a call.
+/// The value after a name in a call.
 fn argument(analysis: &Analysis, name: Span) -> Option<&Spanned<Expr>> {
     let file = analysis.study.files.iter().find(|file| file.id == name.file)?;
     sites(&file.ast, analysis.study.operations)
@@ -148,7 +148,7 @@ fn values(analysis: &Analysis, expr: &Spanned<Expr>) -> Option<String> {
     Some(format!("`{}`, {}", value.texts(expr).join("` = `"), value.kind()))
 }
 
-fn whole_value(analysis: &Analysis, sites: &[Site<'_>]) -> Option<Told> {
+fn whole_value(analysis: &Analysis, sites: &[Site<'_>]) -> Option<Reported> {
     let (span, value) = sites.iter().rev().find_map(|site| {
         let Kind::Value(value) = site.kind else {
             return None;
@@ -156,7 +156,7 @@ fn whole_value(analysis: &Analysis, sites: &[Site<'_>]) -> Option<Told> {
         Some((site.span, value))
     })?;
     let text = values(analysis, value)?;
-    Some(Told { span, text })
+    Some(Reported { span, text })
 }
 
 /// A name with what it stands for.
@@ -196,7 +196,7 @@ fn let_value(analysis: &Analysis, name: Span) -> Option<&Spanned<Expr>> {
     })
 }
 
-/// What `auto` came out as, or that it is not known yet.
+/// The value chosen for `auto`, or that it is not known yet.
 fn auto(analysis: &Analysis, path: &str, site: &Site<'_>) -> Option<String> {
     let rule = site
         .place
@@ -251,7 +251,7 @@ fn enters_formulas(block: &str) -> bool {
     matches!(block, "stock" | "blade" | "rough vcut" | "limits" | "feed")
 }
 
-/// The value behind the name of a field at that place.
+/// The value after the name of a field at that place.
 fn field_value(analysis: &Analysis, name: Span) -> Option<&Spanned<Expr>> {
     let file = analysis.study.files.iter().find(|file| file.id == name.file)?;
     let mut open: Vec<&Entry> = file
@@ -318,7 +318,8 @@ fn call(analysis: &Analysis, function: &str, sites: &[Site<'_>]) -> Option<Strin
     let row = manual::row(Table::Functions, function).or_else(|| manual::row(Table::Calls, function))?;
     let form = vocabulary::functions().find(|(name, _)| *name == function);
     let form = form.map_or(String::new(), |(_, example)| format!(", such as `{example}`"));
-    let worth = whole_value(analysis, sites).map_or(String::new(), |told| format!("\n\nHere {}", told.text));
+    let worth =
+        whole_value(analysis, sites).map_or(String::new(), |reported| format!("\n\nHere {}", reported.text));
     let takes = manual::row(Table::Functions, function).map_or("", |_| "takes ");
     Some(format!("`{function}`{form}: {takes}{}{worth}", row.text()))
 }
@@ -373,7 +374,7 @@ fn word_of_target(site: &Site<'_>, analysis: &Analysis, targets: &[&'static dyn 
     option(*target, spec.key)
 }
 
-/// The figures of the program, behind the job's name.
+/// The figures of the program, after the job's name.
 fn figures(analysis: &Analysis, path: &str) -> Option<String> {
     if analysis.root != path {
         return manual::about("job");

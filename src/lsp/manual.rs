@@ -122,7 +122,7 @@ fn headed(head: &str) -> Option<usize> {
     REFERENCE.find(&format!("\n{head}")).map(|at| at + 1)
 }
 
-/// The first table of that head behind a text.
+/// The first table of that head after a text.
 fn behind(text: &str, head: &str) -> Option<usize> {
     let start = REFERENCE.find(text)?;
     let tail = REFERENCE.get(start..)?;
@@ -147,7 +147,7 @@ pub(super) fn clause<'r>(row: &'r str, word: &str) -> Option<&'r str> {
 /// The first paragraph about a block that is not an example.
 pub(super) fn about(block: &str) -> Option<String> {
     match block {
-        // What `use` does stands in the section about files.
+        // What `use` does is explained in the section about files.
         "use" => return paragraph("The path is relative to the file"),
         "default" => return paragraph("The word `default`"),
         _ => {}

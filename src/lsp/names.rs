@@ -17,7 +17,7 @@ pub(super) struct Name {
     pub(super) span: Span,
 }
 
-/// The sites at a byte of a file, the innermost last. A place counts up to and with its end, so that a cursor behind a word is
+/// The sites at a byte of a file, the innermost last. A place counts up to and with its end, so that a cursor after a word is
 /// at the word.
 pub(super) fn sites_at<'a>(analysis: &'a Analysis, path: &str, offset: usize) -> Vec<Site<'a>> {
     let Some((_, ast)) = analysis.file(path) else {
@@ -162,7 +162,7 @@ fn clash(analysis: &Analysis, new: &str) -> Option<String> {
 }
 
 /// Why a name cannot be replaced by another: renaming must leave every job that sees it as it was. It is tried, and what there
-/// is to tell must stay the same, file by file. Jobs with mistakes are no obstacle, unless the name stands in a part of them
+/// is to report must stay the same, file by file. Jobs with mistakes are allowed, unless the name is in a part of them
 /// that cannot be read.
 pub(super) fn changes_meaning(
     analyses: &[&Analysis],
@@ -187,9 +187,9 @@ pub(super) fn changes_meaning(
         let Some(after) = Analysis::of(&before.root, before.stamp, &overlay, before.study.operations) else {
             return Some(format!("{} cannot be read any more", before.root));
         };
-        let (told_before, told_after) = (told(before), told(&after));
-        let more = surplus(&told_after, &told_before);
-        let less = surplus(&surely_told(told_before), &told_after);
+        let (reported_before, reported_after) = (reported(before), reported(&after));
+        let more = surplus(&reported_after, &reported_before);
+        let less = surplus(&surely_reported(reported_before), &reported_after);
         let appears = more.map(|(place, message)| format!("with `{new}` for `{old}`, {place} would be wrong: {message}"));
         appears.or_else(|| {
             let (place, message) = less?;
@@ -200,7 +200,7 @@ pub(super) fn changes_meaning(
     })
 }
 
-/// Where a name stands in a part of a text that cannot be read, so that nobody knows whether it is the name.
+/// Where a name is in a part of a text that cannot be read, so that it is unknown whether it is the name.
 fn unread(analysis: &Analysis, name: &str) -> Option<String> {
     analysis.study.files.iter().find_map(|file| {
         let source = analysis.sources.get(file.id)?;
@@ -222,19 +222,19 @@ fn unread(analysis: &Analysis, name: &str) -> Option<String> {
     })
 }
 
-/// What there is to tell: by file and code, each with the line and the message.
-type Told = BTreeMap<(String, &'static str), Vec<(usize, String)>>;
+/// All diagnostics: by file and code, each with the line and the message.
+type Reported = BTreeMap<(String, &'static str), Vec<(usize, String)>>;
 
-/// Without what is told by guessing: of unknown names in a job that cannot be read to its end, only those are told that are
+/// Without guesses: of unknown names in a job that cannot be read to its end, only those are reported that are
 /// like a known one, so renaming that one takes the message away and nothing else.
-fn surely_told(mut told: Told) -> Told {
-    let is_unread = told.keys().any(|(_, code)| code.starts_with("VC01"));
-    told.retain(|(_, code), _| !(is_unread && *code == Code::UnknownName.number()));
-    told
+fn surely_reported(mut reported: Reported) -> Reported {
+    let is_unread = reported.keys().any(|(_, code)| code.starts_with("VC01"));
+    reported.retain(|(_, code), _| !(is_unread && *code == Code::UnknownName.number()));
+    reported
 }
 
-fn told(analysis: &Analysis) -> Told {
-    let mut told = Told::new();
+fn reported(analysis: &Analysis) -> Reported {
+    let mut reported = Reported::new();
     for diagnostic in &analysis.diagnostics {
         let span = diagnostic.primary.span;
         let text = analysis
@@ -244,14 +244,14 @@ fn told(analysis: &Analysis) -> Told {
         let before = text.get(..span.start as usize).unwrap_or_default();
         let line = before.matches('\n').count() + 1;
         let file = analysis.sources.name(span.file).to_owned();
-        let of_code = told.entry((file, diagnostic.code.number())).or_default();
+        let of_code = reported.entry((file, diagnostic.code.number())).or_default();
         of_code.push((line, diagnostic.message.clone()));
     }
-    told
+    reported
 }
 
-/// The first thing that is told more often here than there, with its place.
-fn surplus(here: &Told, there: &Told) -> Option<(String, String)> {
+/// The first thing that is reported more often here than there, with its place.
+fn surplus(here: &Reported, there: &Reported) -> Option<(String, String)> {
     here.iter().find_map(|(key, found)| {
         let others = there.get(key).map_or(&[][..], Vec::as_slice);
         if found.len() <= others.len() {
@@ -275,7 +275,7 @@ fn renamed(text: &str, spans: &BTreeSet<(u32, u32)>, new: &str) -> String {
     result + text.get(done..).unwrap_or_default()
 }
 
-/// The file that a path in a text means, relative to the file it stands in.
+/// The file that a path in a text means, relative to the file it is in.
 pub(super) fn file_meant(analysis: &Analysis, file: FileId, written: &str) -> String {
     vcutc_diagnostics::source::join_path(analysis.sources.name(file), written)
 }

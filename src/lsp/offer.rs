@@ -35,7 +35,7 @@ pub(super) fn verbatim(text: &str) -> String {
     text.replace('\\', "\\\\").replace('$', "\\$").replace('}', "\\}")
 }
 
-/// An offer of a word as it stands.
+/// An offer of a word as it is.
 pub(super) fn offer(label: &str, kind: CompletionItemKind, rank: Rank) -> Offer {
     Offer {
         label: label.to_owned(),

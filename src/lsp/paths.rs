@@ -60,7 +60,7 @@ pub(super) struct Folder<'a> {
 }
 
 impl Folder<'_> {
-    /// The paths that can stand where a part of one is typed.
+    /// The paths that can be where a part of one is typed.
     pub(super) fn offers(&self, named: Named, typed: &str) -> Vec<Offer> {
         let begun = typed.rsplit_once('/').map_or("", |(folder, _)| folder);
         let joint = if typed.contains('/') { "/" } else { "" };

@@ -63,7 +63,7 @@ enum PlanningWish {
     Never,
 }
 
-/// Who tells that files on the disk have changed.
+/// Who reports that files on the disk have changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Watching {
     /// The client, if it does so by itself.
@@ -74,12 +74,12 @@ enum Watching {
 
 /// How the client learns of the diagnostics of open documents.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Telling {
+pub(super) enum Delivery {
     /// They are sent when there is something new.
     #[default]
-    Unasked,
-    /// It asks for them, and is told when it should ask again.
-    OnRequest,
+    Pushed,
+    /// It asks for them, and is notified when it should ask again.
+    Pulled,
 }
 
 /// What was last published about a file.
@@ -94,7 +94,7 @@ pub struct Server {
     pub(super) insertion: Insertion,
     planning: PlanningWish,
     watching: Watching,
-    pub(super) telling: Telling,
+    pub(super) delivery: Delivery,
     refreshes: u64,
     spellings: Spellings,
 }
@@ -111,7 +111,7 @@ impl Server {
             insertion: Insertion::default(),
             planning: PlanningWish::default(),
             watching: Watching::Unasked,
-            telling: Telling::default(),
+            delivery: Delivery::default(),
             refreshes: 0,
             spellings: Spellings::default(),
         }
@@ -149,7 +149,7 @@ impl Server {
             Incoming::Notification { method, mut params } => {
                 self.spellings.read(&mut params);
                 self.notification(&method, params).unwrap_or_else(|(_, why)| {
-                    // Nobody waits for an answer to it, but what it tells is lost.
+                    // It has no answer, but what it says is lost.
                     vec![requests::warning(&format!("`{method}` cannot be read: {why}"))]
                 })
             }
@@ -170,9 +170,8 @@ impl Server {
     fn request(&mut self, method: &str, params: Value, files: &dyn Workspace) -> requests::Answer {
         match (self.stage, method) {
             (Stage::Fresh, "initialize") => {
-                self.telling = telling(&params);
-                let params = parsed::<InitializeParams>(params)?;
-                self.introduced(&params);
+                self.agree(&params);
+                self.introduced(&parsed(params)?);
                 self.stage = Stage::Running;
                 Ok(requests::introduction(self))
             }
@@ -192,24 +191,25 @@ impl Server {
         }
     }
 
-    fn introduced(&mut self, params: &InitializeParams) {
-        let completion = params
-            .capabilities
-            .text_document
-            .as_ref()
-            .and_then(|document| document.completion.as_ref())
-            .and_then(|completion| completion.completion_item.as_ref());
-        if completion.and_then(|item| item.snippet_support) == Some(true) {
+    /// Takes what the client can do from its introduction.
+    fn agree(&mut self, introduction: &Value) {
+        let can = |what: &str| {
+            let capability = introduction.pointer(&format!("/capabilities/{what}"));
+            capability == Some(&Value::Bool(true))
+        };
+        self.delivery = delivery(introduction);
+        if can("textDocument/completion/completionItem/snippetSupport") {
             self.insertion = Insertion::Snippets;
         }
-        let watched = params
-            .capabilities
-            .workspace
-            .as_ref()
-            .and_then(|workspace| workspace.did_change_watched_files.as_ref());
-        if watched.and_then(|watched| watched.dynamic_registration) == Some(true) {
+        if can("workspace/didChangeWatchedFiles/dynamicRegistration") {
             self.watching = Watching::OnRequest;
         }
+        if introduction.pointer("/initializationOptions/planning") == Some(&json!("never")) {
+            self.planning = PlanningWish::Never;
+        }
+    }
+
+    fn introduced(&mut self, params: &InitializeParams) {
         let encodings = params.capabilities.general.as_ref();
         let encodings = encodings.and_then(|general| general.position_encodings.as_deref());
         let names = encodings
@@ -224,13 +224,6 @@ impl Server {
             && let Some(root) = &params.root_uri
         {
             self.documents.folders = vec![path_of(root)];
-        }
-        let wish = params
-            .initialization_options
-            .as_ref()
-            .and_then(|options| options.get("planning"));
-        if wish.and_then(Value::as_str) == Some("never") {
-            self.planning = PlanningWish::Never;
         }
     }
 
@@ -301,7 +294,7 @@ impl Server {
         self.documents.change(&path, params.text_document.version, text);
     }
 
-    /// Looks at what has changed, and tells what is to be told anew. To be called when no more messages wait.
+    /// Looks at what has changed, and publishes the diagnostics that have changed. To be called when no more messages wait.
     pub fn settle(&mut self, files: &dyn Workspace) -> Vec<Value> {
         if self.stage != Stage::Running {
             return Vec::new();
@@ -317,19 +310,19 @@ impl Server {
 
     /// Tells what is known of every file, where that has changed.
     fn publish(&mut self) -> Vec<Value> {
-        let mut told = self.told();
+        let mut reported = self.reported();
         let mut messages = Vec::new();
         let mut is_other = false;
-        let paths: BTreeSet<String> = told.keys().chain(self.published.keys()).cloned().collect();
+        let paths: BTreeSet<String> = reported.keys().chain(self.published.keys()).cloned().collect();
         for path in paths {
             let version = self.documents.called.get(&path).map(|called| called.version);
-            let now = (version, told.remove(&path).unwrap_or_default());
+            let now = (version, reported.remove(&path).unwrap_or_default());
             let is_gone = now.1.is_empty() && version.is_none();
             let before = self.published.get(&path);
             if before == Some(&now) || before.is_none() && is_gone {
                 continue;
             }
-            if self.telling == Telling::OnRequest && version.is_some() {
+            if self.delivery == Delivery::Pulled && version.is_some() {
                 // Of a new version the client asks by itself.
                 is_other |= before.is_some_and(|(known, _)| *known == version);
                 self.published.insert(path, now);
@@ -359,25 +352,25 @@ impl Server {
 
     /// The diagnostics of a document, for a client that asks for them.
     pub(super) fn asked_for(&self, path: &str) -> Vec<lsp_types::Diagnostic> {
-        self.told().remove(path).unwrap_or_default()
+        self.reported().remove(path).unwrap_or_default()
     }
 
-    /// What is to be told, by file; open documents are there even when there is nothing to tell.
-    fn told(&self) -> BTreeMap<String, Vec<lsp_types::Diagnostic>> {
+    /// The diagnostics by file; open documents are listed even without any.
+    fn reported(&self) -> BTreeMap<String, Vec<lsp_types::Diagnostic>> {
         let open = self.documents.called.iter();
-        let mut told: BTreeMap<String, Vec<lsp_types::Diagnostic>> = open
+        let mut reported: BTreeMap<String, Vec<lsp_types::Diagnostic>> = open
             .filter(|(_, called)| called.language == Language::Vcut)
             .map(|(path, _)| (path.clone(), Vec::new()))
             .collect();
         for known in self.documents.speaking() {
             let is_open = self.documents.called.contains_key(&known.root);
-            let (sources, diagnostics) = known.told();
+            let (sources, diagnostics) = known.reported();
             let mut lines = Lines::of(sources, self.documents.encoding);
             for hint in known.hints() {
                 if let Some((path, shown)) = hint_in_protocol(hint, &mut lines)
                     && (is_open || self.documents.called.contains_key(&path))
                 {
-                    told.entry(path).or_default().push(shown);
+                    reported.entry(path).or_default().push(shown);
                 }
             }
             for diagnostic in diagnostics {
@@ -391,14 +384,14 @@ impl Server {
                     if !is_open && !self.documents.called.contains_key(&path) {
                         continue;
                     }
-                    let of_file = told.entry(path).or_default();
+                    let of_file = reported.entry(path).or_default();
                     if !of_file.contains(&diagnostic) {
                         of_file.push(diagnostic);
                     }
                 }
             }
         }
-        told
+        reported
     }
 
     /// A job to be planned, if there is one: the one that was changed last. The caller lets it run when and where it likes, one
@@ -436,7 +429,7 @@ impl Server {
         }
     }
 
-    /// Takes back what came of a task, and tells it if it is about the text as it is now.
+    /// Takes the result of a task, and publishes it if it is about the current text.
     pub fn finish(&mut self, done: Done) -> Vec<Value> {
         let Some(known) = self.documents.numbered(&done.root, done.stamp) else {
             return Vec::new();
@@ -460,12 +453,12 @@ impl Server {
 }
 
 /// How a client wants to learn of diagnostics. One that asks must also be willing to ask again when planning has found more.
-fn telling(introduction: &Value) -> Telling {
+fn delivery(introduction: &Value) -> Delivery {
     let asks = introduction.pointer("/capabilities/textDocument/diagnostic");
     let again = introduction.pointer("/capabilities/workspace/diagnostics/refreshSupport");
     match (asks, again) {
-        (Some(_), Some(Value::Bool(true))) => Telling::OnRequest,
-        (Some(_) | None, _) => Telling::Unasked,
+        (Some(_), Some(Value::Bool(true))) => Delivery::Pulled,
+        (Some(_) | None, _) => Delivery::Pushed,
     }
 }
 

@@ -1,4 +1,4 @@
-//! What stands where in a file: its tree as a row of places, each with what it is.
+//! The tree of a file as a row of places, each with what is there.
 //!
 //! Every question about a place in a text is answered from this row: what is under the cursor, where a name is used, which
 //! values can be hinted at. It is made from the tree alone; what names stand for is known by the study of the whole job.
@@ -8,7 +8,7 @@ use vcutc_job::sema::kind::Operations;
 use vcutc_job::sema::vocabulary::{self, BlockSpec, FieldSpec, Inner, Leaving, RESERVED, Takes};
 use vcutc_syntax::ast::{ArcBy, Argument, Ast, Block, Curve, Entry, Expr, HeadPart, Item, Point};
 
-/// A place and what stands there.
+/// A place and what is there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Site<'a> {
     pub(super) span: Span,
@@ -17,12 +17,12 @@ pub(super) struct Site<'a> {
     pub(super) place: Place<'a>,
 }
 
-/// What stands at a place.
+/// What is at a place.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Kind<'a> {
     /// The first word of a block's head, or the head of a block within another.
     Block,
-    /// The word behind `rough`, or the kind of a machine.
+    /// The word after `rough`, or the kind of a machine.
     HeadWord,
     /// The name of the job.
     JobName,
@@ -74,7 +74,7 @@ pub(super) enum Path {
     Profile,
 }
 
-/// In which field of which block something stands.
+/// The block and the field that something is in.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place<'a> {
     /// The block as the reference calls it: `rough vcut`, `limits`; empty outside of blocks.
@@ -90,7 +90,7 @@ pub(super) struct Place<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Words {
     Names,
-    /// A name if a `let` has it, else a word of a target.
+    /// A name if there is a `let` of that name, else a word of a target.
     OfTarget,
 }
 
@@ -177,7 +177,7 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// The words behind the first one.
+    /// The words after the first one.
     fn head(&mut self, first: &str, block: &'a Block, place: Place<'a>) {
         for (number, part) in block.head.iter().enumerate().skip(1) {
             let kind = match (&part.node, first, number) {
@@ -227,7 +227,7 @@ impl<'a> Row<'a> {
             ..place
         };
         let is_target = outer.is_some_and(|spec| spec.inner == Inner::TargetOptions);
-        if let Some(Takes::Fields(spec)) = field.map(|field| field.takes) {
+        if let Some(spec) = field.and_then(FieldSpec::inner) {
             self.push(*span, Kind::Block, within(place.block));
             self.entries(&inner.entries, Some(spec), within(word));
         } else if is_target && field.is_none() {
@@ -311,7 +311,7 @@ impl<'a> Row<'a> {
         self.value(&point.z, place, None);
     }
 
-    /// A whole value, and what stands in it.
+    /// A whole value, and what is in it.
     fn value(&mut self, value: &'a Spanned<Expr>, place: Place<'a>, variable: Option<&str>) {
         self.push(value.span, Kind::Value(value), place);
         // A stack of its own: values may be long.
@@ -420,7 +420,7 @@ mod tests {
     }
 
     /// Codes and helps of a check.
-    fn told(shop: &Shop) -> Vec<(&'static str, Vec<String>)> {
+    fn reported(shop: &Shop) -> Vec<(&'static str, Vec<String>)> {
         let (mut sources, mut found) = (SourceMap::default(), Vec::new());
         check(
             ROOT,
@@ -433,8 +433,9 @@ mod tests {
             &mut found,
         )
         .unwrap();
-        let told = found.into_iter();
-        told.map(|diagnostic| (diagnostic.code.number(), diagnostic.help))
+        let reported = found.into_iter();
+        reported
+            .map(|diagnostic| (diagnostic.code.number(), diagnostic.help))
             .collect()
     }
 
@@ -443,17 +444,17 @@ mod tests {
         if let Some(text) = shop.0.get_mut(file) {
             text.replace_range(span.bytes(), new);
         }
-        told(&shop)
+        reported(&shop)
     }
 
-    fn has(told: &[(&'static str, Vec<String>)], code: &str) -> bool {
-        told.iter().any(|(found, _)| *found == code)
+    fn has(reported: &[(&'static str, Vec<String>)], code: &str) -> bool {
+        reported.iter().any(|(found, _)| *found == code)
     }
 
     /// What the tables say of a field is what the checks do with it.
     #[test]
     fn fields_take_what_their_tables_say() {
-        assert!(told(&shop()).is_empty());
+        assert!(reported(&shop()).is_empty());
         let mut seen = BTreeSet::new();
         for (file, text) in shop().0 {
             let mut sources = SourceMap::default();
@@ -470,7 +471,7 @@ mod tests {
                 seen.insert((site.place.block.to_owned(), field.name));
                 holds(file, field, site.span);
                 if let Some(name) = name.filter(|_| field.form == Form::Value) {
-                    // With the comma behind it, which would belong to nothing.
+                    // With the comma after it, which would belong to nothing.
                     let rest = text[site.span.end as usize..].trim_start_matches(' ');
                     let end = text.len() - rest.trim_start_matches(',').len();
                     let whole = Span::of_bytes(id, name.start as usize..end);
@@ -511,10 +512,10 @@ mod tests {
                     all.push("auto");
                 }
                 let help = format!("`{name}` takes one of {}", all.join(", "));
-                let told = with(file, span, "zzzzzzzz");
+                let reported = with(file, span, "zzzzzzzz");
                 assert!(
-                    told.iter().any(|(_, helps)| helps.contains(&help)),
-                    "{name}: {told:?}"
+                    reported.iter().any(|(_, helps)| helps.contains(&help)),
+                    "{name}: {reported:?}"
                 );
             }
             Takes::Blade | Takes::Machine => {
@@ -522,12 +523,12 @@ mod tests {
                 assert!(!with(file, span, "reach").is_empty(), "{name}: a value is none");
             }
             Takes::Calls(calls) => {
-                let told = with(file, span, "zzzzzzzz(1)");
+                let reported = with(file, span, "zzzzzzzz(1)");
                 let forms = calls.iter().map(|(_, example)| format!("`{name} = {example}`"));
                 let help = format!("write it like {}", forms.collect::<Vec<_>>().join(" or "));
                 assert!(
-                    told.iter().any(|(_, helps)| helps.contains(&help)),
-                    "{name}: {told:?}"
+                    reported.iter().any(|(_, helps)| helps.contains(&help)),
+                    "{name}: {reported:?}"
                 );
             }
             Takes::Anything | Takes::Fields(_) => panic!("{name}: what does it take?"),

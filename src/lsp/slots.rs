@@ -11,9 +11,9 @@ pub(super) struct Slot {
     pub(super) owner: Owner,
     /// The brackets that are open within the value, from the outermost.
     pub(super) within: Vec<Within>,
-    /// How it stands to its neighbours.
+    /// How it relates to its neighbours.
     pub(super) part: Part,
-    /// Whether anything of the value stands before it.
+    /// Whether anything of the value is before it.
     pub(super) rest: Rest,
 }
 
@@ -37,13 +37,13 @@ pub(super) struct Within {
     pub(super) call: Option<String>,
     /// The name of the value in the call.
     pub(super) label: Option<String>,
-    /// How many values stand before it.
+    /// How many values are before it.
     pub(super) place: usize,
-    /// How the whole of it stands to its neighbours.
+    /// How the whole of it relates to its neighbours.
     pub(super) part: Part,
 }
 
-/// How a value stands to its neighbours.
+/// How a value relates to its neighbours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
     /// It has the dimension of the whole: it is that, or added to it.
@@ -52,16 +52,16 @@ pub(super) enum Part {
     Factor,
 }
 
-/// Whether anything of a value stands before a place.
+/// Whether anything of a value is before a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rest {
     Begins,
-    /// Something stands before it.
+    /// Something is before it.
     GoesOn,
 }
 
 impl Slot {
-    /// Where a value, or the next part of one, begins before a token. The word that is being written may stand there.
+    /// Where a value, or the next part of one, begins before a token. The word that is being written may be there.
     pub(super) fn at(around: &Surroundings<'_>, before: usize) -> Self {
         let end = if around.is_word(before) {
             before + 1
@@ -71,7 +71,7 @@ impl Slot {
         Self::of(around, before, end)
     }
 
-    /// Where a unit is wanted: behind the number before a token, and before a unit that may stand there.
+    /// Where a unit is wanted: after the number before a token, and before a unit that may be there.
     pub(super) fn behind(around: &Surroundings<'_>, before: usize) -> Self {
         Self::of(around, before.saturating_sub(1), behind_unit(around, before))
     }
@@ -149,7 +149,7 @@ fn owner(around: &Surroundings<'_>, first: usize) -> Owner {
     Owner::Let
 }
 
-/// Whose value begins behind a sign.
+/// Whose value begins after a sign.
 fn owner_before(around: &Surroundings<'_>, sign: usize) -> Owner {
     let word = |back: usize| sign.checked_sub(back).and_then(|number| around.word(number));
     if sign.checked_sub(1).is_some_and(|last| around.closes(last)) {
@@ -167,7 +167,7 @@ fn within(around: &Surroundings<'_>, brackets: &[usize], start: usize) -> Vec<Wi
         .iter()
         .zip(inner)
         .map(|(&bracket, inner)| {
-            // What stands in the bracket before the next inner one.
+            // What is in the bracket before the next inner one.
             let until = inner.unwrap_or(start);
             let mut place = 0;
             let mut label = None;
@@ -195,7 +195,7 @@ fn within(around: &Surroundings<'_>, brackets: &[usize], start: usize) -> Vec<Wi
         .collect()
 }
 
-/// How the operand from a token to another stands to its neighbours.
+/// How the operand from a token to another relates to its neighbours.
 fn part(around: &Surroundings<'_>, start: usize, end: usize) -> Part {
     const BINDING: &[&str] = &["*", "/", "^"];
     // Minus signs before it change nothing.

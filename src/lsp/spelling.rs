@@ -75,7 +75,7 @@ fn each_uri(message: &mut Value, change: &mut dyn FnMut(&mut String)) {
     }
 }
 
-/// The URI that a text most likely means: what may not stand behind its scheme is escaped, escapes stay.
+/// The URI that a text most likely means: what cannot follow its scheme is escaped, escapes stay.
 fn standard(text: &str) -> String {
     let (scheme, rest) = match text.split_once(':') {
         Some((scheme, rest)) if is_scheme(scheme) => (Some(scheme), rest),

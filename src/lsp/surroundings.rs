@@ -1,4 +1,4 @@
-//! The tokens around a cursor: which brackets are open, whose they are, and what stands in them already.
+//! The tokens around a cursor: which brackets are open, whose they are, and what they already contain.
 
 use vcutc_job::sema::vocabulary;
 use vcutc_syntax::lexical::{Bracket, Token, TokenKind};
@@ -8,7 +8,7 @@ use vcutc_syntax::lexical::{Bracket, Token, TokenKind};
 pub(super) struct BlockAround {
     /// The words of its head.
     pub(super) head: Vec<String>,
-    /// What stands in it already, on both sides of the cursor: the first words of its entries.
+    /// What it already contains, on both sides of the cursor: the first words of its entries.
     pub(super) entries: Vec<String>,
 }
 
@@ -36,7 +36,7 @@ impl Surroundings<'_> {
         let number = self.all.partition_point(|token| token.end < offset);
         let token = *self.all.get(number)?;
         let is_in = token.start < offset && offset <= token.end;
-        // An own end closes a text or a bracketed comment: behind it, one is out.
+        // An own end closes a text or a bracketed comment: after it, one is out.
         let is_behind = offset == token.end
             && (token.kind == TokenKind::Text
                 || token.kind == TokenKind::Comment && self.slice(token).ends_with("*/"));
@@ -137,7 +137,7 @@ impl Surroundings<'_> {
             && word(3) == Some("profile")
     }
 
-    /// Whether entries stand behind a bracket.
+    /// Whether entries follow a bracket.
     fn holds_entries(&self, bracket: usize) -> bool {
         self.opens(bracket, Bracket::Curly) || self.is_short_form(bracket)
     }
@@ -166,7 +166,7 @@ impl Surroundings<'_> {
         blocks
     }
 
-    /// The words of the head before a brace. Of an inner block only the last one: what stands before may be a field.
+    /// The words of the head before a brace. Of an inner block only the last one: what is before may be a field.
     fn head(&self, brace: usize, depth: usize) -> Vec<String> {
         if depth > 0 {
             let last = brace.saturating_sub(1);
@@ -243,7 +243,7 @@ impl Surroundings<'_> {
         (within, None)
     }
 
-    /// The tokens before a place, backwards, up to the bracket around it; what stands in brackets of its own is passed over.
+    /// The tokens before a place, backwards, up to the bracket around it; what is in brackets of its own is passed over.
     pub(super) fn back_from(&self, before: usize) -> impl Iterator<Item = usize> {
         let mut depth = 0_usize;
         let numbers = (0..before)

@@ -193,8 +193,8 @@ fn spots_of_targets() -> Vec<Spot> {
 fn explained(spot: &Spot) -> Option<String> {
     let path = "/job.vcut";
     let known = Analysis::of(path, 1, &One(spot.text.clone()), OPERATIONS)?;
-    let told = hover(&known, path, spot.at, &registry::backends())?;
-    (spot.text.get(told.span.bytes()) == Some(spot.word.as_str())).then_some(told.text)
+    let reported = hover(&known, path, spot.at, &registry::backends())?;
+    (spot.text.get(reported.span.bytes()) == Some(spot.word.as_str())).then_some(reported.text)
 }
 
 #[test]
@@ -410,7 +410,7 @@ fn the_snippets_of_editors_are_right() {
     }
 }
 
-/// What editors are told of a function is what its example does.
+/// What editors show of a function is what its example does.
 #[test]
 fn functions_take_and_give_what_their_signatures_say() {
     for (name, example) in vocabulary::functions() {

@@ -1,8 +1,8 @@
 //! The text of a document, and positions in it as the protocol counts them.
 //!
 //! Positions are lines and units within a line, both from 0; a line ends with `\n`, `\r\n` or a lone `\r`. What a unit is, client
-//! and server agree upon: UTF-16 code units if nothing is said. The compiler counts bytes. A position behind the end of its line means that end, one within a character its beginning, and a line behind the
-//! last one the end of the text: clients that are a step behind are not thrown out.
+//! and server agree upon: UTF-16 code units if nothing is said. The compiler counts bytes. A position after the end of its line means that end, one within a character its beginning, and a line after the
+//! last one the end of the text: clients that lag by a step are served, too.
 
 use lsp_types::{Position, Range, TextDocumentContentChangeEvent};
 use std::sync::Arc;
@@ -240,7 +240,7 @@ mod tests {
             let whole: String = pieces.concat();
             let text = Text::new(&whole, encoding);
             for (offset, _) in whole.char_indices() {
-                // Between the two characters of a line end is no place that a client can name.
+                // Between the two characters of a line end there is no place that a client can name.
                 if whole[..offset].ends_with('\r') && whole[offset..].starts_with('\n') {
                     continue;
                 }

@@ -1,4 +1,4 @@
-//! What each word of a text is, for colours: finer than a grammar of patterns can tell.
+//! What each word of a text is, for colours: finer than a grammar of patterns can do.
 
 use super::sites::{Kind, Named, sites};
 use super::text::Text;

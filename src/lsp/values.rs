@@ -197,7 +197,7 @@ impl Place<'_> {
         if all.is_empty() {
             return self.parts();
         }
-        // Angles and a quaternion say the same: one of them stands there.
+        // Angles and a quaternion say the same: one of them is there.
         let turned = |label: &String| matches!(label.as_str(), "a" | "b" | "c");
         let is_quaternion = call == Some("frame") && given.iter().any(|label| label == "q");
         let quaternion = (call == Some("frame") && !given.iter().any(turned))
@@ -261,17 +261,9 @@ impl Place<'_> {
                 }
             };
         }
-        match self.field.map(|field| field.takes) {
-            Some(Takes::Quantity(range)) => Fit::Of(range.dimension),
-            Some(
-                Takes::Anything
-                | Takes::Words(_)
-                | Takes::Blade
-                | Takes::Machine
-                | Takes::Calls(_)
-                | Takes::Fields(_),
-            )
-            | None => Fit::Anything,
+        match self.field.and_then(FieldSpec::quantity) {
+            Some(range) => Fit::Of(range.dimension),
+            None => Fit::Anything,
         }
     }
 
@@ -354,7 +346,7 @@ fn call_offer(name: &str, example: &str) -> Offer {
     }
 }
 
-/// A name of a value, if it may stand where that fits: pure numbers may begin a product of any dimension.
+/// A name of a value, if it may be where that fits: pure numbers may begin a product of any dimension.
 fn value(definition: &Definition, fit: Fit) -> Option<Offer> {
     let Meaning::Value(value) = definition.meaning else {
         return None;

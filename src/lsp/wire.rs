@@ -1,6 +1,6 @@
 //! Messages on a stream: headers, an empty line, and a JSON text of the length that the headers say.
 //!
-//! What is no message gets an answer where that is possible, and the stream goes on behind it. Only a stream whose lengths
+//! What is not a message gets an answer where that is possible, and the stream goes on after it. Only a stream whose lengths
 //! cannot be trusted any more has to end.
 
 use serde_json::{Value, json};
@@ -57,16 +57,16 @@ impl Incoming {
 pub enum Broken {
     /// The stream has ended between two messages.
     Ended,
-    /// It cannot be told where the next message begins.
+    /// The start of the next message cannot be found.
     Astray(String),
 }
 
 /// Numbers of faults, by JSON-RPC and the protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// The text is no JSON.
+    /// The text is not JSON.
     Parse,
-    /// The JSON is no message.
+    /// The JSON is not a message.
     InvalidRequest,
     /// There is no such method.
     MethodNotFound,
@@ -115,7 +115,7 @@ pub fn notification(method: &str, params: &Value) -> Value {
 /// Reads the next message.
 ///
 /// # Errors
-/// When there is none, or when it cannot be told where it ends.
+/// When there is none, or when its end cannot be found.
 pub fn read(stream: &mut impl BufRead) -> Result<Incoming, Broken> {
     let length = headers(stream)?;
     let mut body = vec![0; length];

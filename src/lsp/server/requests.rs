@@ -1,6 +1,6 @@
 //! The requests of a running conversation, and their answers in the protocol's terms.
 
-use super::{Insertion, Server, Telling, parsed};
+use super::{Delivery, Insertion, Server, parsed};
 use crate::Workspace;
 use crate::analysis::Analysis;
 use crate::completion::completion;
@@ -22,11 +22,12 @@ use crate::uri::{path_of, uri_of};
 use crate::wire::{Fault, notification};
 use lsp_types::{
     CodeActionKind, CodeActionParams, CompletionItem, CompletionParams, CompletionTextEdit,
-    DocumentDiagnosticParams, DocumentFormattingParams, DocumentSymbolParams, Documentation,
-    FoldingRangeParams, GotoDefinitionParams, Hover, HoverContents, HoverParams, InlayHint, InlayHintKind,
-    InlayHintLabel, InlayHintParams, InlayHintTooltip, InsertTextFormat, Location, MarkupContent, MarkupKind,
-    Position, Range, ReferenceParams, RenameParams, SemanticTokens, SemanticTokensParams,
-    TextDocumentIdentifier, TextDocumentPositionParams, TextEdit, WorkspaceSymbolParams,
+    DocumentDiagnosticParams, DocumentFormattingParams, DocumentSymbol, DocumentSymbolParams, Documentation,
+    FoldingRange, FoldingRangeParams, GotoDefinitionParams, Hover, HoverContents, HoverParams, InlayHint,
+    InlayHintKind, InlayHintLabel, InlayHintParams, InlayHintTooltip, InsertTextFormat, Location,
+    MarkupContent, MarkupKind, Position, Range, ReferenceParams, RenameParams, SemanticTokens,
+    SemanticTokensParams, TextDocumentIdentifier, TextDocumentPositionParams, TextEdit,
+    WorkspaceSymbolParams,
 };
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -42,9 +43,9 @@ pub(super) type Answer = Result<Value, (Fault, String)>;
 
 /// What the server can do, in what this client understands.
 pub(super) fn introduction(server: &Server) -> Value {
-    let diagnostics = match server.telling {
-        Telling::Unasked => Value::Null,
-        Telling::OnRequest => json!({
+    let diagnostics = match server.delivery {
+        Delivery::Pushed => Value::Null,
+        Delivery::Pulled => json!({
             "identifier": "vcutc", "interFileDependencies": true, "workspaceDiagnostics": false,
         }),
     };
@@ -87,9 +88,9 @@ pub(super) fn warning(text: &str) -> Value {
     notification("window/logMessage", &json!({ "type": WARNING, "message": text }))
 }
 
-/// Asks the client to tell when files that jobs name change on the disk.
+/// Asks the client to notify of changes of files that jobs name.
 pub(super) fn watch_files() -> Value {
-    // Drawings often come with endings in capitals, which some clients tell apart.
+    // Drawings often come with endings in capitals, which some clients distinguish.
     let endings = "vcut,toml,urdf,csv,dat,txt,dxf,svg,CSV,DAT,TXT,DXF,SVG";
     let watchers = json!([{ "globPattern": format!("**/*.{{{endings}}}") }]);
     let registration = json!({
@@ -107,24 +108,24 @@ pub(super) fn watch_files() -> Value {
 
 /// Meets a request.
 pub(super) fn meet(server: &mut Server, method: &str, params: Value, files: &dyn Workspace) -> Answer {
-    match method {
-        "textDocument/hover" => hovered(server, parsed(params)?),
-        "textDocument/completion" => completed(server, parsed(params)?, files),
-        "textDocument/definition" => defined(server, parsed(params)?),
-        "textDocument/references" => referred(server, parsed(params)?, files),
-        "textDocument/documentHighlight" => highlighted(server, parsed(params)?),
-        "textDocument/documentSymbol" => outlined(server, parsed(params)?),
-        "workspace/symbol" => found(server, &parsed(params)?, files),
-        "textDocument/codeAction" => mended(server, parsed(params)?),
-        "textDocument/prepareRename" => renamable(server, parsed(params)?),
-        "textDocument/rename" => renamed(server, parsed(params)?, files),
-        "textDocument/formatting" => formatted(server, parsed(params)?),
-        "textDocument/foldingRange" => folded(server, parsed(params)?),
-        "textDocument/inlayHint" => hinted(server, parsed(params)?),
-        "textDocument/diagnostic" => told(server, &parsed(params)?),
-        "textDocument/semanticTokens/full" => coloured(server, parsed(params)?),
-        _ => Err((Fault::MethodNotFound, format!("there is no method `{method}`"))),
-    }
+    Ok(match method {
+        "textDocument/hover" => json!(hovered(server, parsed(params)?)),
+        "textDocument/completion" => json!(completed(server, parsed(params)?, files)),
+        "textDocument/definition" => json!(defined(server, parsed(params)?)),
+        "textDocument/references" => json!(referred(server, parsed(params)?, files)),
+        "textDocument/documentHighlight" => json!(highlighted(server, parsed(params)?)),
+        "textDocument/documentSymbol" => json!(outlined(server, parsed(params)?)),
+        "workspace/symbol" => json!(found(server, &parsed(params)?, files)),
+        "textDocument/codeAction" => json!(quick_fixes(server, parsed(params)?)),
+        "textDocument/prepareRename" => renamable(server, parsed(params)?)?,
+        "textDocument/rename" => renamed(server, parsed(params)?, files)?,
+        "textDocument/formatting" => json!(formatted(server, parsed(params)?)),
+        "textDocument/foldingRange" => json!(folded(server, parsed(params)?)),
+        "textDocument/inlayHint" => json!(hinted(server, parsed(params)?)),
+        "textDocument/diagnostic" => reported(server, &parsed(params)?),
+        "textDocument/semanticTokens/full" => json!(coloured(server, parsed(params)?)),
+        _ => return Err((Fault::MethodNotFound, format!("there is no method `{method}`"))),
+    })
 }
 
 /// An open document with what is known of it.
@@ -143,9 +144,9 @@ fn asked<'s>(server: &'s Server, document: &TextDocumentIdentifier) -> Option<As
 }
 
 /// The diagnostics of a document.
-fn told(server: &Server, params: &DocumentDiagnosticParams) -> Answer {
+fn reported(server: &Server, params: &DocumentDiagnosticParams) -> Value {
     let items = server.asked_for(&path_of(&params.text_document.uri));
-    Ok(json!({ "kind": "full", "items": items }))
+    json!({ "kind": "full", "items": items })
 }
 
 fn markdown(value: String) -> MarkupContent {
@@ -155,24 +156,24 @@ fn markdown(value: String) -> MarkupContent {
     }
 }
 
-fn hovered(server: &Server, params: HoverParams) -> Answer {
+fn hovered(server: &Server, params: HoverParams) -> Option<Hover> {
     let at = params.text_document_position_params;
-    let told = asked(server, &at.text_document).and_then(|asked| {
-        let offset = asked.text.offset(at.position);
-        let told = hover(asked.analysis, &asked.path, offset, &server.targets)?;
-        Some(Hover {
-            contents: HoverContents::Markup(markdown(told.text)),
-            range: Some(asked.text.range(told.span.bytes())),
-        })
-    });
-    Ok(json!(told))
+    let asked = asked(server, &at.text_document)?;
+    let offset = asked.text.offset(at.position);
+    let found = hover(asked.analysis, &asked.path, offset, &server.targets)?;
+    Some(Hover {
+        contents: HoverContents::Markup(markdown(found.text)),
+        range: Some(asked.text.range(found.span.bytes())),
+    })
 }
 
-fn completed(server: &Server, params: CompletionParams, files: &dyn Workspace) -> Answer {
+fn completed(
+    server: &Server,
+    params: CompletionParams,
+    files: &dyn Workspace,
+) -> Option<Vec<CompletionItem>> {
     let at = params.text_document_position;
-    let Some(asked) = asked(server, &at.text_document) else {
-        return Ok(Value::Null);
-    };
+    let asked = asked(server, &at.text_document)?;
     let offset = asked.text.offset(at.position);
     let folder = Folder {
         file: &asked.path,
@@ -186,12 +187,8 @@ fn completed(server: &Server, params: CompletionParams, files: &dyn Workspace) -
         &folder,
     );
     let range = asked.text.range(found.replaces);
-    let items: Vec<CompletionItem> = found
-        .offers
-        .into_iter()
-        .map(|offer| item(offer, range, server.insertion))
-        .collect();
-    Ok(json!(items))
+    let offers = found.offers.into_iter();
+    Some(offers.map(|offer| item(offer, range, server.insertion)).collect())
 }
 
 fn item(offer: Offer, range: Range, insertion: Insertion) -> CompletionItem {
@@ -249,16 +246,14 @@ fn location(server: &Server, analysis: &Analysis, span: Span) -> Option<Location
     })
 }
 
-fn defined(server: &Server, params: GotoDefinitionParams) -> Answer {
+fn defined(server: &Server, params: GotoDefinitionParams) -> Option<Location> {
     let at = params.text_document_position_params;
-    let Some(asked) = asked(server, &at.text_document) else {
-        return Ok(Value::Null);
-    };
+    let asked = asked(server, &at.text_document)?;
     let offset = asked.text.offset(at.position);
-    if let Some(definition) = definition_at(asked.analysis, &asked.path, offset) {
-        return Ok(json!(location(server, asked.analysis, definition.name.span)));
+    match definition_at(asked.analysis, &asked.path, offset) {
+        Some(definition) => location(server, asked.analysis, definition.name.span),
+        None => named_file(server, &asked, offset),
     }
-    Ok(json!(named_file(server, &asked, offset)))
 }
 
 /// The file that the text under the cursor names.
@@ -293,10 +288,8 @@ fn users_of_name(
     Some((name, users))
 }
 
-fn referred(server: &mut Server, params: ReferenceParams, files: &dyn Workspace) -> Answer {
-    let Some((name, users)) = users_of_name(server, &params.text_document_position, files) else {
-        return Ok(Value::Null);
-    };
+fn referred(server: &mut Server, params: ReferenceParams, files: &dyn Workspace) -> Option<Vec<Location>> {
+    let (name, users) = users_of_name(server, &params.text_document_position, files)?;
     let users: Vec<&Analysis> = users.iter().collect();
     let mut found: Vec<Location> = Vec::new();
     for (path, (text, spans)) in places(&users, &name, server.documents.encoding) {
@@ -315,44 +308,37 @@ fn referred(server: &mut Server, params: ReferenceParams, files: &dyn Workspace)
         });
         found.retain(|place| Some(place) != definition.as_ref());
     }
-    Ok(json!(found))
+    Some(found)
 }
 
-fn highlighted(server: &Server, params: lsp_types::DocumentHighlightParams) -> Answer {
+fn highlighted(server: &Server, params: lsp_types::DocumentHighlightParams) -> Option<Vec<Value>> {
     let at = params.text_document_position_params;
-    let Some(asked) = asked(server, &at.text_document) else {
-        return Ok(Value::Null);
-    };
+    let asked = asked(server, &at.text_document)?;
     let offset = asked.text.offset(at.position);
-    let Some(name) = name_at(asked.analysis, &asked.path, offset) else {
-        return Ok(Value::Null);
-    };
-    let places: Vec<Value> = occurrences(asked.analysis, &name.text)
-        .into_iter()
-        .filter(|span| span.file == name.span.file)
-        .map(|span| json!({ "range": asked.text.range(span.bytes()) }))
-        .collect();
-    Ok(json!(places))
+    let name = name_at(asked.analysis, &asked.path, offset)?;
+    let spans = occurrences(asked.analysis, &name.text).into_iter();
+    let in_file = spans.filter(|span| span.file == name.span.file);
+    Some(
+        in_file
+            .map(|span| json!({ "range": asked.text.range(span.bytes()) }))
+            .collect(),
+    )
 }
 
-fn folded(server: &Server, params: FoldingRangeParams) -> Answer {
-    let folds = asked(server, &params.text_document).and_then(|asked| {
-        let (_, ast) = asked.analysis.file(&asked.path)?;
-        Some(folds(ast, asked.text))
-    });
-    Ok(json!(folds))
+fn folded(server: &Server, params: FoldingRangeParams) -> Option<Vec<FoldingRange>> {
+    let asked = asked(server, &params.text_document)?;
+    let (_, ast) = asked.analysis.file(&asked.path)?;
+    Some(folds(ast, asked.text))
 }
 
-fn outlined(server: &Server, params: DocumentSymbolParams) -> Answer {
-    let outline = asked(server, &params.text_document).and_then(|asked| {
-        let (_, ast) = asked.analysis.file(&asked.path)?;
-        Some(symbols(ast, asked.text))
-    });
-    Ok(json!(outline))
+fn outlined(server: &Server, params: DocumentSymbolParams) -> Option<Vec<DocumentSymbol>> {
+    let asked = asked(server, &params.text_document)?;
+    let (_, ast) = asked.analysis.file(&asked.path)?;
+    Some(symbols(ast, asked.text))
 }
 
 /// What the files of the workspace define, by a part of its name.
-fn found(server: &mut Server, params: &WorkspaceSymbolParams, files: &dyn Workspace) -> Answer {
+fn found(server: &mut Server, params: &WorkspaceSymbolParams, files: &dyn Workspace) -> Vec<Value> {
     let wanted = params.query.to_lowercase();
     let encoding = server.documents.encoding;
     let mut found: Vec<Value> = Vec::new();
@@ -379,23 +365,23 @@ fn found(server: &mut Server, params: &WorkspaceSymbolParams, files: &dyn Worksp
             break;
         }
     }
-    Ok(json!(found))
+    found
 }
 
 /// The fixes of the diagnostics that touch a range.
-fn mended(server: &Server, params: CodeActionParams) -> Answer {
+fn quick_fixes(server: &Server, params: CodeActionParams) -> Vec<Value> {
     let path = path_of(&params.text_document.uri);
     let mut actions: Vec<Value> = Vec::new();
     for known in server.documents.speaking() {
-        let (sources, diagnostics) = known.told();
+        let (sources, diagnostics) = known.reported();
         let mut lines = Lines::of(sources, server.documents.encoding);
         for diagnostic in diagnostics {
-            let (of_file, told) = in_protocol(diagnostic, |path| known.file(path).is_some(), &mut lines);
-            if of_file != path || !touches(told.range, params.range) {
+            let (of_file, reported) = in_protocol(diagnostic, |path| known.file(path).is_some(), &mut lines);
+            if of_file != path || !touches(reported.range, params.range) {
                 continue;
             }
             for fix in &diagnostic.fixes {
-                let Some(mut action) = action(fix, &told, &mut lines) else {
+                let Some(mut action) = action(fix, &reported, &mut lines) else {
                     continue;
                 };
                 action["isPreferred"] = json!(diagnostic.fixes.len() == 1);
@@ -407,19 +393,19 @@ fn mended(server: &Server, params: CodeActionParams) -> Answer {
         for hint in known.hints() {
             let shown = hint_in_protocol(hint, &mut lines);
             let touched =
-                shown.filter(|(of_file, told)| *of_file == path && touches(told.range, params.range));
-            actions.extend(touched.and_then(|(_, told)| action(&hint.fix, &told, &mut lines)));
+                shown.filter(|(of_file, reported)| *of_file == path && touches(reported.range, params.range));
+            actions.extend(touched.and_then(|(_, reported)| action(&hint.fix, &reported, &mut lines)));
         }
     }
-    Ok(json!(actions))
+    actions
 }
 
 /// A change that an editor can make; none where it has no place in a file.
-fn action(fix: &Fix, told: &lsp_types::Diagnostic, lines: &mut Lines<'_>) -> Option<Value> {
+fn action(fix: &Fix, reported: &lsp_types::Diagnostic, lines: &mut Lines<'_>) -> Option<Value> {
     Some(json!({
         "title": capitalised(&fix.title),
         "kind": CodeActionKind::QUICKFIX,
-        "diagnostics": [told],
+        "diagnostics": [reported],
         "edit": edits_of(fix, lines)?,
     }))
 }
@@ -477,40 +463,33 @@ fn renamed(server: &mut Server, params: RenameParams, files: &dyn Workspace) -> 
     Ok(workspace_edit(changes))
 }
 
-fn formatted(server: &Server, params: DocumentFormattingParams) -> Answer {
+fn formatted(server: &Server, params: DocumentFormattingParams) -> Option<Vec<TextEdit>> {
     let path = path_of(&params.text_document.uri);
-    let edits = server.documents.texts.get(&path).and_then(formatting);
-    Ok(json!(edits))
+    server.documents.texts.get(&path).and_then(formatting)
 }
 
-fn hinted(server: &Server, params: InlayHintParams) -> Answer {
-    let Some(asked) = asked(server, &params.text_document) else {
-        return Ok(Value::Null);
-    };
+fn hinted(server: &Server, params: InlayHintParams) -> Option<Vec<InlayHint>> {
+    let asked = asked(server, &params.text_document)?;
     let within = asked.text.offset(params.range.start)..asked.text.offset(params.range.end);
-    let found: Vec<InlayHint> = hints(asked.analysis, &asked.path, within)
-        .into_iter()
-        .map(|hint| InlayHint {
-            position: asked.text.position(hint.at),
-            label: InlayHintLabel::String(format!("= {}", hint.value)),
-            kind: Some(InlayHintKind::TYPE),
-            text_edits: None,
-            tooltip: (!hint.why.is_empty()).then_some(InlayHintTooltip::String(hint.why)),
-            padding_left: Some(true),
-            padding_right: None,
-            data: None,
-        })
-        .collect();
-    Ok(json!(found))
+    let hints = hints(asked.analysis, &asked.path, within).into_iter();
+    let shown = hints.map(|hint| InlayHint {
+        position: asked.text.position(hint.at),
+        label: InlayHintLabel::String(format!("= {}", hint.value)),
+        kind: Some(InlayHintKind::TYPE),
+        text_edits: None,
+        tooltip: (!hint.why.is_empty()).then_some(InlayHintTooltip::String(hint.why)),
+        padding_left: Some(true),
+        padding_right: None,
+        data: None,
+    });
+    Some(shown.collect())
 }
 
-fn coloured(server: &Server, params: SemanticTokensParams) -> Answer {
-    let tokens = asked(server, &params.text_document).and_then(|asked| {
-        let (_, ast) = asked.analysis.file(&asked.path)?;
-        Some(SemanticTokens {
-            result_id: None,
-            data: semantic_tokens(ast, asked.analysis.study.operations, asked.text),
-        })
-    });
-    Ok(json!(tokens))
+fn coloured(server: &Server, params: SemanticTokensParams) -> Option<SemanticTokens> {
+    let asked = asked(server, &params.text_document)?;
+    let (_, ast) = asked.analysis.file(&asked.path)?;
+    Some(SemanticTokens {
+        result_id: None,
+        data: semantic_tokens(ast, asked.analysis.study.operations, asked.text),
+    })
 }
