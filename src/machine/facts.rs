@@ -37,6 +37,14 @@ pub struct Sources {
     pub list: Vec<String>,
 }
 
+impl Sources {
+    /// Those that a table states under a key.
+    pub(super) fn read(of: &'static str, table: &Table<'_>, key: &str, faults: &mut Vec<Diagnostic>) -> Self {
+        let list = table.texts(key, faults);
+        Self { of, list }
+    }
+}
+
 /// A pose of the flange that others publish or compute, with which the model of a sheet is tested.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FkCheck {

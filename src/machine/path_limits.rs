@@ -9,7 +9,7 @@
 //! source = "machine data MD32300"
 //! ```
 //!
-//! Limits of the axes stand with the axes. A key that is left out is not known, and limits nothing.
+//! Limits of the axes are stated with the axes. A key that is left out is unknown, and limits nothing.
 
 use super::facts::Sources;
 use super::ranges::{SLIDING_ACCELERATION, SLIDING_JERK, TURNING_ACCELERATION, TURNING_JERK};
@@ -62,10 +62,7 @@ pub(super) fn read(
     let Some(table) = root.table(KEY, FIELDS, faults) else {
         return PathLimits::UNKNOWN;
     };
-    sources.push(Sources {
-        of: "path",
-        list: table.texts("source", faults),
-    });
+    sources.push(Sources::read("path", &table, "source", faults));
     remarks.extend(table.text("note", faults).map(str::to_owned));
     let mut number = |key| table.number(key, faults);
     PathLimits {

@@ -1,6 +1,6 @@
 //! Sheets: descriptions of machines as TOML, of the catalogue and of users alike.
 //!
-//! What a sheet needs is its `model`, the geometry, and the limits of the axes; all the rest tells people where the
+//! What a sheet needs is its `model`, the geometry, and the limits of the axes; all the rest explains where the
 //! numbers come from and how far to trust them ([`Facts`]). `docs/machines.md` has the form. One form is read for robots
 //! and one for five-axis machines; the key `kind` says which.
 

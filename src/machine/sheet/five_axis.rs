@@ -128,10 +128,8 @@ impl Names<'_> {
 fn read(root: &Table<'_>, _: Maker, faults: &mut Vec<Diagnostic>) -> Option<Body> {
     let mut body = Body::default();
     let table = root.table("arrangement", ARRANGEMENT, faults)?;
-    body.sources.push(Sources {
-        of: "arrangement",
-        list: table.texts("source", faults),
-    });
+    body.sources
+        .push(Sources::read("arrangement", &table, "source", faults));
     body.remarks.extend(table.text("note", faults).map(str::to_owned));
     let names = names(&table, faults);
     let nose = table.numbers("nose_mm", faults).map(DVec3::from_array);

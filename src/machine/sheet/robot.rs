@@ -95,10 +95,8 @@ fn read(root: &Table<'_>, maker: Maker, faults: &mut Vec<Diagnostic>) -> Option<
 /// The arm, as one without coupling.
 fn arm(root: &Table<'_>, body: &mut Body, faults: &mut Vec<Diagnostic>) -> Option<Opw> {
     let opw = root.table("opw", OPW, faults)?;
-    body.sources.push(Sources {
-        of: "lengths",
-        list: opw.texts("source", faults),
-    });
+    body.sources
+        .push(Sources::read("lengths", &opw, "source", faults));
     let lengths = ["a1_mm", "a2_mm", "b_mm", "c1_mm", "c2_mm", "c3_mm", "c4_mm"];
     let [a1, a2, b, c1, c2, c3, c4] = lengths.map(|key| opw.number(key, faults));
     let offsets: Option<[f64; 6]> = opw.numbers("joint_offsets_deg", faults);
@@ -137,10 +135,8 @@ fn coupling(root: &Table<'_>, body: &mut Body, faults: &mut Vec<Diagnostic>) -> 
         return Some(Coupling::Serial);
     }
     let table = root.table("coupling", COUPLING, faults)?;
-    body.sources.push(Sources {
-        of: "coupling",
-        list: table.texts("source", faults),
-    });
+    body.sources
+        .push(Sources::read("coupling", &table, "source", faults));
     for key in ["axis3_reference", "limits_note", "wrist_note"] {
         body.remarks.extend(table.text(key, faults).map(str::to_owned));
     }
@@ -171,10 +167,7 @@ fn axes(root: &Table<'_>, maker: Maker, body: &mut Body, faults: &mut Vec<Diagno
         ("accelerations", "accelerations_source"),
         ("jerks", "jerks_source"),
     ] {
-        body.sources.push(Sources {
-            of,
-            list: table.texts(key, faults),
-        });
+        body.sources.push(Sources::read(of, &table, key, faults));
     }
     body.remarks
         .extend(table.text("limits_note", faults).map(str::to_owned));
