@@ -60,7 +60,7 @@ codes! {
     UnclosedText = "VC0104", Error, "unclosed text in quotes";
     /// Brackets are nested too deeply.
     NestedTooDeeply = "VC0105", Error, "brackets nested too deeply";
-    /// A number that cannot be held.
+    /// A number that is too large.
     NumberTooLarge = "VC0106", Error, "number too large";
     /// A file is not UTF-8.
     NotUtf8 = "VC0107", Error, "file that is not UTF-8 text";
@@ -201,7 +201,7 @@ codes! {
     TargetRange = "VC0606", Error, "number outside the target's range";
     /// A machine that the target does not drive.
     WrongMachine = "VC0607", Error, "machine that the target does not drive";
-    /// A file with the habits of a machine that is no such file.
+    /// An invalid profile of a machine.
     BadProfile = "VC0608", Error, "invalid profile of a machine";
     /// A target that is a program of its own, which did not do its work.
     OutsideProgram = "VC0609", Error, "failed program of a target";
@@ -218,7 +218,7 @@ codes! {
     OtherSetting = "VC0705", Error, "changed setting in a program";
     /// A statement whose effect is not known.
     UnknownStatement = "VC0706", Error, "unknown statement in a program";
-    /// Text that is no statement.
+    /// Text that is not a statement.
     UnreadableStatement = "VC0707", Error, "unreadable statement in a program";
 
     /// A program that breaks a rule of the process.
@@ -230,7 +230,7 @@ codes! {
     /// A program that was not checked further.
     ChecksLeftOut = "VC0711", Warning, "checks of a program left out";
 
-    /// A list of programs that is no such list.
+    /// An invalid list of programs.
     BadManifest = "VC0801", Error, "invalid list of programs";
     /// A list of programs with a job that is not there.
     NoSuchJob = "VC0802", Error, "missing job in a list of programs";
@@ -256,7 +256,7 @@ codes! {
     TipInPart = "VC1002", Error, "given tip that cuts into the part";
     /// A given tip that cuts nothing.
     TipCutsNothing = "VC1003", Warning, "given tip that cuts nothing";
-    /// A motion of a milling program that is no pass.
+    /// A motion of a milling program that is not a pass.
     NoPass = "VC1004", Error, "motion that cannot become a V-cut";
     /// A milling program whose motions cannot be followed.
     NotFollowed = "VC1005", Error, "milling program that cannot be followed";

@@ -8,7 +8,7 @@ use super::position::position;
 use super::{Diagnostic, Severity};
 use crate::source::SourceMap;
 
-/// A line beside which something is told.
+/// A line with an annotation.
 #[derive(Clone, Copy, Debug)]
 pub struct Annotation<'a> {
     /// How bad it is.
@@ -43,7 +43,7 @@ impl Annotation<'_> {
     }
 }
 
-/// All diagnostics, a command each. Texts that are no files (such as a `--set`) are named in the message.
+/// All diagnostics, a command each. Texts that are not files (such as a `--set`) are named in the message.
 #[must_use]
 pub fn annotations(diagnostics: &[Diagnostic], sources: &SourceMap) -> String {
     diagnostics

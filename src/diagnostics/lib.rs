@@ -1,4 +1,4 @@
-//! Diagnostics: what the compiler tells people about their job.
+//! Diagnostics: what the compiler reports about a job.
 //!
 //! Every stage pushes [`Diagnostic`]s, which are plain data; two renderers turn them into text ([`render`]) and JSON
 //! lines ([`json`]). A diagnostic names a permanent [`Code`], points at the place to change, points at the other party
@@ -37,7 +37,7 @@ pub struct Label {
     pub text: String,
 }
 
-/// A change of the source that mends the fault.
+/// A change of the source that corrects the fault.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fix {
     /// What it does, in the imperative: `use degrees`.
@@ -54,7 +54,7 @@ pub struct Edit {
     pub replacement: String,
 }
 
-/// One thing to tell.
+/// One report.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// Its permanent code.

@@ -9,7 +9,7 @@ pub struct Position {
     pub column: usize,
 }
 
-/// The place of a byte offset. Offsets within a character mean that character, offsets behind the text its end.
+/// The place of a byte offset. Offsets within a character mean that character, offsets after the text its end.
 #[must_use]
 pub fn position(text: &str, offset: u32) -> Position {
     let before = text.get(..floor(text, offset)).unwrap_or_default();

@@ -3,7 +3,7 @@
 //! The picture of the source with its labels is drawn by ariadne, and this is the only place that knows it; headline,
 //! notes and help are written here. Spans are not handed on as they are: ariadne panics at some and draws nothing at
 //! others, and it takes a file's lines to end at more characters than the compiler does. So it gets a copy of the text
-//! in which every character stands for one of the source and can be shown, and spans counted in characters that lie
+//! in which every character represents one of the source and can be shown, and spans counted in characters that lie
 //! within it.
 
 use super::position::{floor, position};
@@ -24,7 +24,7 @@ pub enum ColorChoice {
     Plain,
 }
 
-/// Lines longer than this many characters are not drawn: nobody could find the label in them.
+/// Lines longer than this many characters are not drawn: the label could not be found in them.
 const LONGEST_LINE: usize = 400;
 
 /// All diagnostics as text, an empty line after each.
@@ -243,7 +243,7 @@ impl Gallery<'_> {
         text
     }
 
-    /// Where a span lies in its picture. An empty one is widened to the character behind it.
+    /// Where a span lies in its picture. An empty one is widened to the character after it.
     fn place(&mut self, span: Span) -> Option<Place> {
         let file = self.sources.get(span.file)?;
         let start = floor(&file.text, span.start);

@@ -1,7 +1,7 @@
 //! Source texts and places in them.
 //!
 //! Files are asked of a [`Loader`], so that the compiler itself never touches a disk. Every text that a diagnostic
-//! can point into is a file of the [`SourceMap`], also texts that are no files, such as a `--set` of the command line.
+//! can point into is a file of the [`SourceMap`], also texts that are not files, such as a `--set` of the command line.
 
 use std::fmt;
 use std::ops::Range;
@@ -61,7 +61,7 @@ impl Span {
         }
     }
 
-    /// The empty stretch behind this one.
+    /// The empty stretch after this one.
     #[must_use]
     pub const fn after(self) -> Self {
         Self {
@@ -79,7 +79,7 @@ impl fmt::Debug for Span {
     }
 }
 
-/// Something together with where it stands.
+/// Something with its place.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Spanned<T> {
     pub node: T,
@@ -135,7 +135,7 @@ impl SourceMap {
         id
     }
 
-    /// The text behind an id of this map.
+    /// The text of an id of this map.
     #[must_use]
     pub fn get(&self, id: FileId) -> Option<&SourceFile> {
         self.files.get(id.0 as usize)
@@ -161,7 +161,7 @@ impl SourceMap {
     }
 }
 
-/// Gives the compiler the bytes behind a path.
+/// Gives the compiler the bytes at a path.
 pub trait Loader {
     /// The bytes of a file. `path` uses `/`, is free of `.` and inner `..`, and is relative to wherever the root job's
     /// own path is relative to.
@@ -232,7 +232,7 @@ pub const LARGEST_FILE: u64 = 64 << 20;
 /// A byte order mark stays in the text, so that byte offsets are those of the file; the parser passes over it.
 ///
 /// # Errors
-/// The number of bytes before the first that is no UTF-8.
+/// The number of bytes before the first that is not UTF-8.
 pub fn text_from_bytes(bytes: Vec<u8>) -> Result<String, usize> {
     String::from_utf8(bytes).map_err(|error| error.utf8_error().valid_up_to())
 }

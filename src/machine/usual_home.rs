@@ -1,4 +1,4 @@
-//! A home to begin with, where a job has none yet: a pose of the model that stands clear of its limits.
+//! A home to begin with, where a job has none yet: a pose of the model that is clear of its limits.
 
 use super::Model;
 use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind, Maker};

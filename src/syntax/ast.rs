@@ -1,18 +1,18 @@
 //! The syntax tree: what the text says, before anybody asks what it means.
 //!
 //! Blocks are kept general (words, then entries), so that a new kind of block or field needs no new grammar; only the
-//! profile's curves have a form of their own. Every node knows where it stands.
+//! profile's curves have a form of their own. Every node knows where it is.
 
 use vcutc_diagnostics::source::{Span, Spanned};
 
 /// One source file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ast {
-    /// What stands in it, in order. Text that could not be read is left out (and has been reported).
+    /// What is in it, in order. Text that could not be read is left out (and has been reported).
     pub items: Vec<Item>,
 }
 
-/// What can stand at the top of a file.
+/// What can be at the top of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Item {
     /// `job "name"`.
@@ -34,7 +34,7 @@ pub enum Item {
 pub struct Block {
     /// The words before the brace: `stock`, `blade dagger`, `rough vcut`, `machine cell = robot "kuka/kr210"`.
     pub head: Vec<Spanned<HeadPart>>,
-    /// What stands between the braces.
+    /// What is between the braces.
     pub entries: Vec<Entry>,
     /// From the first word to the closing brace.
     pub span: Span,
@@ -50,7 +50,7 @@ pub enum HeadPart {
     Equals,
 }
 
-/// What can stand in a block.
+/// What can be in a block.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Entry {
     /// `name = value`.
@@ -147,28 +147,28 @@ pub enum Curve {
     Points {
         /// The file.
         path: Spanned<String>,
-        /// Fields in braces behind it.
+        /// Fields in braces after it.
         options: Vec<Entry>,
     },
     /// `airfoil "file.dat"`, optionally with `{ fields }`.
     Airfoil {
         /// The file.
         path: Spanned<String>,
-        /// Fields in braces behind it.
+        /// Fields in braces after it.
         options: Vec<Entry>,
     },
     /// `dxf "file.dxf"`, optionally with `{ fields }`.
     Dxf {
         /// The file.
         path: Spanned<String>,
-        /// Fields in braces behind it.
+        /// Fields in braces after it.
         options: Vec<Entry>,
     },
     /// `svg "file.svg"`, optionally with `{ fields }`.
     Svg {
         /// The file.
         path: Spanned<String>,
-        /// Fields in braces behind it.
+        /// Fields in braces after it.
         options: Vec<Entry>,
     },
 }

@@ -9,7 +9,7 @@ use vcutc_diagnostics::source::Span;
 /// A statement that cannot be read.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bad<'t> {
-    /// Where the whole text stands.
+    /// Where the whole text is.
     pub(super) place: Place,
     /// The whole text as written.
     pub(super) text: &'t str,
@@ -53,17 +53,17 @@ pub(super) struct Fault<'r> {
     pub(super) found: Option<Token>,
     /// The one after it.
     pub(super) next: Option<Token>,
-    /// What could stand there instead.
+    /// What could be there instead.
     pub(super) expected: &'r [Rule],
 }
 
 impl Fault<'_> {
-    /// Whether this could stand there.
+    /// Whether this could be there.
     pub(super) fn expects(&self, rule: Rule) -> bool {
         self.expected.contains(&rule)
     }
 
-    /// Whether a value could stand there.
+    /// Whether a value could be there.
     pub(super) fn expects_value(&self) -> bool {
         [
             Rule::expression,

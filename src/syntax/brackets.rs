@@ -1,6 +1,6 @@
 //! Brackets, quotes and comments: checked and balanced before the grammar sees the text.
 //!
-//! A lost bracket is the mistake that spoils everything behind it, and a grammar can only say that the file ended too
+//! A lost bracket is the mistake that spoils everything after it, and a grammar can only say that the file ended too
 //! soon. So a look at the tokens comes first. When all is balanced nothing happens. When it is not, the tokens are gone
 //! through again, and this time the indentation is believed: a line that begins no further in than the line of an open
 //! bracket shows that the bracket should have been closed before. The result is a copy of the text, of the same length
@@ -22,7 +22,7 @@ pub(super) struct Balanced {
     pub(super) text: String,
     /// What was wrong, in the order found.
     pub(super) reports: Reports,
-    /// Stretches that were mended by guess: what cannot be read there has been reported already.
+    /// Stretches that were corrected by guess: what cannot be read there has been reported already.
     pub(super) doubtful: Vec<Range<usize>>,
 }
 
@@ -113,7 +113,7 @@ impl<'t> Scan<'t> {
             reports: Reports::default(),
             doubtful: Vec::new(),
         };
-        // A byte order mark is no character of the text.
+        // A byte order mark is not a character of the text.
         if text.starts_with('\u{feff}') {
             scan.blank(0..3);
         }
@@ -271,7 +271,7 @@ impl<'t> Scan<'t> {
         }
     }
 
-    /// Reports an opening bracket that nothing closes before `missed` (or the end of the file), and mends the copy.
+    /// Reports an opening bracket that nothing closes before `missed` (or the end of the file), and corrects the copy.
     fn unclosed(&mut self, bracket: Bracket, opener: Token, missed: Option<Token>) {
         self.is_matched = false;
         let (opening, closing) = (bracket.opening(), bracket.closing());
@@ -340,7 +340,7 @@ impl<'t> Scan<'t> {
         false
     }
 
-    /// Puts a closing bracket behind everything, on a line of its own as the last one may end in a comment.
+    /// Puts a closing bracket after everything, on a line of its own as the last one may end in a comment.
     fn append(&mut self, bracket: Bracket) {
         let line = match bracket {
             Bracket::Round => b"\n)",
@@ -442,7 +442,7 @@ impl<'t> Scan<'t> {
             )
             .fix("end it with `\"`", self.span(end..end), "\""),
         );
-        // A quote behind a backslash would not end the text.
+        // A quote after a backslash would not end the text.
         let is_free = !self.slice(token).ends_with('\\');
         match self.mended.get_mut(end) {
             Some(byte @ (b' ' | b'\t' | b'\r' | b'\n')) if is_free => *byte = b'"',

@@ -130,7 +130,7 @@ impl<'t> Builder<'t> {
         Some(Block { head, entries, span })
     }
 
-    /// A profile in its short form, as the block that it stands for.
+    /// A profile in its short form, as the block that it abbreviates.
     fn file_profile(&mut self, pair: Pair<'_, Rule>) -> Option<Block> {
         let span = self.place.span_of(&pair);
         let word = find(pair.clone(), Rule::profile_word)?;

@@ -24,7 +24,7 @@ static PRECEDENCE: ConstPrattParser<Rule, 6> = ConstPrattParser::new_const([
 ]);
 
 impl Builder<'_> {
-    /// A whole value; `None` when it cannot be held, which has then been reported.
+    /// A whole value; `None` when it is too large, which has then been reported.
     pub(super) fn value(&mut self, pair: Pair<'_, Rule>) -> Option<Spanned<Expr>> {
         let operators = pair
             .clone()

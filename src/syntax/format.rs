@@ -3,7 +3,7 @@
 //! `docs/fmt.md` says what the layout is. It is made in three steps: [`mod@read`] cuts the text into statements, each with its words
 //! and the comments around them; [`lines`] decides which statements share a column and which blocks stay on one line; and
 //! [`value`] puts the words of one statement into a [`doc`], which wraps where lines would be too long. [`spacing`] says what
-//! stands between two words.
+//! is between two words.
 //!
 //! A formatter that changes what a job says would be worse than none. So the result is read once more before anybody gets it:
 //! unless it has the same statements of the same words and the same comments in the same order, it is refused.

@@ -218,7 +218,7 @@ fn number(rest: &str) -> usize {
         Some(b'.') => digits(whole + 1),
         _ => whole,
     };
-    // A point without digits behind it is not part of the number.
+    // A point without digits after it is not part of the number.
     let mantissa = if fraction > whole + 1 { fraction } else { whole };
     let sign = match rest.as_bytes().get(mantissa..).unwrap_or_default() {
         [b'e' | b'E', b'+' | b'-', ..] => 2,

@@ -1,6 +1,6 @@
 //! From text to tree.
 //!
-//! [`parse`] never fails and never panics: what it cannot read it reports and leaves out, and goes on behind it. It
+//! [`parse`] never fails and never panics: what it cannot read it reports and leaves out, and goes on after it. It
 //! works in three steps:
 //!
 //! 1. `brackets` looks at brackets, quotes and comments, reports what is lost there and balances the text;
@@ -47,7 +47,7 @@ pub fn parse(file: FileId, text: &str, diagnostics: &mut Vec<Diagnostic>) -> Ast
     ast
 }
 
-/// The report on a file that is no UTF-8. `span` is where the file is asked for, or its own beginning, `name` is what
+/// The report on a file that is not UTF-8. `span` is where the file is asked for, or its own beginning, `name` is what
 /// people call it, and `right` is the number of bytes before the first wrong one
 /// ([`text_from_bytes`](vcutc_diagnostics::source::text_from_bytes)).
 #[must_use]

@@ -1,17 +1,17 @@
-//! Where texts and what was read of them stand in their file.
+//! The places of texts, and of what was read of them, in their file.
 
 use super::grammar::Rule;
 use pest::iterators::Pair;
 use std::ops::Range;
 use vcutc_diagnostics::source::{FileId, Span, Spanned};
 
-/// Where the text at hand stands.
+/// Where the text at hand is.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) file: FileId,
     /// Bytes of the file before the text.
     pub(super) offset: usize,
-    /// Bytes of the text. Brackets that were put behind it to balance it are taken to stand at its end.
+    /// Bytes of the text. Brackets that were put after it to balance it count as being at its end.
     pub(super) length: usize,
 }
 

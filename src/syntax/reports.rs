@@ -2,7 +2,7 @@
 
 use vcutc_diagnostics::Diagnostic;
 
-/// How many mistakes of one file are told; behind so many the rest tends to be echoes.
+/// Most mistakes of one file that are reported; after so many the rest tends to be consequences.
 const MOST: usize = 20;
 
 /// What is wrong, with a count of what was left out.

@@ -228,7 +228,7 @@ const fn is_fancy_quote(c: char) -> bool {
     matches!(c, '\u{201c}' | '\u{201d}' | '\u{201e}' | '«' | '»')
 }
 
-/// Quotes of a word processor come in pairs, so both are mended.
+/// Quotes of a word processor come in pairs, so both are corrected.
 fn fancy_quotes(bad: &Bad<'_>, found: Token) -> Diagnostic {
     let line = bad.slice(found.start..bad.mended.len());
     let line = line.lines().next().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The grammar rule by rule, the shape of the tree, and texts that nobody would write.
+//! The grammar rule by rule, the shape of the tree, and hostile texts.
 
 use super::ast::{Curve, Entry, HeadPart, Item, Operator};
 use super::*;

@@ -130,7 +130,7 @@ impl Dimension {
         text.trim_end().to_owned()
     }
 
-    /// How much one of [`Self::unit`] is in the units that values are held in (mm, rad, s, kg).
+    /// How much one of [`Self::unit`] is in the units in which values are stored (mm, rad, s, kg).
     pub fn unit_size(self) -> f64 {
         match self.angle {
             0 => 1.0,

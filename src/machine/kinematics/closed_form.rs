@@ -1,4 +1,4 @@
-//! The closed form behind [`super::opw`]: from a pose to the joints of one branch, and back.
+//! The closed form of [`super::opw`]: from a pose to the joints of one branch, and back.
 //!
 //! Three stages follow the arm: axis 1 turns the arm's plane to the wrist centre, axes 2 and 3 are a triangle in that plane,
 //! axes 4, 5 and 6 turn the hand. All of it works on sines and cosines; angles are made at the end, by `atan2`, since `acos`
@@ -63,7 +63,7 @@ pub(super) struct Sides {
     pub(super) wrist: f64,
 }
 
-/// Where axes 1 and 4 stand in singular poses, which leave them free.
+/// Where axes 1 and 4 are in singular poses, which leave them free.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rest {
     /// Model angle of axis 1.

@@ -1,6 +1,6 @@
-//! Which of its ways to stand an arm has taken, in the terms of controllers: KUKA's status and turn, ABB's confdata.
+//! The branch of an arm in the terms of controllers: KUKA's status and turn, ABB's confdata.
 //!
-//! A pose alone does not say how an arm stands. Controllers add a few integers to it:
+//! A pose alone does not determine the branch. Controllers add a few integers to it:
 //!
 //! - **KUKA** status S, bits with the weights 1, 2, 4: the wrist centre behind axis 1; the forearm folded forward
 //!   (`A3 > phi`); A5 negative. Turn T, bits with the weights 1 to 32: A1 to A6 negative. (Beckhoff TF5200 "Status & Turn";
@@ -46,7 +46,7 @@ pub fn branch_words(branch: Branch) -> String {
     }
 }
 
-/// KUKA's status S; none for machines that are no such arms.
+/// KUKA's status S; none for other machines.
 #[must_use]
 pub const fn kuka_status(branch: Branch) -> Option<u8> {
     match branch {
@@ -74,7 +74,7 @@ pub fn kuka_turn(joints: &Joints) -> u8 {
         .fold(0, |turn, (axis, _)| turn | 1 << axis)
 }
 
-/// A border between two ways to stand, or between two values of a controller's integers.
+/// A border between two branches, or between two values of a controller's integers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Border {
     /// The wrist centre is over axis 1.
@@ -85,7 +85,7 @@ pub enum Border {
     Wrist,
 }
 
-/// The way in which an arm stands with these axis values.
+/// The branch of an arm at these axis values.
 #[must_use]
 pub fn branch_of(arm: &Opw, joints: &Joints) -> Branch {
     let stance = Stance::new(arm, joints);
@@ -117,7 +117,7 @@ pub fn borders(arm: &Opw, joints: &Joints) -> impl Iterator<Item = Border> + use
     [shoulder, elbow, wrist].into_iter().flatten()
 }
 
-/// What tells the ways of an arm apart.
+/// What distinguishes the branches of an arm.
 struct Stance {
     /// The wrist centre in the frame that turns with axis 1, to the front, in mm.
     wrist_x: f64,

@@ -1,6 +1,6 @@
 //! How fast a body moves for how fast the axes move: the geometric Jacobian.
 //!
-//! A column tells what one axis does alone at one unit of rate (1 rad/s, or 1 mm/s of a linear axis): the velocity of a
+//! A column is what one axis does alone at one unit of rate (1 rad/s, or 1 mm/s of a linear axis): the velocity of a
 //! point of the body and the angular velocity of the body, both along the axes of the **root**. With `J` the matrix of these
 //! columns, `twist = J rates`; the reverse, `rates = J^-1 twist`, is [Ha 2019] equation 16. It has
 //! no answer where the columns lose their independence: in singular poses.

@@ -10,7 +10,7 @@ use super::pose::Pose;
 use super::trig::{Turn, nearest, turn_of_any};
 use pulp::{Arch, NullaryFnOnce};
 
-/// How many stand side by side.
+/// How many are computed together.
 pub(super) const LANES: usize = 8;
 
 /// One number of each lane, in cache lines of its own.

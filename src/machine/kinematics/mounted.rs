@@ -1,4 +1,4 @@
-//! An ortho-parallel arm that stands otherwise in the root, or carries another flange, than [`Opw`] has it.
+//! An ortho-parallel arm with another base or another flange than [`Opw`] has.
 //!
 //! A description by others, such as a URDF, may put the root beside axis 1, hang the arm from a wall, or turn the flange's
 //! axes. Two constant poses take that into account; the closed form between them is the same.

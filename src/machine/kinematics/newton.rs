@@ -217,7 +217,7 @@ const SAME: f64 = 1e-5;
 const SINGULAR: f64 = 1e-7;
 
 /// Ways to bring the flange there, found from many starts spread evenly over all angles and always the same. Ways in singular
-/// poses are left out. They are numbered in the order of their angles, joint 1 first; the numbers tell the solutions of one
+/// poses are left out. They are numbered in the order of their angles, joint 1 first; the numbers distinguish the solutions of one
 /// pose apart and mean nothing for another pose.
 #[must_use]
 pub fn search(arm: &SerialArm, flange_in_root: &Pose) -> Solutions {
@@ -242,7 +242,7 @@ pub fn search(arm: &SerialArm, flange_in_root: &Pose) -> Solutions {
 }
 
 fn numbered(mut found: Vec<Joints>) -> Solutions {
-    // By steps that are far coarser than rounding, so that solutions which share an angle are told apart by the next one.
+    // By steps that are far coarser than rounding, so that solutions which share an angle are distinguished by the next one.
     found.sort_by_key(|joints| joints.map(|angle| (angle / SAME).round() as i64));
     let mut solutions = Solutions::NONE;
     for (number, joints) in (0..).zip(found) {

@@ -1,7 +1,7 @@
 //! Arms with an ortho-parallel basis and a spherical wrist (Brandstötter, Angerer, Hofbaur: An analytical solution of the
 //! inverse kinematics problem of industrial serial manipulators with an ortho-parallel basis and a spherical wrist, 2014).
 //!
-//! Axis 1 stands upright, axes 2 and 3 are square to it and parallel to one another, axes 4, 5 and 6 meet in the wrist
+//! Axis 1 is upright, axes 2 and 3 are square to it and parallel to one another, axes 4, 5 and 6 meet in the wrist
 //! centre. With model angles `q` the flange is at
 //!
 //! `T = Tz(c1) Rz(q1) Tx(a1) Ty(b) Ry(q2) Tz(c2) Ry(q3) T(a2, 0, c3) Rz(q4) Ry(q5) Rz(q6) Tz(c4)`
@@ -97,7 +97,7 @@ impl Opw {
     }
 
     /// The way on a branch, each joint within half a turn of `near`. In a singular pose the joint that the pose leaves free
-    /// (J1 with the wrist centre on axis 1, J4 with a stretched hand) stays where `near` has it.
+    /// (J1 with the wrist centre on axis 1, J4 with a stretched hand) stays as in `near`.
     #[must_use]
     pub fn on_branch(&self, flange_in_root: &Pose, branch: Branch, near: &Joints) -> Option<Joints> {
         OneBranch {

@@ -1,14 +1,14 @@
 //! Recognises an ortho-parallel arm with a spherical wrist among serial arms, so that a robot described by others gets the
 //! closed form of [`super::opw`].
 //!
-//! The lines of the joints at zero tell all: line 2 is square to line 1, line 3 parallel to line 2, line 4 square to line 3,
+//! The lines of the joints at zero determine everything: line 2 is square to line 1, line 3 parallel to line 2, line 4 square to line 3,
 //! line 5 square to lines 4 and 6, and lines 4, 5 and 6 meet in a point, the wrist. The lengths are then distances between
-//! them, the offsets are the angles at which the arm stands at zero, and a sign tells whether a line points the way in which
-//! the model counts. Where that leaves a choice, it is made so that arms stand as in their makers' data sheets: axis 1
+//! them, the offsets are the angles of the arm at zero, and a sign says whether a line points the way in which
+//! the model counts. Where that leaves a choice, it is made so that arms are as in their makers' data sheets: axis 1
 //! upwards, axis 2 before it (`a1 > 0`), the forearm outwards, the hand rolled by a quarter turn at most.
 //!
 //! Numbers in descriptions are rounded, a right angle often to `1.5708`, so lines are square and meet only nearly. The model
-//! is therefore held against the arm in many poses and taken only if the flange is the same within [`FIT`].
+//! is therefore compared with the arm in many poses and taken only if the flange is the same within [`FIT`].
 
 use super::Mechanism;
 use super::mounted::Mounted;

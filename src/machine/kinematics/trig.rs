@@ -24,7 +24,7 @@ pub struct Turn {
 }
 
 /// 1.5 * 2^52: added to a number below 2^51, it leaves no room for a fraction, so the sum is rounded to a whole number, half
-/// to even, whose last bits stand in the last bits of the mantissa.
+/// to even, whose last bits are the last bits of the mantissa.
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 /// pi/2 in three parts. The first two have 33 bits, so that their products with whole numbers below 2^20 are exact.

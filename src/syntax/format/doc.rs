@@ -34,10 +34,10 @@ pub(super) struct Group {
     flat: Option<usize>,
 }
 
-/// The column of comments behind code, counted from 0; behind longer code they stand two blanks away.
+/// The column of comments after code, counted from 0; after longer code they are two blanks away.
 const COMMENT_COLUMN: usize = 46;
 
-/// How many blanks stand before a comment behind code that ends in a column.
+/// How many blanks are before a comment after code that ends in a column.
 pub(super) fn blanks_before_comment(column: usize) -> usize {
     COMMENT_COLUMN.saturating_sub(column).max(2)
 }
@@ -159,7 +159,7 @@ impl Printer {
         }
     }
 
-    /// Whether a group fits on the line, with what cannot be broken off behind it.
+    /// Whether a group fits on the line, with what cannot be broken off after it.
     fn fits(&self, group: &Group, behind: &[Doc]) -> bool {
         let tail: usize = behind.iter().map_while(Doc::unbreakable).sum();
         group
@@ -176,7 +176,7 @@ impl Printer {
     }
 
     fn end_line(&mut self, indent: usize) {
-        // A line end never leaves blanks behind.
+        // A line never ends in blanks.
         self.text.truncate(self.text.trim_end_matches(' ').len());
         self.text.push('\n');
         self.text.extend(std::iter::repeat_n(' ', indent));

@@ -1,4 +1,4 @@
-//! Statements as lines: indentation, empty lines, shared columns, blocks on one line, comments behind statements.
+//! Statements as lines: indentation, empty lines, shared columns, blocks on one line, comments after statements.
 //!
 //! Nothing here depends on what a line of another statement looks like, with one exception: neighbours share the column of
 //! their `=`, so that a name longer than all its neighbours moves them. Empty lines and comments of their own line end such a
@@ -54,7 +54,7 @@ impl Writer {
         self.text.get(start..).unwrap_or_default().chars().count()
     }
 
-    /// Statements of one block or of the file, and the comments behind them.
+    /// Statements of one block or of the file, and the comments after them.
     fn statements(&mut self, statements: &[Statement<'_>], closing: &[Comment]) {
         let columns = columns(statements, self.depth);
         for (at, (statement, column)) in statements.iter().zip(columns).enumerate() {
@@ -110,7 +110,7 @@ impl Writer {
         }
     }
 
-    /// Comments between a head and its brace, and what stands before the brace.
+    /// Comments between a head and its brace, and what is before the brace.
     fn comments_before_brace(&mut self, comments: &[Comment]) {
         let mut line_ends = false;
         for comment in comments {

@@ -1,14 +1,14 @@
-//! A text as statements: each with its words, and with the comments before, in and behind it.
+//! A text as statements: each with its words, and with the comments before, in and after it.
 //!
 //! The tree says where statements begin and end; words and comments are the text's tokens. Commas between entries are left out,
-//! since line ends do as well; what stands between two statements is given to one of them. A comment on the line where a
+//! since line ends do as well; what is between two statements is given to one of them. A comment on the line where a
 //! statement ends belongs to that statement, every other one to what follows.
 
 use super::spacing::{Role, roles};
 use crate::ast::{Ast, Curve, Entry, Item};
 use crate::lexical::{Bracket, Token, TokenKind, tokens};
 
-/// What stands between a thing and the one before.
+/// What is between a thing and the one before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Gap {
     /// They are on one line.
@@ -19,7 +19,7 @@ pub(super) enum Gap {
     Apart,
 }
 
-/// A comment, with line ends of one kind and without blanks behind it.
+/// A comment, with line ends of one kind and without blanks after it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Comment {
     /// All of it, from `//` or `/*` on.
@@ -29,7 +29,7 @@ pub(super) struct Comment {
 }
 
 impl Comment {
-    /// Whether the line must end behind it.
+    /// Whether the line must end after it.
     pub(super) fn ends_its_line(&self) -> bool {
         self.text.starts_with("//")
     }
@@ -77,19 +77,19 @@ pub(super) struct Statement<'t> {
     pub(super) gap: Gap,
     pub(super) words: Vec<Word<'t>>,
     pub(super) body: Option<Body<'t>>,
-    /// Comments behind it.
+    /// Comments after it.
     pub(super) trailing: Vec<Comment>,
 }
 
-/// What stands between braces.
+/// What is between braces.
 #[derive(Clone, Debug)]
 pub(super) struct Body<'t> {
     /// Comments before the opening brace.
     pub(super) before: Vec<Comment>,
-    /// Comments on the line of the opening brace, if that line ends behind them.
+    /// Comments on the line of the opening brace, if that line ends after them.
     pub(super) opening: Vec<Comment>,
     pub(super) statements: Vec<Statement<'t>>,
-    /// Comments behind the last statement that do not belong to it.
+    /// Comments after the last statement that do not belong to it.
     pub(super) closing: Vec<Comment>,
     pub(super) extent: Extent,
 }
@@ -106,7 +106,7 @@ pub(super) enum Extent {
 #[derive(Clone, Debug)]
 pub(super) struct Source<'t> {
     pub(super) statements: Vec<Statement<'t>>,
-    /// Comments behind the last statement.
+    /// Comments after the last statement.
     pub(super) closing: Vec<Comment>,
 }
 
@@ -168,7 +168,7 @@ impl<'s> Said<'s> {
     fn words(&mut self, words: &'s [Word<'_>]) {
         for (at, word) in words.iter().enumerate() {
             self.comments(&word.comments);
-            // A comma behind the last value of a list says nothing.
+            // A comma after the last value of a list says nothing.
             let is_last = words.get(at + 1).is_some_and(|next| next.role == Role::Close);
             if !(word.role == Role::Comma && is_last) {
                 self.marks.push(Mark::Word(word.text, word.role));
@@ -184,7 +184,7 @@ impl<'s> Said<'s> {
 
 /// Comments between two statements, before they are given to either.
 struct Between {
-    /// Each with whether a comma stands before it.
+    /// Each with whether a comma precedes it.
     comments: Vec<(Comment, bool)>,
     /// What is before the next word.
     gap: Gap,
@@ -199,8 +199,8 @@ impl Between {
         }
     }
 
-    /// Those that belong to what is before them, and those of what follows. Without a line end in between, those behind a comma
-    /// (and behind a brace all) belong to what follows.
+    /// Those that belong to what is before them, and those of what follows. Without a line end in between, those after a comma
+    /// (and after a brace all) belong to what follows.
     fn split(mut self, is_ours: impl Fn(bool) -> bool) -> (Vec<Comment>, Following) {
         let on_the_line = |(comment, _): &(Comment, bool)| comment.gap == Gap::Beside;
         let count = self
@@ -244,7 +244,7 @@ struct Reader<'t> {
 
 impl<'t> Reader<'t> {
     fn new(text: &'t str) -> Self {
-        // A byte order mark is no character of the text, but the reader of tokens takes it for one.
+        // A byte order mark is not a character of the text, but the reader of tokens takes it for one.
         let is_mark = |token: &Token| token.start == 0 && text.starts_with('\u{feff}');
         Self {
             text,
@@ -283,7 +283,7 @@ impl<'t> Reader<'t> {
     fn between(&mut self) -> Between {
         let mut comments = Vec::new();
         let mut behind_comma = false;
-        // Where the last thing ended that is no comma.
+        // Where the last thing that is not a comma ended.
         let mut end = self.end;
         while let Some(token) = self.peek() {
             match token.kind {
@@ -315,7 +315,7 @@ impl<'t> Reader<'t> {
         Between { comments, gap }
     }
 
-    /// Statements one after the other, and the comments behind the last one.
+    /// Statements one after the other, and the comments after the last one.
     fn statements<N>(
         &mut self,
         start: Following,

@@ -1,4 +1,4 @@
-//! What the words of a statement are to one another, and what stands between two of them.
+//! What the words of a statement are to one another, and what is between two of them.
 
 use super::read::{Kind, Word};
 use crate::lexical::{Bracket, TokenKind};
@@ -24,7 +24,7 @@ pub(super) enum Role {
     Relation,
     /// `,` in a list.
     Comma,
-    /// `(` right behind the name of a function.
+    /// `(` right after the name of a function.
     CallOpen,
     /// Any other `(`.
     Open,
@@ -34,7 +34,7 @@ pub(super) enum Role {
     Odd,
 }
 
-/// What stands between two words on one line.
+/// What is between two words on one line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Spacing {
     None,
@@ -118,14 +118,14 @@ fn name(before: &[Word<'_>], word: &Word<'_>, is_outer_curve: bool) -> Role {
         [] if is_outer_curve => Role::Lead,
         [.., number] if number.kind == TokenKind::Number => Role::Unit,
         [.., slash] if slash.role == Role::UnitRest && slash.text == "/" => Role::UnitRest,
-        // `to` right behind `line`; behind a point only such a word can follow, and no name can.
+        // `to` right after `line`; after a point only such a word can follow, and no name can.
         [_] if is_outer_curve && word.text == "to" => Role::Lead,
         [.., point] if is_outer_curve && point.role == Role::Close => Role::Lead,
         _ => Role::Plain,
     }
 }
 
-/// What stands between a word and the one before.
+/// What is between a word and the one before.
 pub(super) fn between(previous: &Word<'_>, word: &Word<'_>) -> Spacing {
     match (previous.role, word.role) {
         (Role::Odd, _) | (_, Role::Odd) if word.touches => Spacing::None,

@@ -110,7 +110,7 @@ fn long_values_are_wrapped() {
         "p { tips // of these\n (1, 2) // behind\n // below\n (3, 4) }",
         "p {\n  tips                                        // of these\n    (1, 2)                                    // behind\n    // below\n    (3, 4)\n}\n",
     );
-    // A point has no comma behind its second value.
+    // A point has no comma after its second value.
     assert_layout(
         &format!("p {{\n  start ({a}{b}, {c}{a})\n}}"),
         &format!("p {{\n  start (\n      {a}{b},\n      {c}{a}\n    )\n}}\n")
@@ -228,7 +228,7 @@ fn texts_with_mistakes_are_refused_with_the_usual_messages() {
     assert_eq!(format(file, text), Err(parsed(text).1));
 }
 
-/// A tree without its places: what stands as `3..9` in it.
+/// A tree without its places: what is written as `3..9` in it.
 fn without_places(ast: &Ast) -> String {
     let mut shown = String::new();
     let mut rest = format!("{ast:?}");
@@ -266,7 +266,7 @@ fn comments(text: &str) -> Vec<String> {
     found
 }
 
-/// What may stand wherever blanks may.
+/// What may be wherever blanks may.
 fn gap() -> impl Strategy<Value = &'static str> {
     prop_oneof![
         6 => Just(""),

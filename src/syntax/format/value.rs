@@ -1,8 +1,8 @@
 //! The words of one statement as a [`Doc`]: where a value may be broken, and where its comments go.
 //!
 //! A value that is too long is broken before its operators, a piece of a profile before its points, a list of values in
-//! brackets at its commas, all of them: then a value that is added later is one line of a diff. A comment stays behind
-//! the word that it is behind; in a list it stays with the value on its line.
+//! brackets at its commas, all of them: then a value that is added later is one line of a diff. A comment stays after
+//! the word that it is after; in a list it stays with the value on its line.
 
 use super::doc::Doc;
 use super::read::{Comment, Gap, Kind, Word};
@@ -78,7 +78,7 @@ pub(super) fn statement(kind: Kind, words: &[Word<'_>], column: usize) -> Vec<Do
     docs
 }
 
-/// Words one after the other, behind the word `before`. What stands before the first of them is left to the caller.
+/// Words one after the other, after the word `before`. What is before the first of them is left to the caller.
 fn row(words: &[Word<'_>], before: Option<&Word<'_>>) -> Vec<Doc> {
     let mut docs = Vec::new();
     let mut previous = before;
@@ -101,7 +101,7 @@ fn row(words: &[Word<'_>], before: Option<&Word<'_>>) -> Vec<Doc> {
     docs
 }
 
-/// What stands before a word: the comments there, on the line of the word before or on lines of their own as they were, or
+/// What is before a word: the comments there, on the line of the word before or on lines of their own as they were, or
 /// the spacing.
 fn lead_in(word: &Word<'_>, spacing: Spacing, docs: &mut Vec<Doc>) {
     let mut line_ends = false;
@@ -126,7 +126,7 @@ fn lead_in(word: &Word<'_>, spacing: Spacing, docs: &mut Vec<Doc>) {
 #[derive(Clone, Copy)]
 enum Line {
     Words,
-    /// A comment. Those behind it are not moved to the column of comments behind words: read again, they all stand before the
+    /// A comment. Those after it are not moved to the column of comments after words: read again, they are all before the
     /// next word.
     Comment,
 }
@@ -164,7 +164,7 @@ fn list_length(words: &[Word<'_>]) -> usize {
     words.len()
 }
 
-/// Comments on the line of what is before them, if that line ends behind them, and the others.
+/// Comments on the line of what is before them, if that line ends after them, and the others.
 fn split_at_line_end(comments: &[Comment], gap: Gap) -> (&[Comment], &[Comment]) {
     let count = comments
         .iter()
@@ -174,7 +174,7 @@ fn split_at_line_end(comments: &[Comment], gap: Gap) -> (&[Comment], &[Comment])
     comments.split_at(if line_ends { count } else { 0 })
 }
 
-/// A value of a list: its words, and the comma behind it.
+/// A value of a list: its words, and the comma after it.
 type Value<'w, 't> = (&'w [Word<'t>], Option<&'w Word<'t>>);
 
 /// The values of a list.
@@ -256,13 +256,13 @@ fn bracketed(words: &[Word<'_>], before: Option<&Word<'_>>) -> Doc {
     ])
 }
 
-/// What is behind a value of a list.
+/// What is after a value of a list.
 struct Ending<'w, 't> {
     /// The comma.
     end: Option<&'w Word<'t>>,
     /// The first word of the next value, or the closing bracket.
     next: &'w Word<'t>,
-    /// What is behind the last value of a broken list.
+    /// What is after the last value of a broken list.
     last_comma: &'static str,
 }
 
@@ -316,7 +316,7 @@ fn one_value(value: &[Word<'_>], done: usize, ending: &Ending<'_, '_>, docs: &mu
     }
 }
 
-/// Comments behind a value of a list. The line of one that needs it ends with the next place where it can.
+/// Comments after a value of a list. The line of one that needs it ends with the next place where it can.
 fn trailing<'c>(comments: impl Iterator<Item = &'c Comment>, docs: &mut Vec<Doc>) {
     let mut line_ends = false;
     let mut line = Line::Words;
@@ -334,7 +334,7 @@ fn trailing<'c>(comments: impl Iterator<Item = &'c Comment>, docs: &mut Vec<Doc>
     }
 }
 
-/// Comments before a value of a list, and what stands between them and the value.
+/// Comments before a value of a list, and what is between them and the value.
 fn leading(comments: &[Comment], gap: Gap, docs: &mut Vec<Doc>) {
     for (at, comment) in comments.iter().enumerate() {
         let next = comments.get(at + 1).map_or(gap, |next| next.gap);

@@ -59,7 +59,7 @@ fn confdata_of_an_abb() {
     assert_eq!(abb(name, [0.0, -50.0, -100.0, 0.0, -30.0, 0.0])[3], 7);
 }
 
-/// Every published pose: the way told from axis values is the one on which the inverse finds them again.
+/// Every published pose: the branch found from axis values is the one on which the inverse finds them again.
 #[test]
 fn ways_are_those_of_the_inverse_kinematics() {
     let mut compared = 0;

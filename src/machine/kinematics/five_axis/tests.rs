@@ -115,7 +115,7 @@ fn same(a: &Joints, b: &Joints) -> bool {
 }
 
 /// The blade's postures (`docs/process.md`, "Frames and posture") with the blade frame a quarter turn about the nose's z, so
-/// that the blade stands in the middle of its range with all axes at zero.
+/// that the blade is in the middle of its range with all axes at zero.
 fn posture(alpha: f64, lean: f64) -> DMat3 {
     let upright = DMat3::from_cols(DVec3::Y, DVec3::X, DVec3::NEG_Z);
     let blade_in_nose = DMat3::from_rotation_z(-FRAC_PI_2);

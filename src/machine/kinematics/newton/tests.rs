@@ -177,7 +177,7 @@ fn what_is_out_of_reach_or_not_a_number_has_no_answer() {
     }
     assert_eq!(refine(&arm, &arm.forward(&[0.3; 6]), &[f64::NAN; 6]), None);
     assert_eq!(follow(&arm, &arm.forward(&[0.3; 6]), &[f64::INFINITY; 6]), None);
-    // A pose that is mirrored is no pose of a flange.
+    // A mirrored pose is not the pose of a flange.
     let mirrored = Pose {
         rotation: DMat3::from_diagonal(DVec3::new(1.0, 1.0, -1.0)),
         position: DVec3::new(700.0, 0.0, 200.0),

@@ -141,6 +141,6 @@ fn rounded_right_angles_are_right_angles() {
 #[test]
 fn other_arms_have_no_closed_form() {
     assert_eq!(closed_form(&ur10e()), None);
-    // A rod keeps the upper arm's inclination: the lines alone do not tell.
+    // A rod keeps the upper arm's inclination: the lines alone do not determine it.
     assert_eq!(closed_form(&SerialArm::from(&irb2400())), None);
 }
