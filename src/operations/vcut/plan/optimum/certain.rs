@@ -8,8 +8,7 @@
 //! distance from the kink is, within a box, at least in proportion to its square.
 
 use super::descent::{Meets, Rest};
-use super::ground::{Ground, Term};
-use super::search::swing;
+use super::ground::{Ground, Term, swing};
 use vcutc_geometry::number::{Interval, OnPlane, Scalar, Slopes};
 
 /// How far the first box that is tried reaches, as a share of the place; each further one reaches half as far.

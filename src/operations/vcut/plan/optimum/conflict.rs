@@ -5,8 +5,8 @@
 //! nothing does.
 
 use super::ground::Measure;
-use super::problem::{Bound, Problem};
-use super::{any, least, try_any};
+use super::problem::{Bound, Infeasible, Optimum, Problem, Refused};
+use super::solver::{any, best, least, try_any};
 
 /// The order in which bounds are dropped: first those that people rarely set, so that what remains is what they know.
 const ORDER: [Bound; 12] = [
@@ -29,6 +29,21 @@ const FINE: f64 = 1e-7;
 
 /// Most halvings on the way to it.
 const MOST_HALVINGS: u32 = 120;
+
+/// The best parameters there are.
+///
+/// # Errors
+/// When no parameters keep all bounds: which of them conflict. When the objective can be made as small as one likes.
+pub fn solve(problem: &Problem) -> Result<Optimum, Infeasible> {
+    best(problem).map_err(|refused| match refused {
+        Refused::Unbounded => Infeasible::Unbounded,
+        Refused::Conflict => {
+            let bounds = conflicting(problem);
+            let nearest = nearest(problem, &bounds);
+            Infeasible::Conflict { bounds, nearest }
+        }
+    })
+}
 
 /// The bounds that conflict in a problem without parameters.
 #[must_use]

@@ -4,7 +4,6 @@
 //! lengths grow with the layer `h`: the reach it needs is `kappa h`, the scallop it leaves `sigma h`. Every bound is then a
 //! bound on `h`, and the time falls with `h` (`docs/process.md`, "The optimum"), so the thickest layer is the best.
 
-use super::ground::Asked;
 use super::problem::{Extension, Problem, Range};
 use crate::asked::{Formulas, Lattice};
 use vcutc_backend_api::units::Length;
@@ -49,6 +48,13 @@ pub(super) enum Keeping {
     Reach,
     Scallop,
     Neither,
+}
+
+/// What asks for a least layer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Asked {
+    Layer,
+    Step,
 }
 
 /// How flanks stand in the lattice.

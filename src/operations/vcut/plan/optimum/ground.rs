@@ -5,7 +5,7 @@
 //! broken.
 
 use super::chart::Chart;
-use super::formulas::{Keeping, Model, Outcome, Shape, Tooth};
+use super::formulas::{Asked, Keeping, Model, Outcome, Shape, Tooth};
 use vcutc_geometry::number::{Interval, OnPlane, Scalar, Slopes};
 
 /// Bounds are kept to this share of them: what rounding may take.
@@ -33,13 +33,6 @@ pub(super) enum Term {
     Below,
     /// It is above its range.
     Above,
-}
-
-/// What asks for a least layer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Asked {
-    Layer,
-    Step,
 }
 
 /// The functions whose greatest is what is made least or broken, as far as they apply.
@@ -249,4 +242,17 @@ impl Ground<'_> {
             Merit::Keeps(_) | Merit::Breaks(_) => found,
         }
     }
+}
+
+/// How far a value strays from that in the middle of a box at most.
+pub(super) fn swing(function: &Slopes, sides: [Interval; 2]) -> f64 {
+    let along = |i: usize| {
+        let half = 0.5 * sides[i].width();
+        if half > 0.0 {
+            function.by[i].magnitude() * half
+        } else {
+            0.0
+        }
+    };
+    (along(0) + along(1)) * (1.0 + 1e-12)
 }

@@ -14,7 +14,7 @@ use super::certain::Blend;
 use super::chart::Chart;
 use super::descent::{self, Rest};
 use super::formulas::{Keeping, Model, Tooth};
-use super::ground::{Found, Ground, KEPT, Measure, Merit};
+use super::ground::{Found, Ground, KEPT, Measure, Merit, swing};
 use super::polish;
 use core::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -530,19 +530,6 @@ impl<'m> Search<'m> {
             Some(_) | None => least,
         }
     }
-}
-
-/// How far a value strays from that in the middle of a box at most.
-pub(super) fn swing(function: &Slopes, sides: [Interval; 2]) -> f64 {
-    let along = |i: usize| {
-        let half = 0.5 * sides[i].width();
-        if half > 0.0 {
-            function.by[i].magnitude() * half
-        } else {
-            0.0
-        }
-    };
-    (along(0) + along(1)) * (1.0 + 1e-12)
 }
 
 /// The face of a box on which its best shape lies: where the objective does not rise along a coordinate all over the box,

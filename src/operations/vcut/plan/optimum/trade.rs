@@ -1,7 +1,7 @@
 //! What bounds cost: what relaxing one buys, and which time goes with which scallop.
 
+use super::conflict::solve;
 use super::problem::{Bound, Infeasible, Optimum, Problem, Sensitivity};
-use super::solve;
 use crate::asked::Objective;
 use vcutc_backend_api::units::Length;
 
