@@ -10,15 +10,16 @@ pub mod sema;
 pub mod setup;
 
 pub use operation::planned::{self, PlannedJob, PlannedOperation};
+pub use operation::planning::PlanningJob;
 pub use operation::{Operation, search};
+pub use sema::part::Part;
 pub use setup::Setup;
 
 use std::sync::Arc;
 use vcutc_backend_api::ir::{self, AxisValues, Edges, Load, PlacedFrame, Ready, Registered, Stock};
 use vcutc_backend_api::profile::Profile as Habits;
-use vcutc_backend_api::units::{Angle, Area, Length};
+use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::source::{Span, Spanned};
-use vcutc_geometry::profile::Profile;
 use vcutc_machine::{LimitPlaces, Model};
 
 /// A value and where it was written; `None` when it is a default.
@@ -56,22 +57,13 @@ pub struct CheckedJob {
     pub stock: Stock,
     /// Where the stock's size is.
     pub stock_span: Span,
-    /// The part's profile, spanning the stock from side to side and lying within it.
-    pub profile: Profile,
+    /// The part, spanning the stock from side to side and lying within it.
+    pub part: Part,
     pub profile_span: Span,
     /// What to do, in order; at least one.
     pub operations: Vec<Box<dyn Operation>>,
     /// On what: the one that `cell` names, else the one in the job's own file, else the only one there is.
     pub machine: Option<Machine>,
-}
-
-impl CheckedJob {
-    /// Area of the cross-section above the part (A_C).
-    #[must_use]
-    pub fn area_to_remove(&self) -> Area {
-        let width = self.stock.width.to_mm();
-        Area::mm2(width * self.stock.height.to_mm()) - self.profile.area_below(0.0, width)
-    }
 }
 
 /// A straight blade.

@@ -6,12 +6,14 @@
 //! no more of it than that.
 
 pub mod planned;
+pub mod planning;
 pub mod search;
 
-use super::{CheckedJob, Setup, Sourced};
+use super::{Setup, Sourced};
 use core::any::Any;
 use core::fmt::Debug;
 use planned::PlannedOperation;
+use planning::PlanningJob;
 use search::SearchSpace;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_cancellation::{Effort, Wanted};
@@ -128,8 +130,8 @@ pub struct Variant {
 /// The work as an operation finds it, and how much of what is open is searched.
 #[derive(Clone, Debug)]
 pub struct Ground<'j> {
-    /// The job.
-    pub job: &'j CheckedJob,
+    /// The job, with its part as lines.
+    pub job: PlanningJob<'j>,
     /// What the operations before it left of the stock.
     pub before: Surface,
     /// What is considered.

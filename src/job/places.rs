@@ -14,6 +14,7 @@ impl CheckedJob {
         let mut job = self.clone();
         job.name_span = place;
         job.stock_span = place;
+        job.part.forget_places(place);
         job.profile_span = place;
         for operation in &mut job.operations {
             setup(operation.setup_mut(), place);

@@ -28,6 +28,7 @@ pub mod names;
 mod near_files;
 mod options;
 mod overrides;
+pub(crate) mod part;
 pub mod point;
 mod profile;
 pub mod quantity;
@@ -203,7 +204,7 @@ fn whole(
         Some(placed) => stock::check(placed.block, placed.place, scope, session),
         None => Err(missing.stock(session)),
     };
-    let profile = match all.profile {
+    let part = match all.profile {
         Some(placed) => profile::check(placed.block, placed.place, stock, scope, session),
         None => Err(missing.profile(stock.ok(), session)),
     };
@@ -247,7 +248,7 @@ fn whole(
         name_span: name.span,
         stock: stock.node,
         stock_span: stock.span,
-        profile: profile?,
+        part: part?,
         profile_span: all.profile.map_or(stock.span, |placed| placed.place.whole),
         operations: operations?,
         machine: machine?,

@@ -2,9 +2,10 @@
 
 use vcutc_cancellation::{Effort, Wanted};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_geometry::profile::Profile;
 use vcutc_job::operation::{Ground, Laid, Operation, Settled, Unplanned, WorksThere};
 use vcutc_job::search::{RouteSet, SearchSpace};
-use vcutc_job::{CheckedJob, PlannedJob};
+use vcutc_job::{CheckedJob, Part, PlannedJob, PlanningJob};
 use vcutc_simulation::surface::Surface;
 
 /// Most cuts that a job may have. A cut takes seconds, so a program of this size runs for weeks.
@@ -38,10 +39,13 @@ pub fn plan_while<'j>(
     wanted: &Wanted,
 ) -> Result<PlannedJob, Refusal<'j>> {
     if let Some(one) = job.operations.get(MOST_OPERATIONS) {
-        return Err(Refusal::TooMany(Box::new(too_many(&**one, job.operations.len()))));
+        return Err(Refusal::Whole(Box::new(too_many(&**one, job.operations.len()))));
     }
+    let Some(planning) = PlanningJob::of(job) else {
+        return Err(Refusal::Whole(Box::new(without_lines(job))));
+    };
     let mut unplanned: Vec<Box<dyn Unplanned + 'j>> = Vec::new();
-    let mut ground = first_ground(job, space, wanted);
+    let mut ground = first_ground(&planning, space, wanted);
     let mut operations = Vec::new();
     for operation in &job.operations {
         match operation.plan(ground.clone()) {
@@ -59,7 +63,8 @@ pub fn plan_while<'j>(
     Ok(PlannedJob {
         name: job.name.clone(),
         stock: job.stock,
-        profile: job.profile.clone(),
+        profile: Profile::clone(&planning.profile),
+        tolerance: Part::TOLERANCE,
         machine: job.machine.clone(),
         operations,
     })
@@ -75,10 +80,20 @@ fn too_many(one: &dyn Operation, count: usize) -> Diagnostic {
     .help("split the job")
 }
 
+fn without_lines(job: &CheckedJob) -> Diagnostic {
+    Diagnostic::new(
+        Code::Internal,
+        "the part has no polyline, although it was checked, which is a fault of the compiler",
+        job.profile_span,
+        "this part",
+    )
+    .help("please report the job together with this message")
+}
+
 /// The work as the first operation of a job finds it.
-fn first_ground<'j>(job: &'j CheckedJob, space: SearchSpace, wanted: &Wanted) -> Ground<'j> {
+fn first_ground<'j>(job: &PlanningJob<'j>, space: SearchSpace, wanted: &Wanted) -> Ground<'j> {
     Ground {
-        job,
+        job: job.clone(),
         before: Surface::untouched(job.stock),
         space,
         cuts_left: MOST_CUTS,
@@ -88,8 +103,8 @@ fn first_ground<'j>(job: &'j CheckedJob, space: SearchSpace, wanted: &Wanted) ->
 
 /// Why a job has no plan, in two steps: what to report is known at once, and what helps takes plans to find out.
 pub enum Refusal<'j> {
-    /// It has more operations than are planned.
-    TooMany(Box<Diagnostic>),
+    /// The job as a whole cannot be planned.
+    Whole(Box<Diagnostic>),
     /// Operations without a plan.
     Unplanned(Vec<Box<dyn Unplanned + 'j>>),
 }
@@ -105,7 +120,7 @@ impl Refusal<'_> {
     #[must_use]
     pub fn with_help(&self, wanted: &Wanted, works: &mut WorksThere<'_>) -> Vec<Diagnostic> {
         match self {
-            Self::TooMany(diagnostic) => vec![(**diagnostic).clone()],
+            Self::Whole(diagnostic) => vec![(**diagnostic).clone()],
             Self::Unplanned(all) => {
                 let mut effort = Effort::OF_A_REFUSAL;
                 let all = all.iter();
@@ -121,10 +136,11 @@ impl Refusal<'_> {
 #[must_use]
 pub fn is_plannable(job: &CheckedJob, effort: &mut Effort, wanted: &Wanted) -> Option<bool> {
     match &job.operations[..] {
-        [only] => only.is_plannable(
-            first_ground(job, SearchSpace::along(RouteSet::Full), wanted),
-            effort,
-        ),
+        [only] => {
+            let job = PlanningJob::of(job)?;
+            let ground = first_ground(&job, SearchSpace::along(RouteSet::Full), wanted);
+            only.is_plannable(ground, effort)
+        }
         _ => None,
     }
 }

@@ -158,7 +158,7 @@ impl Operation for Mark {
         Ok(Laid {
             planned: Box::new(Marked {
                 asked: self.clone(),
-                part: ground.job.profile.clone(),
+                part: (*ground.job.profile).clone(),
                 vee,
                 extension: Length::mm(grid::up(extension.to_mm())),
             }),

@@ -22,8 +22,10 @@ pub struct PlannedJob {
     pub name: String,
     /// The stock.
     pub stock: Stock,
-    /// The part's profile.
+    /// The part's polyline.
     pub profile: Profile,
+    /// How far it may be off the part as drawn.
+    pub tolerance: Length,
     /// The machine, if the job has one.
     pub machine: Option<Machine>,
     /// The operations in order.

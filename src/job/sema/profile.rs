@@ -1,8 +1,8 @@
 //! `profile { ... }`: the part's height over x.
 //!
-//! The pieces are turned into one polyline, the [`Trace`], in which every point knows the piece it came from. The
-//! trace is then cut to the stock and held against the rules of a profile ([`shape`]); a breach is shown at the piece
-//! that causes it.
+//! The pieces become a [`Part`], which keeps them as they are. To check it they are tessellated into one polyline, the
+//! [`Trace`], in which every point knows the piece it came from. The trace is cut to the stock and checked by the rules of a
+//! profile ([`shape`]); a breach is shown at the piece that causes it.
 
 mod curves;
 pub(crate) mod data;
@@ -13,18 +13,14 @@ mod shape;
 
 use super::eval::Scope;
 use super::fields::{Place, curve_words, head_span};
+use super::part::{self, Part};
 use super::report::Checked;
 use super::session::Session;
 use vcutc_backend_api::ir::Stock;
-use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
-use vcutc_geometry::profile::Profile;
 use vcutc_syntax::ast::{Block, Curve, Entry, Expr};
-
-/// Curves become polylines that stay this close to them: far below what a knife can do in honeycomb.
-const TOLERANCE: Length = Length::mm(0.001);
 
 /// The polyline of a profile as it is drawn, with where its points come from.
 #[derive(Debug, Default)]
@@ -33,6 +29,8 @@ pub(crate) struct Trace {
     /// For each point the piece that leads to it, as a place in `pieces`.
     owners: Vec<usize>,
     pieces: Vec<Origin>,
+    /// What was drawn, before it was tessellated.
+    drawn: Vec<part::Piece>,
 }
 
 /// Where a piece comes from.
@@ -64,6 +62,12 @@ impl Trace {
         self.owners
             .resize(self.points.len().saturating_add(points.len()), owner);
         self.points.extend(points);
+    }
+
+    /// Adds a piece of points.
+    fn extend_by(&mut self, points: Vec<Point2>) {
+        self.drawn.push(part::Piece::Points(points.clone()));
+        self.extend(points);
     }
 
     /// The piece that leads to a point, or the last of them.
@@ -109,7 +113,7 @@ pub(crate) fn check(
     stock: Checked<Spanned<Stock>>,
     scope: Scope<'_>,
     session: &mut Session<'_>,
-) -> Checked<Profile> {
+) -> Checked<Part> {
     let trace = match sort(block, place, session)? {
         Content::Formula(formula) => {
             formula::check_name(&formula, &mut session.reports)?;
@@ -120,7 +124,11 @@ pub(crate) fn check(
     // A piece that could not be read is no gap in the profile.
     match session.damage_at(place.whole) {
         Some(reported) => Err(reported),
-        None => shape::check(&trace, stock?, &mut session.reports),
+        None => {
+            let stock = stock?;
+            shape::check(&trace, stock, &mut session.reports)?;
+            Ok(Part::new(trace.drawn, stock.node.width.to_mm()))
+        }
     }
 }
 

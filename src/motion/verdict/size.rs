@@ -7,7 +7,7 @@
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
-use vcutc_job::CheckedJob;
+use vcutc_job::{CheckedJob, Part};
 use vcutc_machine::kinematics::pose::Pose;
 
 /// Why the job's machine cannot cut work of that size. None says nothing.
@@ -20,7 +20,7 @@ pub fn too_large(job: &CheckedJob) -> Option<Diagnostic> {
     let blades = job.operations.iter().map(|operation| &operation.setup().blade);
     let edges = blades.map(|blade| blade.cutting_length.value.to_mm());
     let edge = edges.fold(0.0, f64::max);
-    let apart = apart(job, edge);
+    let apart = apart(job, edge)?;
     // An edge at either end, with as much again for what may stay.
     (apart > tip_apart + 4.0 * edge).then(|| {
         Diagnostic::new(
@@ -40,11 +40,12 @@ pub fn too_large(job: &CheckedJob) -> Option<Diagnostic> {
 }
 
 /// How far apart places are that have to be cut, in mm.
-fn apart(job: &CheckedJob, edge: f64) -> f64 {
+fn apart(job: &CheckedJob, edge: f64) -> Option<f64> {
     let (depth, top) = (job.stock.depth.to_mm(), job.stock.height.to_mm());
-    let height = top - job.profile.lowest().z;
+    let profile = job.part.tessellated(Part::TOLERANCE)?;
+    let height = top - profile.lowest().z;
     let cut = |point: &&Point2| top - point.z > edge.min(0.5 * height);
-    let xs = || job.profile.points().iter().filter(cut).map(|point| point.x);
+    let xs = || profile.points().iter().filter(cut).map(|point| point.x);
     let width = xs().fold(f64::NEG_INFINITY, f64::max) - xs().fold(f64::INFINITY, f64::min);
-    libm::hypot(depth, height.max(width.max(0.0)))
+    Some(libm::hypot(depth, height.max(width.max(0.0))))
 }

@@ -70,7 +70,7 @@ pub(crate) fn plan<'j>(
     match chosen::within_all_limits(&bench, asked, &within, cuts_left) {
         Ok(LaidOut { mut vcut, after, .. }) => {
             if let Some(swing) = narrowed::narrowed(asked, space.swing) {
-                narrowed::told(&mut vcut, asked.limits.swing, swing, job.machine.as_ref());
+                narrowed::told(&mut vcut, asked.limits.swing, swing, bench.job.machine.as_ref());
             }
             Ok((vcut, after))
         }
@@ -251,7 +251,7 @@ const OTHERS: [Residual; 3] = [Residual::Discard, Residual::Lift, Residual::Shif
 /// The best operation that keeps its limits on time and cuts when it is planned.
 fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Unplanned> {
     let first = best_lattice(bench, asked, cuts_left)?;
-    let Some(broken) = limits::broken(bench.job, asked, &first.vcut) else {
+    let Some(broken) = limits::broken(&bench.job, asked, &first.vcut) else {
         return Ok(first);
     };
     if trial::is_searched(asked) {
@@ -264,7 +264,7 @@ fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Resu
             break;
         };
         laid.vcut.asked.limits = asked.limits;
-        match limits::broken(bench.job, asked, &laid.vcut) {
+        match limits::broken(&bench.job, asked, &laid.vcut) {
             Some(still) => by = still,
             None => return Ok(laid),
         }
@@ -292,7 +292,7 @@ fn kept_by_any(
     });
     let still = free
         .as_ref()
-        .map(|laid| limits::broken(bench.job, asked, &laid.vcut));
+        .map(|laid| limits::broken(&bench.job, asked, &laid.vcut));
     if let (Some(laid), Some(None)) = (&free, &still) {
         return Ok(laid.clone());
     }
@@ -321,7 +321,7 @@ fn any_within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> 
         by_formulas: None,
     };
     let laid = best_finalist(bench, asked, found, cuts_left).ok()?;
-    limits::broken(bench.job, asked, &laid.vcut)
+    limits::broken(&bench.job, asked, &laid.vcut)
         .is_none()
         .then_some(laid)
 }
@@ -415,7 +415,7 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> R
     for lattice in parameters::open_lattices(asked) {
         // A lattice on which the operation cannot be had is no fault of the job while there is another.
         if let Some(found) = trial::freest(bench, asked, lattice) {
-            let model = found.time_model(bench.job, asked);
+            let model = found.time_model(&bench.job, asked);
             by_model.push((model.estimate(found.swing, found.layer, found.step), lattice));
         }
     }
@@ -431,7 +431,7 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> R
             continue;
         }
         match trial::parameters(bench, asked, &[lattice], cuts_left) {
-            Ok(found) if found.is_large(bench.job, asked) => {
+            Ok(found) if found.is_large(&bench.job, asked) => {
                 contest.rule_out(what, Standing::NotCompared);
                 large.get_or_insert((what, found));
             }
@@ -460,7 +460,7 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> R
         }
         (None, None) => {
             // All lattices together: what is told of one alone would not be the job's.
-            let together = parameters::resolve(bench.job, &trial::of_model(asked));
+            let together = parameters::resolve(&bench.job, &trial::of_model(asked));
             Err(match (together, refused) {
                 (Err(refusal), _) => refusal.into(),
                 (Ok(_), Some(refused)) => refused,
@@ -487,7 +487,7 @@ fn best_residual(
     if bench.wanted.is_needless() {
         return Err(Unplanned::Refused(Vec::new()));
     }
-    let first = lay_out(bench.job, asked, found.clone(), cuts_left, bench.work())?;
+    let first = lay_out(&bench.job, asked, found.clone(), cuts_left, bench.work())?;
     let is_open = asked.residual.value == Auto::Auto && first.strategies == Strategies::Differing;
     let mut first = route::best(bench, first);
     if !is_open {
@@ -506,7 +506,7 @@ fn best_residual(
         }
         let mut asked = asked.clone();
         asked.residual.value = Auto::Given(residual);
-        let mut laid = lay_out(bench.job, &asked, found.clone(), cuts_left, bench.work()).ok()?;
+        let mut laid = lay_out(&bench.job, &asked, found.clone(), cuts_left, bench.work()).ok()?;
         laid.vcut.asked.residual.value = Auto::Auto;
         Some(bench.weigh(route::best(bench, laid)))
     };

@@ -41,7 +41,7 @@ use vcutc_backend_api::units::{Duration, Length};
 use vcutc_geometry::cone;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
-use vcutc_job::{CheckedJob, Order};
+use vcutc_job::{Order, PlanningJob};
 use vcutc_simulation::surface::Surface;
 
 /// V-shaped roughing with every choice made.
@@ -128,7 +128,7 @@ pub struct Work<'w> {
 /// # Errors
 /// What keeps the operation from being cut at all.
 pub fn lay_out(
-    job: &CheckedJob,
+    job: &PlanningJob<'_>,
     asked: &RoughVcut,
     parameters: VcutParameters,
     cuts_left: usize,
@@ -196,7 +196,7 @@ struct Ground<'g> {
 }
 
 /// An operation without cuts.
-fn unplanned(job: &CheckedJob, asked: &RoughVcut, ground: Ground<'_>) -> PlannedVcut {
+fn unplanned(job: &PlanningJob<'_>, asked: &RoughVcut, ground: Ground<'_>) -> PlannedVcut {
     let parameters = ground.parameters;
     let model = parameters.time_model(job, asked);
     PlannedVcut {
@@ -217,7 +217,7 @@ fn unplanned(job: &CheckedJob, asked: &RoughVcut, ground: Ground<'_>) -> Planned
 
 /// As [`lay_out`], where the job gives the tips.
 fn lay_out_given(
-    job: &CheckedJob,
+    job: &PlanningJob<'_>,
     asked: &RoughVcut,
     tips: &Tips,
     before: &Surface,

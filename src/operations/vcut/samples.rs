@@ -11,8 +11,7 @@ use vcutc_backend_api::ir::{Edges, Stock};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_geometry::curve::Point2;
-use vcutc_geometry::profile::Profile;
-use vcutc_job::{Auto, Blade, CheckedJob, Direction, Order, PlannedJob, Setup, Sourced};
+use vcutc_job::{Auto, Blade, CheckedJob, Direction, Order, Part, PlannedJob, Setup, Sourced};
 
 /// A value that the job gives, at no place.
 pub fn given<T>(value: T) -> Sourced<T> {
@@ -41,7 +40,7 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
             height: Length::mm(50.0),
         },
         stock_span: span,
-        profile: Profile::new(profile).unwrap(),
+        part: Part::through(profile).unwrap(),
         profile_span: span,
         operations: vec![Box::new(RoughVcut {
             setup: Setup {

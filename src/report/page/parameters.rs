@@ -70,12 +70,13 @@ fn workpiece(subject: Subject<'_>) -> Vec<Row> {
         show(stock.depth.to_mm()),
         show(stock.height.to_mm())
     );
+    let part = &subject.material.plan.profile;
     let profile = format!(
         "{} corners, {} mm long, z from {} to {} mm",
-        job.profile.points().len(),
-        show(job.profile.arc_length().to_mm()),
-        show(job.profile.lowest().z),
-        show(job.profile.highest().z)
+        part.points().len(),
+        show(part.arc_length().to_mm()),
+        show(part.lowest().z),
+        show(part.highest().z)
     );
     vec![
         Row::written("stock", size, job.stock_span),

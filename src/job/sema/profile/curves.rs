@@ -1,9 +1,10 @@
 //! A profile drawn piece by piece: every piece begins where the one before ended.
 
-use super::{Piece, TOLERANCE, Trace, data, drawing};
+use super::{Piece, Trace, data, drawing};
 use crate::sema::dimension::Dimension;
 use crate::sema::eval::Scope;
 use crate::sema::fields::curve_words;
+use crate::sema::part::{self, Part};
 use crate::sema::point::point;
 use crate::sema::quantity::mm;
 use crate::sema::report::{Checked, Reported, Reports};
@@ -104,7 +105,8 @@ impl Drawing<'_> {
     ) -> Checked<()> {
         self.must_be_first(piece, &mut session.reports)?;
         match drawing::read(format, path, options, piece.span, self.scope, session) {
-            Ok(stretches) => {
+            Ok((section, stretches)) => {
+                self.trace.drawn.push(part::Piece::Section(section));
                 for (drawn, points) in stretches {
                     if let Some(last) = points.last() {
                         self.pen = Pen::At(*last);
@@ -127,7 +129,7 @@ impl Drawing<'_> {
                 if let Some(last) = points.last() {
                     self.pen = Pen::At(*last);
                 }
-                self.trace.extend(points);
+                self.trace.extend_by(points);
                 Ok(())
             }
             Err(reported) => {
@@ -140,17 +142,7 @@ impl Drawing<'_> {
     fn start(&mut self, piece: &Piece<'_>, start: &Point, session: &mut Session<'_>) -> Checked<()> {
         let place = point(start, &self.scope, &mut session.reports);
         self.must_be_first(piece, &mut session.reports)?;
-        match place {
-            Ok(place) => {
-                self.pen = Pen::At(place);
-                self.trace.extend(vec![place]);
-                Ok(())
-            }
-            Err(reported) => {
-                self.pen = Pen::Lost(reported);
-                Err(reported)
-            }
-        }
+        self.place_data(place.map(|place| vec![place]))
     }
 
     fn begin(&mut self, piece: &Piece<'_>, reports: &mut Reports) -> Checked<Point2> {
@@ -262,9 +254,10 @@ impl Drawing<'_> {
         reports: &mut Reports,
     ) -> Checked<()> {
         let mut points = Vec::new();
-        let outcome = shape.and_then(|shape| shape.flatten(TOLERANCE, &mut points));
+        let outcome = shape.and_then(|shape| shape.flatten(Part::TOLERANCE, &mut points).map(|()| shape));
         match outcome {
-            Ok(()) => {
+            Ok(shape) => {
+                self.trace.drawn.push(part::Piece::Curve(shape));
                 self.trace.extend(points);
                 Ok(())
             }

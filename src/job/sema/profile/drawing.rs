@@ -6,10 +6,10 @@
 mod faults;
 mod unread;
 
-use super::TOLERANCE;
 use super::data::{as_text, bad_data, bytes_of, place_of};
 use crate::sema::eval::Scope;
 use crate::sema::fields::{BlockSpec, FieldSpec, Fields, Inner, Takes, value};
+use crate::sema::part::{Part, Section};
 use crate::sema::range::{COORDINATE, JOINING, SCALE};
 use crate::sema::read::{Reader, words_of};
 use crate::sema::report::Checked;
@@ -106,7 +106,7 @@ struct Options {
     z: Length,
 }
 
-/// The outline of a drawing as stretches of points, each with the place in the drawing that drew it.
+/// What a drawing shows, and its outline as stretches of points, each with the place in the drawing that drew it.
 pub(super) fn read(
     format: &'static Format,
     path: &Spanned<String>,
@@ -114,7 +114,7 @@ pub(super) fn read(
     piece: Span,
     scope: Scope<'_>,
     session: &mut Session<'_>,
-) -> Checked<Vec<(Span, Vec<Point2>)>> {
+) -> Checked<(Section, Vec<(Span, Vec<Point2>)>)> {
     let fields = Fields::sort(&format.spec, place_of(path, piece), options, session);
     let file = (format.load)(path, session);
     let mut reader = Reader {
@@ -136,10 +136,19 @@ pub(super) fn read(
         sources: &*session.sources,
     };
     let outline = profile_of(&told, &options);
-    let remarks = told.remarks(outline.as_ref().ok());
+    let remarks = told.remarks(outline.as_ref().ok().map(|(_, outline)| outline));
     session.reports.append(remarks);
     match outline {
-        Ok(outline) => Ok(stretches(&outline, &drawing, file)),
+        Ok((map, outline)) => {
+            let stretches = stretches(&outline, &drawing, file);
+            let section = Section {
+                strokes: drawing.strokes,
+                map,
+                joined: options.tolerance,
+                side: options.side,
+            };
+            Ok((section, stretches))
+        }
         Err(diagnostic) => Err(session.reports.push(*diagnostic)),
     }
 }
@@ -163,8 +172,8 @@ fn read_options(format: &Format, fields: &Fields<'_>, reader: &mut Reader<'_>) -
     })
 }
 
-/// The one chain that a drawing is, or the wanted side of it.
-fn profile_of(told: &Told<'_>, options: &Options) -> Result<Outline, Box<Diagnostic>> {
+/// The one chain that a drawing is, or the wanted side of it, with the map from the drawing to the workpiece.
+fn profile_of(told: &Told<'_>, options: &Options) -> Result<(Affine, Outline), Box<Diagnostic>> {
     told.must_have_layer()?;
     if told.drawing.strokes.is_empty() {
         return Err(Box::new(told.nothing()));
@@ -177,22 +186,24 @@ fn profile_of(told: &Told<'_>, options: &Options) -> Result<Outline, Box<Diagnos
     let map = Affine::shift(options.x.to_mm(), options.z.to_mm()).after(Affine::stretch(factor, factor));
     let strokes = &told.drawing.strokes;
     // Lines drawn over each other are the cause of many faults that look like others.
-    let twice = || drawn_over(strokes, map, TOLERANCE, options.tolerance).map(|found| told.drawn_over(found));
-    let whole = outline(strokes, map, TOLERANCE, options.tolerance).map_err(|error| {
+    let twice =
+        || drawn_over(strokes, map, Part::TOLERANCE, options.tolerance).map(|found| told.drawn_over(found));
+    let whole = outline(strokes, map, Part::TOLERANCE, options.tolerance).map_err(|error| {
         let is_torn = matches!(error, OutlineError::Branch { .. } | OutlineError::Several { .. });
         let otherwise = told.no_outline(error, options.tolerance);
         is_torn.then(twice).flatten().unwrap_or(otherwise)
     })?;
-    match options.side {
+    let outline = match options.side {
         None if whole.is_closed => Err(Box::new(told.which_side(&whole))),
         None if turns_back(&whole) => twice().map_or(Ok(whole), Err),
         None => Ok(whole),
-        Some(wanted) => side(&whole, wanted, TOLERANCE).map_err(|error| {
+        Some(wanted) => side(&whole, wanted, Part::TOLERANCE).map_err(|error| {
             let is_crossed = matches!(error, SideError::Crossed { .. } | SideError::NoArea);
             let otherwise = told.no_side(error, options.tolerance);
             is_crossed.then(twice).flatten().unwrap_or(otherwise)
         }),
-    }
+    };
+    Ok((map, outline?))
 }
 
 /// Whether x falls somewhere on the way of an open outline.

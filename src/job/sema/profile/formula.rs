@@ -1,15 +1,14 @@
 //! `z(x) = ...`: a profile by formula.
 
-use super::{Formula, TOLERANCE, Trace};
-use crate::sema::dimension::Dimension;
-use crate::sema::eval::{Scope, walk};
-use crate::sema::quantity::{Quantity, mm};
+use super::{Formula, Trace};
+use crate::sema::eval::Scope;
+use crate::sema::part::{self, Part, Sampling};
+use crate::sema::quantity::mm;
 use crate::sema::report::{Checked, Reports};
-use std::cell::Cell;
 use vcutc_backend_api::ir::Stock;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_geometry::curve::{SampleError, sample};
+use vcutc_geometry::curve::SampleError;
 
 /// A profile's formula is called `z`.
 pub(super) fn check_name(formula: &Formula<'_>, reports: &mut Reports) -> Checked<()> {
@@ -32,29 +31,19 @@ pub(super) fn trace(
     scope: Scope<'_>,
     reports: &mut Reports,
 ) -> Checked<Trace> {
-    let height = |x: f64, reports: &mut Reports| -> Checked<f64> {
-        let scope = Scope {
-            variable: Some((&formula.variable.node, Quantity::length(x))),
-            ..scope
-        };
-        scope.expect(formula.value, Dimension::LENGTH, "`z`", Some("10 mm"), reports)
+    let sampling = Sampling {
+        variable: &formula.variable.node,
+        value: formula.value,
+        scope,
     };
-    // A rough formula of a thousand operators must not keep the compiler busy for hours.
-    let parts = walk(formula.value).count() as u64;
-    let left = Cell::new(MOST_STEPS / parts.max(1));
-    let trial = |x: f64| {
-        left.set(left.get().checked_sub(1)?);
-        height(x, &mut Reports::default()).ok()
-    };
-    let points = sample(&trial, 0.0, stock.node.width.to_mm(), TOLERANCE);
+    let points = sampling.points(stock.node.width.to_mm(), Part::TOLERANCE);
     let points = points.map_err(|error| {
         let span = formula.value.span;
         let diagnostic = match error {
-            SampleError::NoValue { .. } if left.get() == 0 => too_rough(span),
             SampleError::NoValue { x } => {
                 // Once more, to hear why; the reason is the same wherever the formula fails first.
                 let mut why = Reports::default();
-                let outcome = height(x, &mut why);
+                let outcome = sampling.height(x, &mut why);
                 match (outcome, why.into_vec().into_iter().next()) {
                     (Err(_), Some(reason)) => {
                         reason.note(format!("this is so at {} = {}", formula.variable.node, mm(x)))
@@ -75,6 +64,7 @@ pub(super) fn trace(
     })?;
     let mut trace = Trace::default();
     trace.begin(formula.span);
+    trace.drawn.push(part::Piece::Formula(sampling.closed()));
     trace.extend(points);
     Ok(trace)
 }
@@ -91,9 +81,6 @@ fn no_value(formula: &Formula<'_>, x: f64) -> Diagnostic {
         "this gives no height",
     )
 }
-
-/// Most steps of evaluation that a formula is worth.
-const MOST_STEPS: u64 = 200_000_000;
 
 fn too_rough(span: Span) -> Diagnostic {
     Diagnostic::new(

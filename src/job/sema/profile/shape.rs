@@ -3,34 +3,24 @@
 //! What the drawing does beyond the two sides of the stock does not matter, so it is cut away first.
 
 use super::Trace;
+use crate::sema::part::{REACHES, SAME, Strip};
 use crate::sema::quantity::mm;
 use crate::sema::report::{Checked, Reports};
 use vcutc_backend_api::ir::Stock;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
-use vcutc_geometry::profile::{Profile, ProfileError};
+use vcutc_geometry::profile::ProfileError;
 
-/// Places closer than this count as one, in mm: a nanometre.
-const SAME: f64 = 1e-6;
-
-/// How far from a side of the stock a profile may end and still reach it, in mm: where a curve touches the side, the polyline
-/// in its place may stay away from it by the tolerance of curves.
-const REACHES: f64 = super::TOLERANCE.to_mm();
-
-/// The profile of a trace across the stock.
-pub(super) fn check(trace: &Trace, stock: Spanned<Stock>, reports: &mut Reports) -> Checked<Profile> {
+/// Checks that a trace is a profile across the stock.
+pub(super) fn check(trace: &Trace, stock: Spanned<Stock>, reports: &mut Reports) -> Checked<()> {
     let width = stock.node.width.to_mm();
-    let strip = Strip::cut(trace, width).led_to_the_sides(width);
+    let strip = Strip::cut(&trace.points, width);
     if let Some(diagnostic) = gap(trace, &strip, stock) {
         return Err(reports.push(diagnostic));
     }
-    let profile = match Profile::new(strip.points.clone()) {
-        Ok(profile) => profile.clipped(0.0, width).ok_or(ProfileError::TooFew),
-        Err(error) => Err(error),
-    };
-    let profile = match profile {
-        Ok(profile) => profile,
+    match strip.profile(width) {
+        Ok(_) => {}
         Err(ProfileError::NotSingleValued { index }) => {
             let diagnostic = two_heights(&strip, trace, index, width, stock.span);
             return Err(reports.push(with_drawn(diagnostic, strip.drawn_at(trace, index))));
@@ -46,7 +36,7 @@ pub(super) fn check(trace: &Trace, stock: Spanned<Stock>, reports: &mut Reports)
             .help("add a line to the other side of the stock");
             return Err(reports.push(diagnostic));
         }
-    };
+    }
     let mut fault = None;
     for leaving in outside(&strip, stock.node.height.to_mm()) {
         let diagnostic = leaving.diagnostic(&strip, trace, stock);
@@ -55,57 +45,11 @@ pub(super) fn check(trace: &Trace, stock: Spanned<Stock>, reports: &mut Reports)
     }
     match fault {
         Some(reported) => Err(reported),
-        None => Ok(profile),
+        None => Ok(()),
     }
-}
-
-/// The part of a trace between the sides of the stock.
-struct Strip {
-    points: Vec<Point2>,
-    /// For each point the point of the trace to which it belongs.
-    sources: Vec<usize>,
 }
 
 impl Strip {
-    fn cut(trace: &Trace, width: f64) -> Self {
-        let mut strip = Self {
-            points: Vec::new(),
-            sources: Vec::new(),
-        };
-        for (index, pair) in trace.points.windows(2).enumerate() {
-            let [from, to] = pair else { continue };
-            let Some((first, last)) = segment_within(*from, *to, width) else {
-                continue;
-            };
-            if strip.points.last() != Some(&first) {
-                strip.push(first, index + 1);
-            }
-            strip.push(last, index + 1);
-        }
-        strip
-    }
-
-    /// With the ends that are as near a side as a curve's polyline may be led to it.
-    fn led_to_the_sides(mut self, width: f64) -> Self {
-        let by_x = |one: &&mut Point2, other: &&mut Point2| one.x.total_cmp(&other.x);
-        if let Some(leftmost) = self.points.iter_mut().min_by(by_x)
-            && leftmost.x <= REACHES
-        {
-            leftmost.x = 0.0;
-        }
-        if let Some(rightmost) = self.points.iter_mut().max_by(by_x)
-            && rightmost.x >= width - REACHES
-        {
-            rightmost.x = width;
-        }
-        self
-    }
-
-    fn push(&mut self, point: Point2, source: usize) {
-        self.points.push(point);
-        self.sources.push(source);
-    }
-
     /// How far beyond a side of the stock the trace goes between a point of the strip and the one before it, where it leaves the
     /// stock in between.
     fn turned_outside(&self, trace: &Trace, index: usize, width: f64) -> Option<f64> {
@@ -133,25 +77,6 @@ fn with_drawn(diagnostic: Diagnostic, drawn: Option<Span>) -> Diagnostic {
         Some(span) => diagnostic.and(span, "drawn here"),
         None => diagnostic,
     }
-}
-
-/// The part of a straight line between x = 0 and x = width; none when it only touches a side or runs along it.
-fn segment_within(from: Point2, to: Point2, width: f64) -> Option<(Point2, Point2)> {
-    let dx = to.x - from.x;
-    let at = |side: f64| from.lerp(to, (side - from.x) / dx);
-    let inside = |point: Point2| (0.0..=width).contains(&point.x);
-    let cut = |point: Point2| match point {
-        point if inside(point) => point,
-        point if point.x < 0.0 => Point2 { x: 0.0, ..at(0.0) },
-        _ => Point2 {
-            x: width,
-            ..at(width)
-        },
-    };
-    if from.x.max(to.x) <= 0.0 || from.x.min(to.x) >= width {
-        return None;
-    }
-    Some((cut(from), cut(to)))
 }
 
 /// A profile that does not reach both sides.

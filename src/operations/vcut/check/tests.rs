@@ -9,7 +9,9 @@ use vcutc_diagnostics::source::{Entry, LoadError, Loader, SourceMap, entries_amo
 use vcutc_diagnostics::{Code, Diagnostic, fix};
 use vcutc_job::sema::kind::Operations;
 use vcutc_job::sema::{Choices, Typed, check};
-use vcutc_job::{Auto, CheckedJob, Sourced};
+use vcutc_job::{Auto, CheckedJob, Part, Sourced};
+
+mod part;
 
 const VCUT: Operations = Operations(&[&Vcut]);
 
@@ -500,7 +502,8 @@ proptest! {
         let ((x0, z0), (x1, z1)) = (points[after - 1], points[after]);
         let [x0, z0, x1, z1] = [x0, z0, x1, z1].map(f64::from);
         let wanted = z0 + (z1 - z0) * (x - x0) / (x1 - x0);
-        prop_assert!((job.unwrap().profile.height(x) - wanted).abs() < 1e-6);
+        let part = job.unwrap().part.tessellated(Part::TOLERANCE).unwrap();
+        prop_assert!((part.height(x) - wanted).abs() < 1e-6);
     }
 
     #[test]

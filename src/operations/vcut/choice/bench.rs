@@ -9,9 +9,9 @@ use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_cancellation::Wanted;
 use vcutc_geometry::offset::offset_up;
 use vcutc_geometry::profile::Profile;
-use vcutc_job::CheckedJob;
 use vcutc_job::PlannedOperation;
 use vcutc_job::search::RouteSet;
+use vcutc_job::{CheckedJob, PlanningJob};
 use vcutc_process::lower::alone;
 use vcutc_simulation::contour::farthest;
 use vcutc_simulation::prove::replay_on;
@@ -44,7 +44,7 @@ impl Figures {
 
 /// A job, and the work as one of its operations finds it.
 pub(super) struct Bench<'j> {
-    pub(super) job: &'j CheckedJob,
+    pub(super) job: PlanningJob<'j>,
     /// What the operations decided so far leave of the stock.
     before: Surface,
     /// The part with the operation's allowance.
@@ -55,11 +55,11 @@ pub(super) struct Bench<'j> {
 }
 
 impl<'j> Bench<'j> {
-    pub(super) fn new(job: &'j CheckedJob, asked: &RoughVcut, before: Surface, latitude: RouteSet) -> Self {
+    pub(super) fn new(job: PlanningJob<'j>, asked: &RoughVcut, before: Surface, latitude: RouteSet) -> Self {
         Self {
+            bound: offset_up(&job.profile, asked.allowance.value),
             job,
             before,
-            bound: offset_up(&job.profile, asked.allowance.value),
             latitude,
             wanted: Wanted::ALWAYS,
         }
@@ -76,7 +76,7 @@ impl<'j> Bench<'j> {
     /// The same work for someone else.
     pub(super) fn for_whom(&self, wanted: &Wanted) -> Self {
         Self {
-            job: self.job,
+            job: self.job.clone(),
             before: self.before.clone(),
             bound: self.bound.clone(),
             latitude: self.latitude,
@@ -96,7 +96,7 @@ impl<'j> Bench<'j> {
     pub(super) fn weigh(&self, laid: LaidOut) -> Contender {
         let vcut = &laid.vcut;
         let cuts = vcut.cuts.len();
-        let Some(program) = program(self.job, vcut) else {
+        let Some(program) = program(&self.job, vcut) else {
             return Contender {
                 laid,
                 standing: Standing::Impossible,

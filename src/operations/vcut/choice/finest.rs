@@ -87,7 +87,7 @@ fn measure(asked: &RoughVcut, figures: &Figures) -> Length {
 
 /// The operation with the least scallop, or the least edge in use.
 pub(super) fn finest(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Unplanned> {
-    let by_formulas = match parameters::resolve(bench.job, asked) {
+    let by_formulas = match parameters::resolve(&bench.job, asked) {
         Ok(found) => Some(found),
         Err(refusal) if refusal.is_conflict() => None,
         Err(refusal) => return Err(refusal.into()),
@@ -145,7 +145,7 @@ fn planned(
     found: VcutParameters,
     cuts_left: usize,
 ) -> Option<Contender> {
-    let laid = lay_out(bench.job, asked, found, cuts_left, bench.work()).ok()?;
+    let laid = lay_out(&bench.job, asked, found, cuts_left, bench.work()).ok()?;
     if laid.vcut.cuts.len() > MOST_CUTS_COMPARED {
         return None;
     }

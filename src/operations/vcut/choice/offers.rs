@@ -203,9 +203,9 @@ fn keeps_what_the_best_plan_needs(
 
 /// Whether an operation has more cuts by the model than may be planned.
 fn is_too_large(bench: &Bench<'_>, asked: &RoughVcut, effort: &Effort) -> bool {
-    let found = parameters::resolve(bench.job, asked);
+    let found = parameters::resolve(&bench.job, asked);
     found.is_ok_and(|found| {
-        let model = found.time_model(bench.job, asked);
+        let model = found.time_model(&bench.job, asked);
         effort.is_less_than(model.cuts(found.layer, found.step))
     })
 }
@@ -240,7 +240,7 @@ fn longer_than_the_least(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize)
         return Vec::new();
     }
     let fastest = within_limits(bench, &limited(asked, None), cuts_left);
-    let least = fastest.ok().and_then(|laid| bench::time(bench.job, &laid.vcut));
+    let least = fastest.ok().and_then(|laid| bench::time(&bench.job, &laid.vcut));
     let longer = |least: Duration| LONGER.map(|share| rounded_up(least * share));
     least.map(longer).into_iter().flatten().collect()
 }

@@ -118,7 +118,7 @@ fn fastest(
     let mut timed: Vec<(Candidate, PlannedVcut, Duration)> = different
         .into_par_iter()
         .filter_map(|(route, planned)| {
-            let time = bench::time(bench.job, &planned)?;
+            let time = bench::time(&bench.job, &planned)?;
             let candidate = Candidate {
                 what: words(&vcut.asked, route),
                 standing: Standing::Takes(time),

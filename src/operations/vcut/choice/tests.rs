@@ -226,9 +226,7 @@ fn nearest_finishes_a_hollow_before_it_crosses_the_hill() {
 #[test]
 fn boustrophedon_turns_round_and_stays_beside_the_work() {
     let mut job = hollows();
-    job.profile =
-        vcutc_geometry::profile::Profile::new(vec![Point2 { x: 0.0, z: 5.0 }, Point2 { x: 85.0, z: 5.0 }])
-            .unwrap();
+    job.part = vcutc_job::Part::through(vec![Point2 { x: 0.0, z: 5.0 }, Point2 { x: 85.0, z: 5.0 }]).unwrap();
     let (plan, proven) = along(&job, (Sequence::Boustrophedon, Order::Point)).unwrap();
     let runs = &vcut(&plan).runs;
     assert!(runs.len() > 2);

@@ -31,7 +31,7 @@ use crate::plan::{LaidOut, lay_out};
 use rayon::prelude::*;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_cancellation::Effort;
-use vcutc_job::{Auto, CheckedJob};
+use vcutc_job::{Auto, PlanningJob};
 
 /// Most plans that are tried, by the number of cuts of the first one: below the first number the second.
 const PLANS: [(usize, usize); 3] = [(500, 48), (2_000, 24), (MOST_CUTS_COMPARED, 6)];
@@ -80,7 +80,7 @@ pub(super) struct Found {
 
 impl Found {
     /// Whether the formulas' choice stands, with more cuts by the model than are compared.
-    pub(super) fn is_large(&self, job: &CheckedJob, asked: &RoughVcut) -> bool {
+    pub(super) fn is_large(&self, job: &PlanningJob<'_>, asked: &RoughVcut) -> bool {
         match &self.finalists[..] {
             [only] if only.found == FoundBy::Formulas => {
                 let found = &only.parameters;
@@ -99,7 +99,7 @@ pub(super) fn parameters(
     lattices: &[Lattice],
     cuts_left: usize,
 ) -> Result<Found, Unplanned> {
-    let by_bound = match parameters::resolve_on(bench.job, &of_model(asked), lattices.to_vec()) {
+    let by_bound = match parameters::resolve_on(&bench.job, &of_model(asked), lattices.to_vec()) {
         Ok(found) if !is_searched(asked) => return Ok(plain(found)),
         Ok(found) => Ok(found),
         Err(refusal) if goes_on(asked, &refusal) => Err(refusal),
@@ -151,7 +151,7 @@ pub(super) fn any(
 ) -> (Any, Effort) {
     let mut trials = Trials::new(bench, asked, lattices, cuts_left);
     (trials.goal, trials.effort) = (Goal::Any, effort);
-    match parameters::resolve_on(bench.job, &of_model(asked), lattices.to_vec()) {
+    match parameters::resolve_on(&bench.job, &of_model(asked), lattices.to_vec()) {
         Ok(found) => {
             trials.search(Some(&found));
         }
@@ -221,7 +221,7 @@ pub(super) fn freest(bench: &Bench<'_>, asked: &RoughVcut, lattice: Lattice) -> 
     if is_searched(asked) {
         assumed.limits.scallop = None;
     }
-    parameters::resolve_on(bench.job, &assumed, vec![lattice]).ok()
+    parameters::resolve_on(&bench.job, &assumed, vec![lattice]).ok()
 }
 
 /// Whether the same cuts come of both.
@@ -299,7 +299,7 @@ impl<'t> Trials<'t> {
             asked,
             lattices,
             cuts_left,
-            floor: Floor::new(bench.job, bench.work()),
+            floor: Floor::new(&bench.job, bench.work()),
             plans_left: None,
             most_plans: &PLANS,
             tried: Vec::new(),
@@ -421,7 +421,7 @@ impl<'t> Trials<'t> {
             return Outcome::Impossible;
         }
         let laid = lay_out(
-            self.bench.job,
+            &self.bench.job,
             self.asked,
             found.clone(),
             self.cuts_left,
@@ -467,7 +467,7 @@ impl<'t> Trials<'t> {
 
     /// Whether there will be far more cuts than are compared, by the model: to lay them out takes long.
     fn is_too_large(&self, found: &VcutParameters) -> bool {
-        let model = found.time_model(self.bench.job, self.asked);
+        let model = found.time_model(&self.bench.job, self.asked);
         let cuts = model.cuts(found.layer, found.step);
         let most = match self.goal {
             Goal::Best => 1.5,
@@ -527,12 +527,12 @@ impl<'t> Trials<'t> {
 
     fn model(&self, found: &VcutParameters) -> Duration {
         found
-            .time_model(self.bench.job, self.asked)
+            .time_model(&self.bench.job, self.asked)
             .estimate(found.swing, found.layer, found.step)
     }
 
     fn resolve(&self, assumed: &RoughVcut) -> Option<VcutParameters> {
-        parameters::resolve_on(self.bench.job, assumed, self.lattices.to_vec()).ok()
+        parameters::resolve_on(&self.bench.job, assumed, self.lattices.to_vec()).ok()
     }
 
     fn is_sound(&mut self, found: VcutParameters) -> bool {

@@ -20,7 +20,7 @@ use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_driver::{self as driver, Compiled, Outcome, Request, RequestError, Stage};
 use vcutc_job::PlannedJob;
-use vcutc_job::{Auto, CheckedJob, Sourced};
+use vcutc_job::{Auto, CheckedJob, PlanningJob, Sourced};
 use vcutc_picture::pareto::{self, Curve, Pareto};
 use vcutc_vcut::PlannedVcut;
 use vcutc_vcut::asked::{Formulas, Lattice, Objective, RoughVcut};
@@ -280,7 +280,7 @@ fn operation(
     let mut asked = asked.clone();
     asked.limits.scallop = vcut.asked.limits.scallop;
     let asked = &asked;
-    let problem = parameters::problem(job, asked)?;
+    let problem = parameters::problem(&PlanningJob::of(job)?, asked)?;
     let chosen = vcut.parameters.lattice;
     let formulas = asked.formulas.value;
     let rows = rows(&problem, chosen);

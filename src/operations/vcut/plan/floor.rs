@@ -12,7 +12,7 @@ use vcutc_backend_api::units::Length;
 use vcutc_geometry::cone;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
-use vcutc_job::CheckedJob;
+use vcutc_job::PlanningJob;
 use vcutc_simulation::surface::{Surface, Vee};
 
 /// Most corners that are held against the part: of longer contours every second one, or every third, and so on.
@@ -20,7 +20,7 @@ const MOST_CORNERS: usize = 4000;
 
 /// An operation on what those before it left, to be asked what lattices leave of it.
 pub struct Floor<'f> {
-    job: &'f CheckedJob,
+    job: &'f PlanningJob<'f>,
     bound: &'f Profile,
     before: &'f Surface,
 }
@@ -35,7 +35,7 @@ pub struct Followed<'f> {
 impl<'f> Floor<'f> {
     /// For one operation.
     #[must_use]
-    pub const fn new(job: &'f CheckedJob, work: Work<'f>) -> Self {
+    pub const fn new(job: &'f PlanningJob<'f>, work: Work<'f>) -> Self {
         let Work { before, bound } = work;
         Self { job, bound, before }
     }

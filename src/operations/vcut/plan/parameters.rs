@@ -24,7 +24,7 @@ use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::number::show;
 use vcutc_geometry::grid;
-use vcutc_job::{Auto, CheckedJob, Direction};
+use vcutc_job::{Auto, Direction, PlanningJob};
 use vcutc_process::posture::Holder;
 
 /// The parameters of one V-cutting operation, all decided.
@@ -178,7 +178,7 @@ impl VcutParameters {
 
     /// The mean-value model of the paper for a job cut with these parameters.
     #[must_use]
-    pub fn time_model(&self, job: &CheckedJob, asked: &RoughVcut) -> TimeModel {
+    pub fn time_model(&self, job: &PlanningJob<'_>, asked: &RoughVcut) -> TimeModel {
         let stock = job.stock;
         TimeModel {
             width: stock.width,
@@ -270,7 +270,7 @@ pub fn nothing_holds_the_layer(asked: &RoughVcut, times: &[Duration]) -> Refused
 ///
 /// # Errors
 /// When the operation contradicts itself, or nothing keeps its limits.
-pub fn resolve(job: &CheckedJob, asked: &RoughVcut) -> Result<VcutParameters, Refusal> {
+pub fn resolve(job: &PlanningJob<'_>, asked: &RoughVcut) -> Result<VcutParameters, Refusal> {
     resolve_on(job, asked, search::lattices(asked))
 }
 
@@ -279,7 +279,7 @@ pub fn resolve(job: &CheckedJob, asked: &RoughVcut) -> Result<VcutParameters, Re
 /// # Errors
 /// As for [`resolve`].
 pub fn resolve_on(
-    job: &CheckedJob,
+    job: &PlanningJob<'_>,
     asked: &RoughVcut,
     lattices: Vec<Lattice>,
 ) -> Result<VcutParameters, Refusal> {
@@ -316,7 +316,7 @@ pub fn open_lattices(asked: &RoughVcut) -> Vec<Lattice> {
 
 /// The optimisation problem that an operation poses. None when its rake or its standoff contradict its blade.
 #[must_use]
-pub fn problem(job: &CheckedJob, asked: &RoughVcut) -> Option<Problem> {
+pub fn problem(job: &PlanningJob<'_>, asked: &RoughVcut) -> Option<Problem> {
     let mut diagnostics = Vec::new();
     complaints::check_rake(asked, &mut diagnostics);
     let standoff = resolve_standoff(asked, &mut diagnostics);
@@ -326,7 +326,7 @@ pub fn problem(job: &CheckedJob, asked: &RoughVcut) -> Option<Problem> {
 }
 
 /// Lattice, swing, layer and step.
-fn decide(job: &CheckedJob, asked: &RoughVcut, resolution: &Resolution) -> Result<Chosen, Refusal> {
+fn decide(job: &PlanningJob<'_>, asked: &RoughVcut, resolution: &Resolution) -> Result<Chosen, Refusal> {
     if let Auto::Auto = asked.layer.value
         && let Some(complaint) =
             complaints::no_room_for_scallops(asked, least_drop(asked, resolution.standoff))

@@ -8,8 +8,7 @@ use vcutc_backend_api::ir::{Edges, Stock};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_geometry::curve::Point2;
-use vcutc_geometry::profile::Profile;
-use vcutc_job::{Auto, Bounds, CheckedJob, Direction, Order, PlannedJob};
+use vcutc_job::{Auto, Bounds, CheckedJob, Direction, Order, Part, PlannedJob, PlanningJob};
 use vcutc_process::plan::plan as plan_job;
 use vcutc_process::verdict::{Proven, prove};
 use vcutc_simulation::prove::Findings;
@@ -195,8 +194,10 @@ prop_compose! {
     ) -> CheckedJob {
         let (width, height) = size;
         let scale = |p: &Point2| Point2 { x: p.x * width / 85.0, z: p.z * height / 50.0 };
-        job.profile = Profile::new(job.profile.points().iter().map(scale).collect()).unwrap();
-        job.stock = Stock { width: Length::mm(job.profile.span().1), height: Length::mm(height), ..job.stock };
+        let part = PlanningJob::of(&job).unwrap().profile;
+        let points: Vec<Point2> = part.points().iter().map(scale).collect();
+        job.stock = Stock { width: Length::mm(points.last().unwrap().x), height: Length::mm(height), ..job.stock };
+        job.part = Part::through(points).unwrap();
         let auto = |value: Option<f64>| value.map_or(Auto::Auto, |value| Auto::Given(Length::mm(value)));
         let asked = operation(&mut job);
         asked.residual.value = Auto::Given(residual);

@@ -54,7 +54,7 @@ fn no_more_than_a_tenth_stays_where_the_limit_says_so() {
         let job = open(part, Some(45.0));
         let (plan, proven) = planned_and_proven(&job).unwrap();
         let asked = &vcut(&plan).asked;
-        let removable = Removable::new(&job.profile, asked);
+        let removable = Removable::new(&plan.profile, asked);
         let top = [0.0, 85.0].map(|x| Point2 { x, z: 50.0 });
         let whole = removable.under(&top).to_mm2();
         let share = 1.0 - proven.report.removed.to_mm2() / whole;

@@ -232,7 +232,7 @@ impl Trials<'_> {
                     cuts += visits.sum::<f64>();
                 }
                 Row::Free(_) => {
-                    let model = found.time_model(self.bench.job, self.asked);
+                    let model = found.time_model(&self.bench.job, self.asked);
                     return model.cuts(found.layer, found.step);
                 }
             }
@@ -274,7 +274,7 @@ impl Trials<'_> {
 
     /// The time of so many cuts along the better of the orders that are open.
     fn seconds(&self, found: &VcutParameters, cuts: f64, layers: f64) -> f64 {
-        let model = found.time_model(self.bench.job, self.asked);
+        let model = found.time_model(&self.bench.job, self.asked);
         let turn = Angle::rad(2.0 * libm::acos(found.swing.cos() * model.rake.sin())) / model.reorient_rate;
         let passes = (2.0 * model.depth + 4.0 * model.extension) / model.cut_feed;
         let across = found.step / model.travel_feed;

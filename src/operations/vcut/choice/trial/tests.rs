@@ -4,7 +4,7 @@ use super::*;
 use crate::choice::RouteSet;
 use crate::samples::{operation, paper_job};
 use vcutc_geometry::curve::Point2;
-use vcutc_job::Sourced;
+use vcutc_job::{PlanningJob, Sourced};
 use vcutc_simulation::surface::Surface;
 
 /// Plans of the formulas' choice and laxer limits, of the spread and its turns, of the changes, and of layers close to the best one.
@@ -30,7 +30,8 @@ fn the_search_is_bounded() {
                 span: None,
             });
             let asked = operation(&mut job).clone();
-            let bench = Bench::new(&job, &asked, Surface::untouched(job.stock), RouteSet::Full);
+            let job = PlanningJob::of(&job).unwrap();
+            let bench = Bench::new(job.clone(), &asked, Surface::untouched(job.stock), RouteSet::Full);
             for lattice in [Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free] {
                 let by_bound = parameters::resolve_on(&job, &asked, vec![lattice]).ok();
                 let lattices = [lattice];

@@ -7,7 +7,7 @@ use super::{Refusal, edge_overhang, flanks_at};
 use crate::asked::{Formulas, Lattice, Objective, RoughVcut};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::grid;
-use vcutc_job::{Auto, Bounds, CheckedJob};
+use vcutc_job::{Auto, Bounds, PlanningJob};
 
 /// Swings to choose from where there is no limit: flatter and steeper Vs are no cuts.
 const OPEN_SWINGS: Range<Angle> = Range {
@@ -59,7 +59,7 @@ pub(super) fn lattices(asked: &RoughVcut) -> Vec<Lattice> {
 
 /// The problem that a job poses for one of its operations. The rake is above the half apex angle.
 pub(super) fn problem(
-    job: &CheckedJob,
+    job: &PlanningJob<'_>,
     asked: &RoughVcut,
     lattices: Vec<Lattice>,
     standoff: Length,
@@ -104,7 +104,7 @@ pub(super) fn problem(
     }
 }
 
-fn work(job: &CheckedJob, asked: &RoughVcut, swing: Range<Angle>, standoff: Length) -> Work {
+fn work(job: &PlanningJob<'_>, asked: &RoughVcut, swing: Range<Angle>, standoff: Length) -> Work {
     let stock = job.stock;
     let extension = match (asked.setup.extension.value, asked.formulas.value) {
         (Auto::Given(extension), Formulas::Paper | Formulas::Exact) => Extension::Fixed(extension),
@@ -170,7 +170,7 @@ fn within<T: Copy + PartialOrd>(bounds: Bounds<T>, open: Range<T>) -> Range<T> {
 
 /// The best parameters on the grid.
 pub(super) fn choose(
-    job: &CheckedJob,
+    job: &PlanningJob<'_>,
     asked: &RoughVcut,
     lattices: Vec<Lattice>,
     standoff: Length,

@@ -1,0 +1,98 @@
+//! The part as it is drawn: curves, formulas and sections of drawings stay what they are until a stage needs lines.
+//!
+//! Checking a job proves that the part is one height at every x of the stock, and within it, at the tolerance [`Part::TOLERANCE`]. A
+//! checked job keeps the curves. Planning tessellates them once, at the same tolerance; what comes after it, proofs, pictures and
+//! reports, uses the polyline of the plan.
+
+mod formula;
+mod section;
+mod strip;
+
+pub(crate) use formula::{Formula, Sampling};
+pub(crate) use section::Section;
+pub(crate) use strip::{REACHES, SAME, Strip};
+
+use std::sync::Arc;
+use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::source::Span;
+use vcutc_geometry::curve::{Curve, Point2};
+use vcutc_geometry::profile::{Profile, ProfileError};
+
+/// The part across the stock: pieces end to end, cut off at the sides of the stock.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    pieces: Arc<[Piece]>,
+    /// From x = 0 to here, in mm.
+    width: f64,
+}
+
+/// A piece of a part.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Piece {
+    /// Points joined by straight lines, the first one included.
+    Points(Vec<Point2>),
+    /// A curve, from where the piece before it ended.
+    Curve(Curve),
+    /// What a drawing shows.
+    Section(Section),
+    /// A height by formula.
+    Formula(Formula),
+}
+
+impl Part {
+    /// How far the polyline of a part may be off its curves: far below what a knife can do in honeycomb.
+    pub const TOLERANCE: Length = Length::mm(0.001);
+
+    /// Of pieces that were checked on a stock of this width, in mm.
+    pub(crate) fn new(pieces: Vec<Piece>, width: f64) -> Self {
+        Self {
+            pieces: pieces.into(),
+            width,
+        }
+    }
+
+    /// Straight lines through points, up to the last of them.
+    ///
+    /// # Errors
+    /// See [`ProfileError`].
+    pub fn through(points: Vec<Point2>) -> Result<Self, ProfileError> {
+        let width = Profile::new(points.clone())?.span().1;
+        Ok(Self::new(vec![Piece::Points(points)], width))
+    }
+
+    /// The part's polyline, within a tolerance; none where a curve asks for too many points for that.
+    #[must_use]
+    pub fn tessellated(&self, tolerance: Length) -> Option<Profile> {
+        let mut points = Vec::new();
+        for piece in &*self.pieces {
+            piece.tessellate(self.width, tolerance, &mut points)?;
+        }
+        Strip::cut(&points, self.width).profile(self.width).ok()
+    }
+
+    /// Replaces every place in the job's text by this one.
+    pub(crate) fn forget_places(&mut self, place: Span) {
+        let formula = |piece: &Piece| matches!(piece, Piece::Formula(_));
+        if self.pieces.iter().any(formula) {
+            let mut pieces = self.pieces.to_vec();
+            for piece in &mut pieces {
+                if let Piece::Formula(formula) = piece {
+                    formula.forget_places(place);
+                }
+            }
+            self.pieces = pieces.into();
+        }
+    }
+}
+
+impl Piece {
+    fn tessellate(&self, width: f64, tolerance: Length, out: &mut Vec<Point2>) -> Option<()> {
+        match self {
+            Self::Points(points) => out.extend(points),
+            Self::Curve(curve) => curve.flatten(tolerance, out).ok()?,
+            Self::Section(section) => out.extend(section.points(tolerance)?),
+            Self::Formula(formula) => out.extend(formula.points(width, tolerance)?),
+        }
+        Some(())
+    }
+}
