@@ -142,8 +142,8 @@ impl Lifted<'_> {
             base.unwrap_or(self.job.name_span),
             "with the work in this place",
         );
-        let diagnostic = match reach_verdict::in_words(self.job, unreachable) {
-            Some(why) => diagnostic.note(why.message),
+        let diagnostic = match reach_verdict::explain(self.job, unreachable) {
+            Some(why) => diagnostic.note(why.diagnostic.message),
             None => diagnostic,
         };
         let least = show(self.least.to_mm());
@@ -224,7 +224,7 @@ fn told(job: &CheckedJob, cutting: &Compiled, program: Finished) -> Compiled {
     Compiled {
         checks: Checks::of_air_cut(carried, paced.basis),
         parameters: cutting.parameters.clone(),
-        yielded: None,
+        not_followed: None,
         numbers: cutting.numbers.clone(),
         times: time_figures(&report, paced.basis),
         op_times: paced.times,

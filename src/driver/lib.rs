@@ -22,14 +22,13 @@ pub mod starter;
 pub mod summary;
 mod target;
 mod trials;
-mod yielding;
 
 pub use air::{air_cut_height, into_air_cut};
 pub use asked::{machine_words, misfits, understood};
 pub use emitting::{EmitFailure, emit, write};
 pub use refusal::{Patience, Unhelped, Unhurried};
 pub use vcutc_job::sema::Typed;
-pub use yielding::Yielded;
+pub use vcutc_remedy::fallback::NotFollowed;
 
 use crate::checks::{Carried, Checks};
 use crate::memory::Memory;
@@ -52,17 +51,16 @@ use vcutc_job::PlannedJob;
 use vcutc_job::sema;
 use vcutc_job::sema::kind::Operations;
 use vcutc_motion::pace::{self, Paced};
-use vcutc_motion::remedy;
 use vcutc_motion::solve::Reached;
 use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 use vcutc_motion::verdict as reach_verdict;
 use vcutc_process::plan;
 use vcutc_process::verdict;
+use vcutc_remedy::fallback::Fallback;
 use vcutc_simulation::report::Report;
 use vcutc_simulation::timing::times;
 use vcutc_syntax::ast::Ast;
 use vcutc_syntax::fingerprint;
-use yielding::Yielding;
 
 /// What to compile.
 #[derive(Clone, Copy)]
@@ -196,7 +194,7 @@ pub struct Compiled {
     /// The figures for people, a line each.
     pub summary: Vec<String>,
     /// What its machine did not follow before; none where it follows what the job makes of itself.
-    pub yielded: Option<Box<Yielded>>,
+    pub not_followed: Option<Box<NotFollowed>>,
 }
 
 impl Compiled {
@@ -447,25 +445,25 @@ fn along_its_routes<'j>(
     kept: &mut Kept<'_>,
     progress: &mut dyn FnMut(Stage),
 ) -> Ended<'j> {
-    let mut yielding = Yielding::new(job, kept.wanted);
-    match first_followed(job, sources, &mut yielding, kept, progress) {
+    let mut fallback = Fallback::new(job, kept.wanted);
+    match first_followed(job, sources, &mut fallback, kept, progress) {
         Ended::Compiled(plan, warnings, compiled) => {
             let slower = narrower::Slower {
                 plan,
                 warnings,
                 compiled,
             };
-            narrower::or_with_a_narrower_swing(slower, job, sources, yielding, kept, progress)
+            narrower::or_with_a_narrower_swing(slower, job, sources, fallback, kept, progress)
         }
         ended @ (Ended::Refused(_) | Ended::Overtaken) => ended,
     }
 }
 
-/// The first plan that the machine follows, of those that the job yields to.
+/// The first plan that the machine follows, of those that the job falls back to.
 fn first_followed<'j>(
     job: &'j CheckedJob,
     sources: &SourceMap,
-    yielding: &mut Yielding<'_>,
+    fallback: &mut Fallback<'_>,
     kept: &mut Kept<'_>,
     progress: &mut dyn FnMut(Stage),
 ) -> Ended<'j> {
@@ -479,11 +477,11 @@ fn first_followed<'j>(
         let plan = match refused.take() {
             None => kept
                 .memory
-                .choose(job, yielding.space(), wanted)
+                .choose(job, fallback.space(), wanted)
                 .map_err(Refused::Unplanned),
             Some(before) => {
                 let within = settled.as_ref().unwrap_or(job);
-                match kept.memory.choose(within, yielding.space(), wanted) {
+                match kept.memory.choose(within, fallback.space(), wanted) {
                     Ok(plan) => {
                         refused = Some(before);
                         Ok(reaching::as_asked(plan, job))
@@ -517,7 +515,7 @@ fn first_followed<'j>(
                 None => Ended::Refused(Refused::Unsound(Box::new(plan), Box::new(proven))),
             };
         }
-        let changes = yielding.changes(&plan);
+        let changes = fallback.changes(&plan);
         match reaching::reach(job, proven.program, changes, kept, progress) {
             Ok(program) => {
                 told.extend(
@@ -530,7 +528,8 @@ fn first_followed<'j>(
             }
             Err(_) if wanted.is_needless() => return Ended::Overtaken,
             Err(why) => {
-                if let Some(roomier) = remedy::farther_out(settled.as_ref().unwrap_or(job), &plan, &why) {
+                if let Some(roomier) = vcutc_remedy::farther_out(settled.as_ref().unwrap_or(job), &plan, &why)
+                {
                     settled = Some(roomier);
                     refused = refused.or(Some(Box::new(NotCarriedOut {
                         plan,
@@ -540,11 +539,11 @@ fn first_followed<'j>(
                     })));
                     continue;
                 }
-                let is_usual = yielding.is_usual();
-                let swing = yielding.space().swing;
-                let goes_on = yielding.narrow(&plan, &why);
+                let is_usual = fallback.is_usual();
+                let swing = fallback.space().swing;
+                let goes_on = fallback.narrow(&plan, &why);
                 // What little is left depends on the swing: with another one the limit is chosen anew.
-                if yielding.space().swing != swing {
+                if fallback.space().swing != swing {
                     settled = None;
                 }
                 let this = Box::new(NotCarriedOut {
@@ -558,7 +557,7 @@ fn first_followed<'j>(
                     Some(_) | None => this,
                 };
                 if !goes_on {
-                    told_of.cut_short = yielding.cut_short();
+                    told_of.cut_short = fallback.cut_short();
                     return unreached(told_of);
                 }
                 refused = Some(told_of);
@@ -593,7 +592,7 @@ fn compiled(
         program,
         figures,
         report,
-        yielded: None,
+        not_followed: None,
     }
 }
 

@@ -4,7 +4,6 @@
 //! a narrower swing may let it follow the faster route, and cost less than the slower one. Both are compiled, and the
 //! faster is taken.
 
-use super::yielding::Yielding;
 use super::{Compiled, Ended, Kept, Stage, axis_moves, compiled, reaching};
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
@@ -16,6 +15,7 @@ use vcutc_job::search::SearchSpace;
 use vcutc_motion::solve::Changes;
 use vcutc_process::plan;
 use vcutc_process::verdict;
+use vcutc_remedy::fallback::Fallback;
 
 /// A plan that the machine follows along a slower route, perhaps.
 pub(super) struct Slower {
@@ -30,7 +30,7 @@ pub(super) fn or_with_a_narrower_swing<'j>(
     mut best: Slower,
     job: &CheckedJob,
     sources: &SourceMap,
-    mut yielding: Yielding<'_>,
+    mut fallback: Fallback<'_>,
     kept: &mut Kept<'_>,
     progress: &mut dyn FnMut(Stage),
 ) -> Ended<'j> {
@@ -41,7 +41,7 @@ pub(super) fn or_with_a_narrower_swing<'j>(
     {
         // Limits that the compiler chose are kept: what leaves more on the part is not faster.
         let within = plan::settled(job, &best.plan).unwrap_or_else(|| job.clone());
-        while let Some(space) = yielding.narrow_for_a_faster_route() {
+        while let Some(space) = fallback.narrow_for_a_faster_route() {
             match faster(&best, (job, &within), space, sources, kept, progress) {
                 Tried::Faster(found) => {
                     best = *found;
@@ -55,7 +55,7 @@ pub(super) fn or_with_a_narrower_swing<'j>(
     if kept.wanted.is_needless() {
         return Ended::Overtaken;
     }
-    best.compiled.yielded = yielding.into_first();
+    best.compiled.not_followed = fallback.into_first();
     Ended::Compiled(best.plan, best.warnings, best.compiled)
 }
 

@@ -12,8 +12,8 @@ use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::CheckedJob;
 use vcutc_job::PlannedJob;
-use vcutc_motion::solve::Unreached;
-use vcutc_motion::verdict as reach_verdict;
+use vcutc_motion::solve::{Unreachable, Unreached};
+use vcutc_motion::verdict::{self as reach_verdict, Explained};
 use vcutc_process::plan;
 use vcutc_process::verdict::{self, Proven};
 
@@ -108,7 +108,8 @@ impl Refused<'_> {
                 verdict::diagnose_while(job, plan, proven, &Wanted::never(), &mut |_| false)
             }
             Self::Unreached(refused) => refused.in_words(job, |unreachable| {
-                reach_verdict::at_once(job, unreachable).into_iter().collect()
+                let explained = reach_verdict::explain(job, unreachable);
+                explained.map(Explained::with_advice)
             }),
             Self::ByTarget(refused) => {
                 let objections = refused.objections.iter();
@@ -132,7 +133,7 @@ impl Refused<'_> {
                 verdict::diagnose_while(job, plan, proven, wanted, &mut |edits| trials.works(edits))
             }
             Self::Unreached(refused) => refused.in_words(job, |unreachable| {
-                reach_verdict::diagnose(job, &refused.plan, unreachable, wanted, &mut |edits| {
+                vcutc_remedy::diagnose(job, &refused.plan, unreachable, wanted, &mut |edits| {
                     trials.works(edits)
                 })
             }),
@@ -159,15 +160,15 @@ impl NotCarriedOut {
     fn in_words(
         &self,
         job: &CheckedJob,
-        of_machine: impl FnOnce(&vcutc_motion::solve::Unreachable) -> Vec<Diagnostic>,
+        of_machine: impl FnOnce(&Unreachable) -> Option<Diagnostic>,
     ) -> Vec<Diagnostic> {
         let mut words = match &self.unreached {
             Unreached::Unreachable(unreachable) => of_machine(unreachable),
-            Unreached::Rules(faults) => vec![super::internal(job, &super::rules_broken(faults))],
-            Unreached::Motion(faults) => vec![super::internal(job, &super::motions_broken(faults))],
+            Unreached::Rules(faults) => Some(super::internal(job, &super::rules_broken(faults))),
+            Unreached::Motion(faults) => Some(super::internal(job, &super::motions_broken(faults))),
         };
-        if let Some(first) = words.first_mut() {
-            first.notes.extend(self.cut_short.clone());
+        if let Some(words) = &mut words {
+            words.notes.extend(self.cut_short.clone());
         }
         self.told.iter().cloned().chain(words).collect()
     }

@@ -22,8 +22,8 @@ use vcutc_motion::moves::above_first_pose;
 use vcutc_motion::place::motions::TellingMotions;
 use vcutc_motion::place::score::Judge;
 use vcutc_motion::place::taught::TaughtPoses;
-use vcutc_motion::remedy::wording;
 use vcutc_motion::rig::Rig;
+use vcutc_remedy::wording;
 use vcutc_syntax::format;
 
 /// Rates of turning the blade that are tried, in deg/s, the usual one first.

@@ -2,7 +2,7 @@
 //!
 //! What works for the planner need not be followed by the machine of the job, nor be taken by its target. So a change is made in
 //! the text, exactly as an editor would make it, and the text is compiled as far as these two. How often that is done for one
-//! refusal is bounded by a number of cuts.
+//! refusal is bounded by a [`Budget`].
 
 use super::{Ended, Kept, Request, Stage, Unhurried, along_its_routes, target};
 use crate::memory::Memory;
@@ -12,15 +12,7 @@ use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap, Spa
 use vcutc_diagnostics::{Code, Diagnostic, Edit, fix, has_errors};
 use vcutc_job::PlannedJob;
 use vcutc_job::sema;
-
-/// Most changes that are compiled for one refusal.
-const MOST_TRIALS: usize = 12;
-
-/// Most cuts of the plans that come of them together, beyond two changes.
-const MOST_CUTS: usize = 6_000;
-
-/// What is replaced in a text, and by what.
-type Edits = Vec<(Span, String)>;
+use vcutc_remedy::{Budget, Edits, Size};
 
 /// Changes of one refused job.
 pub(super) struct Trials<'t> {
@@ -28,9 +20,9 @@ pub(super) struct Trials<'t> {
     sources: &'t SourceMap,
     /// What is wrong with the job as it is.
     errors: Vec<(Code, String)>,
-    wanted: Wanted,
-    known: Vec<(Edits, Verdict)>,
-    cuts: usize,
+    budget: Budget,
+    /// Changes that were compiled, and whether they work.
+    known: Vec<(Edits, bool)>,
     machine: Machine,
 }
 
@@ -41,13 +33,6 @@ pub(super) enum Machine {
     Here,
     /// What was planned and proven is all there is to try.
     None,
-}
-
-/// What came of a change.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Verdict {
-    Works,
-    Fails,
 }
 
 impl<'t> Trials<'t> {
@@ -62,9 +47,8 @@ impl<'t> Trials<'t> {
             request,
             sources,
             errors: told.iter().map(named).collect(),
-            wanted: wanted.clone(),
+            budget: Budget::new(Size::TEXTS, wanted),
             known: Vec::new(),
-            cuts: 0,
             machine,
         }
     }
@@ -75,30 +59,28 @@ impl<'t> Trials<'t> {
             Machine::None => return true,
             Machine::Here => {}
         }
-        if let Some((_, verdict)) = self.known.iter().find(|(known, _)| known == edits) {
-            return *verdict == Verdict::Works;
+        if let Some((_, works)) = self.known.iter().find(|(known, _)| known == edits) {
+            return *works;
         }
-        let is_enough = self.known.len() >= MOST_TRIALS || (self.known.len() >= 2 && self.cuts >= MOST_CUTS);
-        if is_enough || self.wanted.is_needless() {
+        if self.budget.is_spent() {
             return false;
         }
-        let verdict = match self.compiled(edits) {
-            Some(left) if self.is_better(&left) => Verdict::Works,
-            Some(_) | None => Verdict::Fails,
-        };
-        if self.wanted.is_needless() {
+        let (left, cuts) = self.compiled(edits).unzip();
+        self.budget.spend(cuts.unwrap_or(0));
+        if self.budget.wanted.is_needless() {
             return false;
         }
-        self.known.push((edits.to_vec(), verdict));
-        verdict == Verdict::Works
+        let works = left.is_some_and(|left| self.is_better(&left));
+        self.known.push((edits.to_vec(), works));
+        works
     }
 
     fn is_better(&self, left: &[(Code, String)]) -> bool {
         left.len() < self.errors.len().max(1) && left.iter().all(|one| self.errors.contains(one))
     }
 
-    /// The errors of the changed job; none where it cannot be compiled at all.
-    fn compiled(&mut self, edits: &[(Span, String)]) -> Option<Vec<(Code, String)>> {
+    /// The errors of the changed job, and how many cuts were planned to find them; none where it cannot be compiled at all.
+    fn compiled(&self, edits: &[(Span, String)]) -> Option<(Vec<(Code, String)>, usize)> {
         let loader = Edited {
             texts: edited(self.sources, edits)?,
             below: self.request.loader,
@@ -109,7 +91,7 @@ impl<'t> Trials<'t> {
         let job = job.filter(|_| !has_errors(&told))?;
         let mut kept = Kept {
             memory: &mut Memory::none(),
-            wanted: &self.wanted,
+            wanted: &self.budget.wanted,
             patience: &mut Unhurried,
         };
         let ended = along_its_routes(&job, &sources, &mut kept, &mut |_: Stage| ());
@@ -128,8 +110,7 @@ impl<'t> Trials<'t> {
             }
             Ended::Overtaken => return None,
         };
-        self.cuts += plan.as_ref().map_or(0, PlannedJob::cuts);
-        Some(left)
+        Some((left, plan.as_ref().map_or(0, PlannedJob::cuts)))
     }
 }
 

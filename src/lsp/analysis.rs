@@ -308,7 +308,7 @@ impl Early<'_> {
             hints: Vec::new(),
         };
         if let (Some(job), Some(compiled)) = (&job, &compiled)
-            && compiled.yielded.is_some()
+            && compiled.not_followed.is_some()
         {
             self.tell_at_once(planned.clone());
             planned.hints = hints(job, compiled, &wanted.and(&self.patience.slowed()));

@@ -12,7 +12,6 @@ pub mod moves;
 pub mod pace;
 pub mod path;
 pub mod place;
-pub mod remedy;
 pub mod reorient;
 pub mod rig;
 mod runs;

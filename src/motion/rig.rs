@@ -2,6 +2,7 @@
 
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::Axis;
+use vcutc_job::Machine;
 use vcutc_machine::Model;
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_machine::kinematics::{Joints, Mechanism};
@@ -28,6 +29,12 @@ impl<'m> Rig<'m> {
             flange_in_blade: Pose::from(tool).inverse(),
             work_in_root: Pose::from(base),
         }
+    }
+
+    /// The machine of a job.
+    #[must_use]
+    pub fn of(machine: &'m Machine) -> Self {
+        Self::new(&machine.model, machine.tool.value.frame, machine.base.value.frame)
     }
 
     /// Where the flange is in the root when the blade is there in the work.

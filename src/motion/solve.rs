@@ -103,6 +103,17 @@ pub enum Unreached {
     Motion(Vec<MotionFault>),
 }
 
+impl Unreached {
+    /// What the machine cannot carry out; none of a fault of the compiler.
+    #[must_use]
+    pub fn unreachable(&self) -> Option<&Unreachable> {
+        match self {
+            Self::Unreachable(unreachable) => Some(unreachable),
+            Self::Rules(_) | Self::Motion(_) => None,
+        }
+    }
+}
+
 /// A program that its machine cannot carry out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unreachable {

@@ -57,6 +57,28 @@ impl Trouble {
             Self::Nowhere => None,
         }
     }
+
+    /// The motion that is reported first, where single motions fail.
+    #[must_use]
+    pub const fn failing(&self) -> Option<&Failing> {
+        match self {
+            Self::Motion { failing, .. } | Self::NoCommonBranch { failing, .. } => Some(failing),
+            Self::Way { .. } | Self::Sweep(_) | Self::Nowhere => None,
+        }
+    }
+
+    /// The motion that lacks most, where single motions fail.
+    #[must_use]
+    pub const fn hardest(&self) -> Option<&Failing> {
+        match self {
+            Self::Motion {
+                hardest: Some(hardest),
+                ..
+            } => Some(hardest),
+            Self::Motion { .. } | Self::NoCommonBranch { .. } => self.failing(),
+            Self::Way { .. } | Self::Sweep(_) | Self::Nowhere => None,
+        }
+    }
 }
 
 /// A number of cuts.

@@ -7,9 +7,8 @@ mod size;
 pub use size::too_large;
 
 use crate::describe::{branch_words, site_words, value_words};
-use crate::moves::path_of;
+use crate::moves::{pacing, path_of};
 use crate::path::{Singularity, Violation};
-use crate::remedy::{self, speed::pacing};
 use crate::rig::Rig;
 use crate::solve::{LEAST_CLEARANCE, Unreachable};
 use crate::sweep::{BladePart, Cure, Sweep};
@@ -20,60 +19,50 @@ use vcutc_backend_api::ir::{Action, Axis, AxisKind, MachineKind, OpId, Program, 
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::segments::{LimitedBy, LinearSegment, Path};
 use vcutc_backend_api::units::Length;
-use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_job::PlannedJob;
 use vcutc_job::{CheckedJob, Machine, Setup};
 use vcutc_machine::LimitPlaces;
 
-/// Puts into words why a program is not carried out, and offers changes of the job that mend it: those that were found while
-/// they were wanted.
+/// Why a program is not carried out.
+pub struct Explained {
+    pub diagnostic: Diagnostic,
+    /// What to do where no single change is known to help. None where neither the machine nor the place of the work is the
+    /// cause, and the diagnostic says all.
+    pub advice: Option<String>,
+}
+
+impl Explained {
+    /// The diagnostic with its advice.
+    #[must_use]
+    pub fn with_advice(self) -> Diagnostic {
+        match self.advice {
+            Some(advice) => self.diagnostic.help(advice),
+            None => self.diagnostic,
+        }
+    }
+}
+
+/// Explains why the program of a job is not carried out. A job without a machine has nothing to explain.
 #[must_use]
-pub fn diagnose(
-    job: &CheckedJob,
-    plan: &PlannedJob,
-    unreachable: &Unreachable,
-    wanted: &Wanted,
-    works: &mut remedy::Works<'_>,
-) -> Vec<Diagnostic> {
-    let Some(machine) = &job.machine else {
-        return Vec::new();
+pub fn explain(job: &CheckedJob, unreachable: &Unreachable) -> Option<Explained> {
+    let scene = Scene {
+        job,
+        machine: job.machine.as_ref()?,
+        program: unreachable.program.program(),
     };
-    let scene = Scene::of(job, machine, unreachable);
-    if let Some(diagnostic) = scene.of_the_job_alone(&unreachable.trouble) {
-        return vec![diagnostic];
-    }
-    let diagnostic = scene.trouble(&unreachable.trouble);
-    let remedies = remedy::remedies(job, plan, unreachable, wanted, works);
-    if remedies.is_empty() && wanted.is_needless() {
-        // That nothing helps is not known.
-        let diagnostic = diagnostic.help(scene.general(unreachable));
-        return vec![diagnostic.help(remedy::LOOK_ON)];
-    }
-    vec![remedy::offer(diagnostic, &remedies, &scene.general(unreachable))]
-}
-
-/// The same before any change is tried.
-#[must_use]
-pub fn at_once(job: &CheckedJob, unreachable: &Unreachable) -> Option<Diagnostic> {
-    let scene = Scene::of(job, job.machine.as_ref()?, unreachable);
-    let alone = scene.of_the_job_alone(&unreachable.trouble);
-    Some(alone.unwrap_or_else(|| {
-        scene
-            .trouble(&unreachable.trouble)
-            .help(scene.general(unreachable))
-    }))
-}
-
-/// The same without remedies, for a program that is not what its job makes of itself. A job without a machine has nothing
-/// to tell.
-#[must_use]
-pub fn in_words(job: &CheckedJob, unreachable: &Unreachable) -> Option<Diagnostic> {
-    let scene = Scene::of(job, job.machine.as_ref()?, unreachable);
-    let alone = scene.of_the_job_alone(&unreachable.trouble);
-    Some(alone.unwrap_or_else(|| scene.trouble(&unreachable.trouble)))
+    let trouble = &unreachable.trouble;
+    Some(match scene.of_the_job_alone(trouble) {
+        Some(diagnostic) => Explained {
+            diagnostic,
+            advice: None,
+        },
+        None => Explained {
+            diagnostic: scene.trouble(trouble),
+            advice: Some(scene.general(trouble)),
+        },
+    })
 }
 
 /// A job, its machine and the program made of it.
@@ -84,17 +73,9 @@ struct Scene<'s> {
 }
 
 impl<'s> Scene<'s> {
-    fn of(job: &'s CheckedJob, machine: &'s Machine, unreachable: &'s Unreachable) -> Self {
-        Self {
-            job,
-            machine,
-            program: unreachable.program.program(),
-        }
-    }
-
     /// What to do where no single change was found.
-    fn general(&self, unreachable: &Unreachable) -> String {
-        match &unreachable.trouble {
+    fn general(&self, trouble: &Trouble) -> String {
+        match trouble {
             Trouble::Motion { failing, hardest, .. } => match failing.worst.what {
                 Violation::OutOfReach => {
                     "move the work closer to the machine with `base`, or choose a machine with a longer reach".to_owned()
@@ -186,10 +167,7 @@ impl<'s> Scene<'s> {
     }
 
     fn far_outside(&self, trouble: &Trouble) -> Option<Diagnostic> {
-        let failing = match trouble {
-            Trouble::Motion { failing, .. } | Trouble::NoCommonBranch { failing, .. } => failing,
-            Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => return None,
-        };
+        let failing = trouble.failing()?;
         match failing.worst.what {
             Violation::OutOfReach | Violation::Limit { .. } => {}
             Violation::Rate { .. } | Violation::Singular(_) => return None,
@@ -256,7 +234,6 @@ impl<'s> Scene<'s> {
     /// How far from an arm the tip would be, where that is farther than it comes with its tool.
     fn out_of_reach(&self, op: OpId) -> String {
         let model = &self.machine.model;
-        let tool = self.machine.tool.value.frame;
         let reach = model.reach();
         let either = format!(
             "the work is out of the reach of `{}`: too far or too close",
@@ -264,8 +241,8 @@ impl<'s> Scene<'s> {
         );
         match (model.kind(), self.tip(op)) {
             (MachineKind::Robot, Some(tip)) => {
-                let rig = Rig::new(model, tool, self.machine.base.value.frame);
-                let (there, tool) = (rig.point_in_root(tip), tool.origin);
+                let there = Rig::of(self.machine).point_in_root(tip);
+                let tool = self.machine.tool.value.frame.origin;
                 let aside = libm::hypot(there.x, there.y);
                 // No arm stands higher than half its reach.
                 let (distance, within) = if there.z.abs() > 1.5 * reach {

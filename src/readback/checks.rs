@@ -433,7 +433,7 @@ impl Read<'_> {
     /// The words of the proof, at the line of the program.
     fn unreachable(&self, unreachable: &Unreachable) -> Option<Diagnostic> {
         let scene = self.bench.scene;
-        let words = reach_verdict::in_words(scene.job, unreachable)?;
+        let words = reach_verdict::explain(scene.job, unreachable)?.diagnostic;
         let op = unreachable.trouble.op();
         let span = op.map_or_else(|| self.bench.span(usize::MAX), |op| self.span(op));
         let mut diagnostic = Diagnostic::new(Code::ProgramReach, words.message, span, "with this line");

@@ -7,9 +7,11 @@
 mod bounds;
 mod map;
 pub mod report;
+mod room;
 
 pub use bounds::{AROUND, Asked, BadBounds, TURN_AROUND};
 pub use map::Map;
+pub use room::Room;
 
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_cancellation::Wanted;
@@ -25,11 +27,11 @@ use vcutc_motion::place::motions::TellingMotions;
 use vcutc_motion::place::score::Judge;
 use vcutc_motion::place::search::{Bounds, Criteria, Placed, search};
 use vcutc_motion::place::taught::TaughtPoses;
-use vcutc_motion::remedy::trial::{self, Room};
-use vcutc_motion::remedy::wording;
 use vcutc_motion::rig::Rig;
 use vcutc_process::plan::plan_within;
 use vcutc_process::verdict;
+use vcutc_remedy::trial::carried_out;
+use vcutc_remedy::wording;
 
 /// Where the work stands best.
 #[derive(Clone, Debug)]
@@ -215,7 +217,7 @@ fn placed(ready: &Ready, asked: &Asked<'_>, mut bounds: Bounds) -> Placement {
     } = ready;
     let base = machine.base.value;
     let poses = TaughtPoses::of(&proven.program);
-    let rig = Rig::new(&machine.model, machine.tool.value.frame, base.frame);
+    let rig = Rig::of(machine);
     let motions = TellingMotions::of(proven.program.program());
     let judge = |spread| {
         Judge::new(
@@ -301,9 +303,9 @@ fn prove(plan: &PlannedJob, machine: &Machine, place: Placed, refused: &mut Vec<
 
 /// What room the whole program leaves with the base there; in words, why it is not carried out.
 fn tried(plan: &PlannedJob, machine: &Machine, base: PlacedFrame) -> Result<Room, String> {
-    match trial::with_base(plan, base, &Wanted::ALWAYS) {
-        Some(Ok(reached)) => Ok(trial::room(&reached, &machine.model)),
-        Some(Err(unreached)) => Err(trial::words(&unreached, &machine.model)),
-        None => Err("the job has no machine".to_owned()),
-    }
+    let mut moved = machine.clone();
+    moved.base.value = base;
+    carried_out(plan, &moved, &Wanted::ALWAYS)
+        .map(|reached| Room::of(&reached))
+        .map_err(|unreached| room::why_not(&unreached, &machine.model))
 }

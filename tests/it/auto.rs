@@ -89,5 +89,5 @@ fn a_narrower_swing_is_taken_where_it_costs_less_than_a_slower_route() {
         "{with_narrower} s, by point {slower} s"
     );
     // What the machine did not follow is what hints after the success start from.
-    assert!(faster.yielded.is_some());
+    assert!(faster.not_followed.is_some());
 }

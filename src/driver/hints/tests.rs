@@ -4,9 +4,10 @@ use super::*;
 use crate::{Outcome, Request, Typed, compile};
 use vcutc_diagnostics::source::{LoadError, Loader};
 use vcutc_job::sema::kind::Operations;
-use vcutc_motion::remedy::trial;
-use vcutc_motion::solve::Unreached;
 use vcutc_process::plan::plan;
+use vcutc_remedy::fallback::NotFollowed;
+use vcutc_remedy::hints::{MOST_HINTS, WORTH_IT};
+use vcutc_remedy::trial;
 
 /// Few cuts, with a `reorient` that no axis of the head follows.
 const JOB: &str = r#"job "tip"
@@ -63,11 +64,10 @@ fn made_slow() -> (CheckedJob, Compiled) {
     let slow = outcome(&JOB.replace("reorient = 200", "reorient = 20"));
     let mut compiled = slow.compiled.unwrap();
     let plan = plan(&fast).0.unwrap();
-    let unreachable = match trial::with_machine(&plan, |_| (), &Wanted::ALWAYS) {
-        Some(Err(Unreached::Unreachable(unreachable))) => *unreachable,
-        other => panic!("{other:?}"),
-    };
-    compiled.yielded = Some(Box::new(Yielded { plan, unreachable }));
+    let machine = plan.machine.as_ref().unwrap();
+    let unreached = trial::carried_out(&plan, machine, &Wanted::ALWAYS).unwrap_err();
+    let unreachable = unreached.unreachable().unwrap().clone();
+    compiled.not_followed = Some(Box::new(NotFollowed { plan, unreachable }));
     (fast, compiled)
 }
 
@@ -102,14 +102,6 @@ fn a_machine_that_follows_and_who_does_not_wait_get_no_hints() {
     let (wanted, interest) = Wanted::while_held();
     drop(interest);
     assert_eq!(hints(&job, &compiled, &wanted), []);
-    compiled.yielded = None;
+    compiled.not_followed = None;
     assert_eq!(hints(&job, &compiled, &Wanted::ALWAYS), []);
-}
-
-#[test]
-fn large_jobs_are_tried_less_often() {
-    assert_eq!(tries(0), MOST_TRIES);
-    assert_eq!(tries(14), MOST_TRIES);
-    assert_eq!(tries(2_000), 3);
-    assert_eq!(tries(MOST_CUTS_TRIED + 1), 0);
 }

@@ -6,7 +6,7 @@ use core::fmt::Write;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker, PlacedFrame};
 use vcutc_machine::Model;
-use vcutc_motion::remedy::wording;
+use vcutc_remedy::wording;
 
 /// A job that is planned and proven, but has no machine.
 pub(super) fn without_machine(name: &str) -> String {

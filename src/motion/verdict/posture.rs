@@ -22,7 +22,7 @@ pub(super) fn lacks_an_axis(
         Mechanism::FiveAxis(five_axis) => five_axis,
         Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => return None,
     };
-    let rig = Rig::new(&machine.model, machine.tool.value.frame, machine.base.value.frame);
+    let rig = Rig::of(machine);
     let blade_in_work = Pose::from(Frame {
         origin: tip,
         orientation: held,

@@ -225,7 +225,7 @@ fn operations(
             Scale {
                 index,
                 points,
-                route: match compiled.yielded {
+                route: match compiled.not_followed {
                     Some(_) => Route::OfThePlan,
                     None => Route::Open,
                 },

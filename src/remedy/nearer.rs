@@ -1,14 +1,16 @@
 //! The base straight to where the machine works, for work that is so far away that steps around its place lead nowhere.
 
-use super::base::{Elsewhere, Shift, nearest, remedy, rig};
-use super::{Case, Remedy};
+use crate::base::{Shift, confirmed, nearest};
+use crate::case::Case;
+use crate::change::Change;
 use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind};
 use vcutc_backend_api::units::Length;
 use vcutc_machine::kinematics::Joints;
+use vcutc_motion::rig::Rig;
 
 /// The base straight to where the machine works.
-pub(super) fn nearer(case: &mut Case<'_>) -> Option<Remedy> {
+pub(crate) fn nearer(case: &mut Case<'_>) -> Option<Change> {
     match case.machine.model.kind() {
         MachineKind::Robot => towards_the_arm(case),
         MachineKind::FiveAxis => into_the_range(case),
@@ -21,7 +23,7 @@ const AWAY: [f64; 6] = [0.74, 0.66, 0.58, 0.5, 0.42, 0.35];
 const LIFTS: [f64; 5] = [0.0, 200.0, -200.0, 400.0, -400.0];
 
 /// The base straight towards an arm that the work is far away from.
-fn towards_the_arm(case: &mut Case<'_>) -> Option<Remedy> {
+fn towards_the_arm(case: &mut Case<'_>) -> Option<Change> {
     let (middle, reach) = (middle_in_root(case), case.machine.model.reach());
     let distance = libm::hypot(middle.x, middle.y);
     let is_level = middle.z.abs() <= reach;
@@ -50,7 +52,7 @@ fn towards_the_arm(case: &mut Case<'_>) -> Option<Remedy> {
 const HEIGHTS: [f64; 5] = [0.5, 0.35, 0.65, 0.2, 0.8];
 
 /// The base into the middle of what the linear axes of a five-axis machine reach.
-fn into_the_range(case: &mut Case<'_>) -> Option<Remedy> {
+fn into_the_range(case: &mut Case<'_>) -> Option<Change> {
     let axes = &case.machine.model.axes;
     let middle = middle_in_root(case);
     let (low, high) = (tip(case, axes, 0.0), tip(case, axes, 1.0));
@@ -86,19 +88,15 @@ fn tip(case: &Case<'_>, axes: &[Axis], share: f64) -> Point3 {
             AxisKind::Rotary => 0.0,
         };
     }
-    let rig = rig(case);
+    let rig = Rig::of(case.machine);
     rig.point_in_root(Frame::from(rig.blade_in_work(&joints)).origin)
 }
 
 /// The nearest of these places that carries out the whole program.
-fn placed(case: &mut Case<'_>, shifts: Vec<Shift>) -> Option<Remedy> {
+fn placed(case: &mut Case<'_>, shifts: Vec<Shift>) -> Option<Change> {
     let few = |shifts: Vec<Shift>| shifts.into_iter().step_by(LIFTS.len()).collect();
-    let (shift, base) = nearest(case, shifts, few)?;
-    let elsewhere = Elsewhere {
-        how: shift.how(),
-        base,
-    };
-    Some(remedy(case, &elsewhere))
+    let elsewhere = nearest(case, shifts, few)?;
+    confirmed(case, &elsewhere)
 }
 
 /// Whole centimetres: a place of the work in its cell is measured no finer.
@@ -111,5 +109,5 @@ fn middle_in_root(case: &Case<'_>) -> Point3 {
     let stock = case.unreachable.program.program().stock;
     let half = |size: Length| size.to_mm() / 2.0;
     let middle = Point3::new(half(stock.width), half(stock.depth), half(stock.height));
-    rig(case).point_in_root(middle)
+    Rig::of(case.machine).point_in_root(middle)
 }

@@ -3,19 +3,18 @@
 //! Places around the present one are judged by the taught poses and a few telling motions, the nearest first; the first that promise
 //! something are put to the whole proof. A place that fails there makes its neighbours unlikely, so the next to be proven is some way further.
 
-use super::{Case, Remedy, trial, wording};
-use crate::place::motions::TellingMotions;
-use crate::place::score::{Effort, Judge};
-use crate::place::search::ask_all;
-use crate::place::taught::TaughtPoses;
-use crate::rig::Rig;
-use crate::trouble::Trouble;
+use crate::case::Case;
+use crate::change::{Change, Elsewhere};
+use crate::wording;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_backend_api::units::Angle;
 use vcutc_diagnostics::number::show;
-use vcutc_diagnostics::source::Span;
-use vcutc_job::Machine;
+use vcutc_motion::place::motions::TellingMotions;
+use vcutc_motion::place::score::{Effort, Judge};
+use vcutc_motion::place::search::ask_all;
+use vcutc_motion::place::taught::TaughtPoses;
+use vcutc_motion::rig::Rig;
 
 /// How far the base is moved along a direction, in mm.
 const DISTANCES: [f64; 14] = [
@@ -38,9 +37,9 @@ const SPREAD: usize = 4;
 
 /// A change of the base: by these mm along the root's axes, and turned by these degrees about its z.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Shift {
-    pub(super) by: [f64; 3],
-    pub(super) turn: f64,
+pub(crate) struct Shift {
+    pub(crate) by: [f64; 3],
+    pub(crate) turn: f64,
 }
 
 impl Shift {
@@ -50,8 +49,11 @@ impl Shift {
         (x * x + y * y + z * z).sqrt() + self.turn.abs()
     }
 
-    /// What a move of the base is called.
-    pub(super) fn how(&self) -> String {
+    /// What it is called, in the imperative.
+    fn how(&self) -> String {
+        if self.turn != 0.0 {
+            return format!("turn the base by {} deg about z", show(self.turn));
+        }
         let parts = ["x", "y", "z"]
             .into_iter()
             .zip(self.by)
@@ -79,82 +81,35 @@ impl Shift {
 }
 
 /// The base moved by the least, along one axis or several.
-pub(super) fn moved(case: &mut Case<'_>) -> Option<Remedy> {
-    let elsewhere = moved_to(case)?;
-    Some(remedy(case, &elsewhere))
-}
-
-pub(super) fn rig<'c>(case: &Case<'c>) -> Rig<'c> {
-    let machine = case.machine;
-    Rig::new(&machine.model, machine.tool.value.frame, machine.base.value.frame)
+pub(crate) fn moved(case: &mut Case<'_>) -> Option<Change> {
+    moved_to(case).and_then(|elsewhere| confirmed(case, &elsewhere))
 }
 
 /// The base turned about the root's z by the least.
-pub(super) fn turned(case: &mut Case<'_>) -> Option<Remedy> {
-    let elsewhere = turned_to(case)?;
-    Some(remedy(case, &elsewhere))
+pub(crate) fn turned(case: &mut Case<'_>) -> Option<Change> {
+    turned_to(case).and_then(|elsewhere| confirmed(case, &elsewhere))
 }
 
-/// Another place for the base.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Elsewhere {
-    /// How it comes there, in the imperative.
-    pub how: String,
-    /// The place, as it is written.
-    pub base: PlacedFrame,
+pub(crate) fn confirmed(case: &mut Case<'_>, elsewhere: &Elsewhere) -> Option<Change> {
+    case.confirmed(Change::base(case.job, elsewhere))
 }
 
 /// Where the base comes to when it is moved by the least.
-pub(super) fn moved_to(case: &mut Case<'_>) -> Option<Elsewhere> {
+pub(crate) fn moved_to(case: &mut Case<'_>) -> Option<Elsewhere> {
     let ways = || [-1.0, 0.0, 1.0].into_iter();
     let directions = ways().flat_map(|x| ways().flat_map(move |y| ways().map(move |z| [x, y, z])));
     let shifts = directions
         .filter(|direction| *direction != [0.0; 3])
         .flat_map(|direction| DISTANCES.map(|distance| direction.map(|part| part * distance)))
         .map(|by| Shift { by, turn: 0.0 });
-    let (shift, base) = nearest(case, shifts.collect(), along_one_axis)?;
-    Some(Elsewhere {
-        how: shift.how(),
-        base,
-    })
+    nearest(case, shifts.collect(), along_one_axis)
 }
 
 /// Where the base comes to when it is turned by the least.
-pub(super) fn turned_to(case: &mut Case<'_>) -> Option<Elsewhere> {
+pub(crate) fn turned_to(case: &mut Case<'_>) -> Option<Elsewhere> {
     let turns = TURNS.into_iter().flat_map(|turn| [turn, -turn]);
     let shifts = turns.map(|turn| Shift { by: [0.0; 3], turn });
-    let (shift, base) = nearest(case, shifts.collect(), along_one_axis)?;
-    let turn = show(shift.turn);
-    Some(Elsewhere {
-        how: format!("turn the base by {turn} deg about z"),
-        base,
-    })
-}
-
-pub(super) fn remedy(case: &Case<'_>, elsewhere: &Elsewhere) -> Remedy {
-    let Elsewhere { how, base } = elsewhere;
-    let advice = format!("{how}: `base = {}`", wording::frame_text(base));
-    Remedy {
-        advice,
-        edits: stated(case.machine, base),
-    }
-}
-
-/// What to write where, so that the base is there. Nothing where it does not stand in a file.
-fn stated(machine: &Machine, base: &PlacedFrame) -> Vec<(Span, String)> {
-    let span = machine.base.span.into_iter();
-    span.map(|span| (span, wording::frame_text(base))).collect()
-}
-
-/// The motion that fails.
-fn failing(case: &Case<'_>) -> TellingMotions {
-    let program = case.unreachable.program.program();
-    match &case.unreachable.trouble {
-        Trouble::Motion { failing, .. } | Trouble::NoCommonBranch { failing, .. } => {
-            TellingMotions::only(program, failing.op)
-        }
-        Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => TellingMotions::default(),
-    }
+    nearest(case, shifts.collect(), along_one_axis)
 }
 
 /// A third of the shifts, and only those along one axis.
@@ -165,33 +120,35 @@ fn along_one_axis(shifts: Vec<Shift>) -> Vec<Shift> {
 
 /// The nearest of these places that carries out the whole program. `thinned` leaves the few of them, in order, that are worth asking
 /// a machine about whose poses are searched for numerically.
-pub(super) fn nearest(
+pub(crate) fn nearest(
     case: &mut Case<'_>,
     mut shifts: Vec<Shift>,
     thinned: impl FnOnce(Vec<Shift>) -> Vec<Shift>,
-) -> Option<(Shift, PlacedFrame)> {
+) -> Option<Elsewhere> {
     // Stable, so that of equally near ones the first stays first.
     shifts.sort_by(|a, b| a.size().total_cmp(&b.size()));
     let now = case.machine.base.value;
-    let rig = rig(case);
-    let poses = TaughtPoses::of(&case.unreachable.program);
+    let program = &case.unreachable.program;
+    let rig = Rig::of(case.machine);
     let judge = Judge::new(
         rig.mechanism,
         rig.axes,
         &rig.flange_in_blade,
-        poses.telling(SPREAD),
+        TaughtPoses::of(program).telling(SPREAD),
     );
     if judge.effort() == Effort::Sparing {
         shifts = thinned(shifts);
     }
-    let (failing, others) = (
-        failing(case),
-        TellingMotions::of(case.unreachable.program.program()),
-    );
+    // The motion that fails first: nearly always it says no, and it costs least.
+    let failing = case.unreachable.trouble.failing();
+    let failing = failing.map_or_else(TellingMotions::default, |failing| {
+        TellingMotions::only(program.program(), failing.op)
+    });
+    let others = TellingMotions::of(program.program());
     let mut proofs = 0;
     let mut failed_at = 0.0;
     for batch in shifts.chunks(JUDGED) {
-        if case.wanted.is_needless() {
+        if case.budget.wanted.is_needless() {
             return None;
         }
         let promising = ask_all(batch, |shift| {
@@ -199,7 +156,6 @@ pub(super) fn nearest(
                 work_in_root: shift.of(&now.frame).into(),
                 ..rig.clone()
             };
-            // The motion that fails first: nearly always it says no, and it costs least.
             failing.are_followed(&there)
                 && judge
                     .score(&there.work_in_root)
@@ -215,14 +171,17 @@ pub(super) fn nearest(
                 return None;
             }
             proofs += 1;
-            let base = PlacedFrame {
-                frame: shift.of(&now.frame),
-                ..now
+            let elsewhere = Elsewhere {
+                how: shift.how(),
+                base: PlacedFrame {
+                    frame: shift.of(&now.frame),
+                    ..now
+                },
             };
-            let there = trial::with_base(case.plan, base, case.wanted);
-            // There, the job may yield to its machine in another way than here.
-            if matches!(there, Some(Ok(_))) || (case.works)(&stated(case.machine, &base)) {
-                return Some((*shift, base));
+            let change = Change::base(case.job, &elsewhere);
+            // There, the job may fall back in another way than here.
+            if case.passes(&change) || case.compiles(&change) {
+                return Some(elsewhere);
             }
             failed_at = shift.size();
         }

@@ -1,20 +1,17 @@
 //! Extensions that the turns of a five-axis machine need.
 
-use crate::solve::Unreached;
-use crate::sweep::Cure;
-use crate::trouble::Trouble;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::grid;
 use vcutc_job::{Auto, CheckedJob, PlannedJob};
+use vcutc_motion::solve::Unreached;
+use vcutc_motion::sweep::Cure;
+use vcutc_motion::trouble::Trouble;
 
 /// The job with the extension that the turns of its machine need, and `run_out` besides. None where something else is in the
 /// way, or the job states the extension itself.
 #[must_use]
 pub fn farther_out(job: &CheckedJob, plan: &PlannedJob, why: &Unreached) -> Option<CheckedJob> {
-    let unreachable = match why {
-        Unreached::Unreachable(unreachable) => unreachable,
-        Unreached::Rules(_) | Unreached::Motion(_) => return None,
-    };
+    let unreachable = why.unreachable()?;
     let sweep = match &unreachable.trouble {
         Trouble::Sweep(sweep) => sweep,
         Trouble::Motion { .. } | Trouble::NoCommonBranch { .. } | Trouble::Way { .. } | Trouble::Nowhere => {
@@ -26,7 +23,7 @@ pub fn farther_out(job: &CheckedJob, plan: &PlannedJob, why: &Unreached) -> Opti
         Cure::HigherUp(_) | Cure::Unknown => return None,
     };
     let program = unreachable.program.program();
-    let operation = program.ops.get(sweep.op.0 as usize)?.site.operation()?;
+    let operation = program.op(sweep.op)?.site.operation()?;
     let place = usize::from(operation.0);
     let planned = plan.operation(operation)?;
     let mut roomier = job.clone();

@@ -1,0 +1,79 @@
+//! What room a program leaves its machine, or why it is not carried out, in a few words.
+
+use vcutc_backend_api::ir::{OpId, Program, Site};
+use vcutc_machine::Model;
+use vcutc_motion::describe::site_words;
+use vcutc_motion::path::Violation;
+use vcutc_motion::solve::{Reached, Unreached};
+use vcutc_motion::summary::{AxisFigure, figures};
+use vcutc_motion::trouble::{Failing, Trouble};
+
+/// What room a program leaves its machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Room {
+    /// The smallest margin, from 0 to 1.
+    pub margin: f64,
+    /// What it is the margin of, and where: `A5 at -34.25 deg, layer 3, cut 14`.
+    pub least: String,
+}
+
+impl Room {
+    pub(super) fn of(reached: &Reached) -> Self {
+        let figures = figures(reached);
+        let least = &figures.least;
+        let what = match figures.axes.iter().find(|axis| axis.name == least.of) {
+            Some(axis) => format!("{} at {:.2} {}", axis.name, outermost(axis), axis.unit),
+            None => match least.of.as_str() {
+                "shoulder" => "distance from axis 1".to_owned(),
+                kind => format!("distance from the stretched {kind}"),
+            },
+        };
+        Self {
+            margin: figures.margin,
+            least: format!("{what}, {}", least.at.words),
+        }
+    }
+}
+
+/// The value of an axis that is nearest to a limit.
+fn outermost(axis: &AxisFigure) -> f64 {
+    if axis.low - axis.min < axis.max - axis.high {
+        axis.low
+    } else {
+        axis.high
+    }
+}
+
+/// Why a program is not carried out.
+pub(super) fn why_not(unreached: &Unreached, model: &Model) -> String {
+    let Some(unreachable) = unreached.unreachable() else {
+        return "the compiler fails on it".to_owned();
+    };
+    let program = unreachable.program.program();
+    match &unreachable.trouble {
+        Trouble::Motion { failing, .. } => failure(failing, model, program),
+        Trouble::NoCommonBranch { failing, .. } => {
+            let failure = failure(failing, model, program);
+            format!("no configuration works for all cuts: {failure}")
+        }
+        Trouble::Way { op, .. } => format!("the way {} leads through the stock", place(program, *op)),
+        Trouble::Sweep(sweep) => format!("the blade sweeps through the work, {}", place(program, sweep.op)),
+        Trouble::Nowhere => "the machine reaches nothing of it".to_owned(),
+    }
+}
+
+fn failure(failing: &Failing, model: &Model, program: &Program) -> String {
+    let axis = |index: usize| model.axes.get(index).map_or("an axis", |axis| axis.name.as_str());
+    let what = match failing.worst.what {
+        Violation::OutOfReach => "the blade is out of reach".to_owned(),
+        Violation::Limit { axis: index, .. } => format!("{} leaves its range", axis(index)),
+        Violation::Rate { axis: index, .. } => format!("{} is too slow", axis(index)),
+        Violation::Singular(_) => "the arm comes too close to a singularity".to_owned(),
+    };
+    format!("{what}, {}", place(program, failing.op))
+}
+
+/// `layer 7, cut 12`, or what else an op belongs to.
+fn place(program: &Program, op: OpId) -> String {
+    site_words(program.op(op).map_or(Site::Program, |op| op.site))
+}
