@@ -7,7 +7,7 @@ use super::output::one_file;
 use super::progress::Progress;
 use super::{Exit, Targets};
 use std::path::Path;
-use vcutc_study::placement::{self, Asked, Placement, Refusal, report};
+use vcutc_place::{self as place, Asked, Placement, Refusal, report};
 
 /// Places one job.
 pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> Exit {
@@ -27,7 +27,7 @@ pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> E
             "the map is a picture in SVG: give `-o` the name of a file that ends in .svg, not {path}"
         )));
     }
-    let placed = placement::place(request, &asked, &mut |stage| progress.enter(stage));
+    let placed = place::place(request, &asked, &mut |stage| progress.enter(stage));
     progress.finish();
     match placed {
         Ok(placement) => tell(&placement, args.output.as_deref(), &disk, console),

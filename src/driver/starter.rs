@@ -18,10 +18,10 @@ use vcutc_diagnostics::source::{Entry, LoadError, Loader, SourceMap};
 use vcutc_diagnostics::{Diagnostic, has_errors};
 use vcutc_job::sema::kind::Operations;
 use vcutc_machine::Model;
+use vcutc_motion::critical::margin::Judge;
+use vcutc_motion::critical::motions::CriticalMotions;
+use vcutc_motion::critical::poses::TaughtPoses;
 use vcutc_motion::moves::above_first_pose;
-use vcutc_motion::place::motions::TellingMotions;
-use vcutc_motion::place::score::Judge;
-use vcutc_motion::place::taught::TaughtPoses;
 use vcutc_motion::rig::Rig;
 use vcutc_remedy::wording;
 use vcutc_syntax::format;
@@ -218,12 +218,7 @@ fn laid_out(text: String) -> String {
 /// Set-ups that are likely to work, the one with the most room first.
 fn setups(model: &Model, tool: Tool, reorient: u32, program: &Program, taught: &TaughtPoses) -> Vec<Setup> {
     let rig = Rig::new(model, tool.frame(), Frame::from(Place::ROOT));
-    let judge = Judge::new(
-        rig.mechanism,
-        rig.axes,
-        &rig.flange_in_blade,
-        taught.telling(SPREAD),
-    );
+    let judge = Judge::new(&rig, taught.outermost(SPREAD));
     let mut scored: Vec<_> = places::around(model, tool.block)
         .into_iter()
         .map(|place| (judge.score(&Frame::from(place).into()), place))
@@ -231,7 +226,7 @@ fn setups(model: &Model, tool: Tool, reorient: u32, program: &Program, taught: &
         .collect();
     // Stable, so that of equals the first stays first.
     scored.sort_by(|(a, _), (b, _)| b.better(a));
-    let motions = TellingMotions::of(program);
+    let motions = CriticalMotions::of(program);
     let setup = |(_, place): (_, Place)| {
         let base = Frame::from(place);
         let rig = Rig::new(model, tool.frame(), base);

@@ -5,13 +5,13 @@
 //! axes follow it.
 
 pub mod axis_range;
+pub mod critical;
 pub mod demand;
 pub mod describe;
 pub mod ladder;
 pub mod moves;
 pub mod pace;
 pub mod path;
-pub mod place;
 pub mod reorient;
 pub mod rig;
 mod runs;

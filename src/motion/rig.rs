@@ -43,6 +43,15 @@ impl<'m> Rig<'m> {
         self.work_in_root * *blade_in_work * self.flange_in_blade
     }
 
+    /// The same with the work in another place.
+    #[must_use]
+    pub fn with_work(&self, work_in_root: Pose) -> Self {
+        Self {
+            work_in_root,
+            ..self.clone()
+        }
+    }
+
     /// Where a point of the work is in the root.
     #[must_use]
     pub fn point_in_root(&self, point: Point3) -> Point3 {

@@ -1,6 +1,6 @@
 //! The base moved or turned by the least that helps.
 //!
-//! Places around the present one are judged by the taught poses and a few telling motions, the nearest first; the first that promise
+//! Places around the present one are judged by the taught poses and the critical motions, the nearest first; the first that promise
 //! something are put to the whole proof. A place that fails there makes its neighbours unlikely, so the next to be proven is some way further.
 
 use crate::case::Case;
@@ -10,10 +10,10 @@ use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_backend_api::units::Angle;
 use vcutc_diagnostics::number::show;
-use vcutc_motion::place::motions::TellingMotions;
-use vcutc_motion::place::score::{Effort, Judge};
-use vcutc_motion::place::search::ask_all;
-use vcutc_motion::place::taught::TaughtPoses;
+use vcutc_motion::critical::ask_all;
+use vcutc_motion::critical::margin::{Effort, Judge};
+use vcutc_motion::critical::motions::CriticalMotions;
+use vcutc_motion::critical::poses::TaughtPoses;
 use vcutc_motion::rig::Rig;
 
 /// How far the base is moved along a direction, in mm.
@@ -130,21 +130,16 @@ pub(crate) fn nearest(
     let now = case.machine.base.value;
     let program = &case.unreachable.program;
     let rig = Rig::of(case.machine);
-    let judge = Judge::new(
-        rig.mechanism,
-        rig.axes,
-        &rig.flange_in_blade,
-        TaughtPoses::of(program).telling(SPREAD),
-    );
+    let judge = Judge::new(&rig, TaughtPoses::of(program).outermost(SPREAD));
     if judge.effort() == Effort::Sparing {
         shifts = thinned(shifts);
     }
     // The motion that fails first: nearly always it says no, and it costs least.
     let failing = case.unreachable.trouble.failing();
-    let failing = failing.map_or_else(TellingMotions::default, |failing| {
-        TellingMotions::only(program.program(), failing.op)
+    let failing = failing.map_or_else(CriticalMotions::default, |failing| {
+        CriticalMotions::only(program.program(), failing.op)
     });
-    let others = TellingMotions::of(program.program());
+    let others = CriticalMotions::of(program.program());
     let mut proofs = 0;
     let mut failed_at = 0.0;
     for batch in shifts.chunks(JUDGED) {
@@ -152,10 +147,7 @@ pub(crate) fn nearest(
             return None;
         }
         let promising = ask_all(batch, |shift| {
-            let there = Rig {
-                work_in_root: shift.of(&now.frame).into(),
-                ..rig.clone()
-            };
+            let there = rig.with_work(shift.of(&now.frame).into());
             failing.are_followed(&there)
                 && judge
                     .score(&there.work_in_root)

@@ -7,8 +7,8 @@
 //! - [`hints`]: for a job that its machine made slow;
 //! - [`fallback`]: what the job itself leaves open, routes and swings, before it is refused at all.
 //!
-//! The cheap test looks at a few motions of a program ([`trial::looks_promising`]): a program that fails as a whole is expensive
-//! to refute, since every branch is proven from end to end, and they usually show the same.
+//! The cheap test looks at the critical motions of a program ([`trial::looks_promising`]): a program that fails as a whole is
+//! expensive to refute, since every branch is proven from end to end, and they usually show the same.
 
 mod base;
 mod budget;

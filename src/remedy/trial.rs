@@ -7,7 +7,7 @@ use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::PlannedJob;
 use vcutc_job::{CheckedJob, Machine};
-use vcutc_motion::place::motions::TellingMotions;
+use vcutc_motion::critical::motions::CriticalMotions;
 use vcutc_motion::rig::Rig;
 use vcutc_motion::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve_while};
 use vcutc_process::lower;
@@ -16,7 +16,7 @@ use vcutc_process::verdict;
 /// Most extensions that are tried in turn for one change, as turns of a five-axis machine need them.
 const MOST_EXTENSIONS: usize = 3;
 
-/// Whether the machine of a plan follows a few motions of it, which no program can do without. What cannot be asked is promising.
+/// Whether the machine of a plan follows its critical motions. What cannot be asked is promising.
 #[must_use]
 pub fn looks_promising(plan: &PlannedJob) -> bool {
     let program = verify(lower::lower(plan, &SourceMap::default()));
@@ -27,7 +27,7 @@ pub fn looks_promising(plan: &PlannedJob) -> bool {
 }
 
 fn follows(machine: &Machine, program: &Program) -> bool {
-    TellingMotions::of(program).are_each_followed(&Rig::of(machine))
+    CriticalMotions::of(program).are_each_followed(&Rig::of(machine))
 }
 
 /// A changed job through the whole pipeline; nothing where it does not come out at its end.

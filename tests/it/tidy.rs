@@ -14,7 +14,10 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("ariadne::", &["src/diagnostics/render.rs"]),
     ("pest::", &["src/syntax/"]),
     ("pest_derive::", &["src/syntax/"]),
-    ("rayon::", &["src/operations/vcut/choice/", "src/motion/"]),
+    (
+        "rayon::",
+        &["src/operations/vcut/choice/", "src/motion/", "src/place/"],
+    ),
     (
         "hmac_sha256::",
         &["src/syntax/fingerprint.rs", "src/report/digest.rs"],
@@ -22,7 +25,12 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("strsim::", &["src/diagnostics/suggest.rs"]),
     (
         "glam::",
-        &["src/machine/", "src/process/posture.rs", "src/motion/"],
+        &[
+            "src/machine/",
+            "src/process/posture.rs",
+            "src/motion/",
+            "src/place/",
+        ],
     ),
     ("nalgebra::", &["src/machine/kinematics/"]),
     ("roxmltree::", &["src/geometry/import/svg/", "src/machine/urdf/"]),

@@ -1,10 +1,7 @@
 //! The search against judging every place of a coarse grid in another way.
 
-use super::clearance::clearance;
-use super::score::{Judge, Score, singular_share};
-use super::search::{Bounds, Criteria, search};
-use super::{Spot, score};
-use crate::axis_range::axis_margin;
+use crate::search::{Bounds, Criteria, search};
+use crate::spot::Spot;
 use core::f64::consts::TAU;
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
@@ -13,6 +10,10 @@ use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::units::Angle;
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_machine::{Model, catalogue};
+use vcutc_motion::axis_range::axis_margin;
+use vcutc_motion::critical::clearance::clearance;
+use vcutc_motion::critical::margin::{Judge, Score, singular_share};
+use vcutc_motion::rig::Rig;
 
 fn model() -> Model {
     catalogue::find("kuka/kr210_r3100_ultra").unwrap()
@@ -45,12 +46,8 @@ fn blade_in_flange() -> Pose {
 }
 
 fn judge(model: &Model) -> Judge<'_> {
-    Judge::new(
-        &model.mechanism,
-        &model.axes,
-        &blade_in_flange().inverse(),
-        poses(),
-    )
+    let (tool, anywhere) = (Frame::from(blade_in_flange()), upright(0.0, 0.0, 0.0));
+    Judge::new(&Rig::new(model, tool, anywhere), poses())
 }
 
 /// By margins alone.
@@ -207,7 +204,7 @@ proptest! {
     ) {
         let model = model();
         let work = Pose { rotation: DMat3::from_rotation_z(yaw), position: DVec3::new(x, y, z) };
-        let score: score::Score = judge(&model).score(&work);
+        let score = judge(&model).score(&work);
         match (score.reached(), margin_by_definition(&model, &work)) {
             (Some(one), Some(other)) => prop_assert!((one - other).abs() < 1e-9, "{one} {other}"),
             (one, other) => prop_assert_eq!(one, other),

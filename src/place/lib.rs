@@ -1,18 +1,25 @@
 //! `vcutc place`: the base frame that leaves the machine the most room, from a job's text.
 //!
 //! The job is planned and proven as for a compilation, for the cuts do not depend on where the work stands. Then
-//! [`vcutc_motion::place`] looks for places by the taught poses, and the best of them are put to the whole proof, one by one,
-//! until one passes. The job itself is not changed: what people get is the frame to paste.
+//! [`mod@search`] looks for places by the critical poses, as far as the axes follow the critical motions there
+//! ([`vcutc_motion::critical`]), and the best of them are put to the whole proof, one by one, until one passes. The job
+//! itself is not changed: what people get is the frame to paste.
 
 mod bounds;
 mod map;
 pub mod report;
 mod room;
+pub mod search;
+pub mod spot;
+#[cfg(test)]
+mod tests;
 
 pub use bounds::{AROUND, Asked, BadBounds, TURN_AROUND};
 pub use map::Map;
 pub use room::Room;
 
+use crate::search::{Bounds, Criteria, Placed, search};
+use crate::spot::Spot;
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
@@ -22,11 +29,9 @@ use vcutc_job::PlannedJob;
 use vcutc_job::search::{RouteSet, SearchSpace};
 use vcutc_job::sema;
 use vcutc_job::{CheckedJob, Machine};
-use vcutc_motion::place::Spot;
-use vcutc_motion::place::motions::TellingMotions;
-use vcutc_motion::place::score::Judge;
-use vcutc_motion::place::search::{Bounds, Criteria, Placed, search};
-use vcutc_motion::place::taught::TaughtPoses;
+use vcutc_motion::critical::margin::Judge;
+use vcutc_motion::critical::motions::CriticalMotions;
+use vcutc_motion::critical::poses::TaughtPoses;
 use vcutc_motion::rig::Rig;
 use vcutc_process::plan::plan_within;
 use vcutc_process::verdict;
@@ -218,15 +223,8 @@ fn placed(ready: &Ready, asked: &Asked<'_>, mut bounds: Bounds) -> Placement {
     let base = machine.base.value;
     let poses = TaughtPoses::of(&proven.program);
     let rig = Rig::of(machine);
-    let motions = TellingMotions::of(proven.program.program());
-    let judge = |spread| {
-        Judge::new(
-            rig.mechanism,
-            rig.axes,
-            &rig.flange_in_blade,
-            poses.telling(spread),
-        )
-    };
+    let motions = CriticalMotions::of(proven.program.program());
+    let judge = |spread| Judge::new(&rig, poses.outermost(spread));
     let (rough, fine) = (judge(SPREAD.0), judge(SPREAD.1));
     let now = Standing {
         base,
@@ -235,12 +233,7 @@ fn placed(ready: &Ready, asked: &Asked<'_>, mut bounds: Bounds) -> Placement {
     let criteria = Criteria {
         rough: &rough,
         fine: &fine,
-        admits: &|spot: Spot| {
-            motions.are_followed(&Rig {
-                work_in_root: spot.work_in_root(&base.frame),
-                ..rig.clone()
-            })
-        },
+        admits: &|spot: Spot| motions.are_followed(&rig.with_work(spot.work_in_root(&base.frame))),
     };
     let best_within = |bounds: &Bounds| {
         let mut refused = Vec::new();

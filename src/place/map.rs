@@ -1,10 +1,10 @@
 //! Margins over x and y, at one height and one turn of the work.
 
+use crate::search::{Bounds, evenly, judge};
+use crate::spot::Spot;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_diagnostics::number::show;
-use vcutc_motion::place::Spot;
-use vcutc_motion::place::score::Judge;
-use vcutc_motion::place::search::{Bounds, evenly, judge};
+use vcutc_motion::critical::margin::Judge;
 use vcutc_picture::heat_map::{HeatMap, draw};
 
 /// Margins by the taught poses, over the bounds of x and y.

@@ -6,7 +6,8 @@ use vcutc_machine::kinematics::opw::{Coupling, Opw};
 use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// How far an arm is from its singular poses.
-pub(super) fn clearance(mechanism: &Mechanism, joints: &Joints) -> Clearance {
+#[must_use]
+pub fn clearance(mechanism: &Mechanism, joints: &Joints) -> Clearance {
     match mechanism {
         Mechanism::OrthoParallel(arm) => arm_clearance(arm, joints),
         Mechanism::Mounted(mounted) => arm_clearance(&mounted.arm, joints),

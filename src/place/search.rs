@@ -3,11 +3,12 @@
 //! Everything happens on the lattice of [`Spot`]s, so that what is found is what people paste, and in an order that does not
 //! depend on threads: the places of a round are judged in parallel, gathered in their order, and the first of equals wins.
 
-use super::Spot;
-use super::score::{Effort, Judge, Score};
+use crate::spot::Spot;
 use core::cmp::Ordering;
 use rayon::prelude::*;
 use vcutc_backend_api::geometry::Frame;
+use vcutc_motion::critical::ask_all;
+use vcutc_motion::critical::margin::{Effort, Judge, Score};
 
 /// Where the base may stand: the least and the greatest spot, each coordinate by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -156,11 +157,6 @@ fn admitted(criteria: &Criteria<'_, '_>, grid: &[Placed]) -> Vec<Spot> {
     }
     spots.truncate(CLIMBS);
     spots
-}
-
-/// Asks the same of all items, in parallel; the answers are in their order.
-pub fn ask_all<T: Sync>(items: &[T], ask: impl Fn(&T) -> bool + Sync + Send) -> Vec<bool> {
-    items.par_iter().map(ask).collect()
 }
 
 /// Judges spots, in parallel and in their order.

@@ -1,10 +1,10 @@
-//! The motions of a program that tell whether the axes are fast enough.
+//! The motions of a program that show whether the axes are fast enough.
 //!
 //! A margin says nothing of rates, and a place with a large margin may ask more of an axis than it can give: near singular
 //! poses, or where the work lies close to axis 1. Before a place is believed in, a few motions of every kind are therefore
 //! proven there: those between the same two ways to hold the blade, at the same speed, with their ends farthest out.
 
-use super::taught::outermost;
+use super::poses::outermost;
 use crate::moves::path_of;
 use crate::path::{Course, prove};
 use crate::rig::Rig;
@@ -16,9 +16,9 @@ use vcutc_backend_api::ir::{FeedId, OpId, OrientationId, Program, RateId};
 use vcutc_backend_api::segments::{LimitedBy, LinearSegment, Path, Segment};
 use vcutc_machine::kinematics::{Mechanism, Solution, newton};
 
-/// Telling motions of a program.
+/// Critical motions of a program: of every kind those that lie farthest out.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct TellingMotions {
+pub struct CriticalMotions {
     courses: Vec<Course>,
 }
 
@@ -38,8 +38,8 @@ fn kind(segment: &Segment<'_>, line: &LinearSegment) -> Option<Kind> {
     })
 }
 
-impl TellingMotions {
-    /// The telling motions of a program.
+impl CriticalMotions {
+    /// The critical motions of a program.
     #[must_use]
     pub fn of(program: &Program) -> Self {
         let mut kinds: BTreeMap<Kind, Vec<LinearSegment>> = BTreeMap::new();
@@ -50,7 +50,7 @@ impl TellingMotions {
                 kinds.entry(kind).or_default().push(line);
             }
         }
-        let telling = kinds.values().flat_map(|lines| {
+        let critical = kinds.values().flat_map(|lines| {
             let tips: Vec<DVec3> = lines
                 .iter()
                 .map(|line| DVec3::new(line.to.tip.x, line.to.tip.y, line.to.tip.z))
@@ -58,7 +58,7 @@ impl TellingMotions {
             let chosen = outermost(&tips);
             chosen.into_iter().filter_map(|index| lines.get(index))
         });
-        let courses: Vec<Course> = telling.filter_map(|line| Course::of(program, line)).collect();
+        let courses: Vec<Course> = critical.filter_map(|line| Course::of(program, line)).collect();
         let step = courses.len().div_ceil(MOST).max(1);
         Self {
             courses: courses.into_iter().step_by(step).collect(),

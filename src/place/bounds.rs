@@ -1,14 +1,14 @@
 //! Where the base may stand, as people write it: `1000..2500`, `-0.5 m .. 0.5 m`, `650 mm`.
 
-use super::Placement;
+use crate::Placement;
+use crate::search::Bounds;
+use crate::spot::Spot;
 use core::f64::consts::PI;
 use core::fmt;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_job::Machine;
 use vcutc_job::sema::units;
-use vcutc_motion::place::Spot;
-use vcutc_motion::place::search::Bounds;
 
 /// What the user asks for; what is left out is a box around where the base is now.
 #[derive(Clone, Copy, Debug, Default)]

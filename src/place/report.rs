@@ -1,12 +1,12 @@
 //! What came of placing, for people and for programs.
 
-use super::{Best, Placement, Room, Standing};
+use crate::search::Bounds;
+use crate::spot::Spot;
+use crate::{Best, Placement, Room, Standing};
 use serde::Serialize;
 use std::fmt::Write;
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_diagnostics::number::show;
-use vcutc_motion::place::Spot;
-use vcutc_motion::place::search::Bounds;
 use vcutc_remedy::wording::frame_text;
 
 /// Most places that did not pass which are told of.

@@ -9,6 +9,7 @@ use super::clearance::clearance;
 use crate::axis_range::axis_margin;
 use crate::demand::FULL;
 use crate::path::Clearance;
+use crate::rig::Rig;
 use core::cmp::Ordering;
 use vcutc_backend_api::ir::{Axis, AxisKind};
 use vcutc_backend_api::motion::Branch;
@@ -59,20 +60,13 @@ pub struct Judge<'m> {
 impl<'m> Judge<'m> {
     /// Judges by poses of the blade in the work.
     #[must_use]
-    pub fn new(
-        mechanism: &'m Mechanism,
-        axes: &'m [Axis],
-        flange_in_blade: &Pose,
-        blade_in_work: impl IntoIterator<Item = Pose>,
-    ) -> Self {
-        let flange_in_work: Vec<Pose> = blade_in_work
-            .into_iter()
-            .map(|blade_in_work| blade_in_work * *flange_in_blade)
-            .collect();
+    pub fn new(rig: &Rig<'m>, blade_in_work: impl IntoIterator<Item = Pose>) -> Self {
+        let blade_in_work = blade_in_work.into_iter();
+        let flange_in_work = blade_in_work.map(|blade_in_work| blade_in_work * rig.flange_in_blade);
         let mut judge = Self {
-            mechanism,
-            axes,
-            flange_in_work,
+            mechanism: rig.mechanism,
+            axes: rig.axes,
+            flange_in_work: flange_in_work.collect(),
         };
         if judge.effort() == Effort::Sparing {
             let step = judge.flange_in_work.len().div_ceil(FEW_POSES).max(1);
@@ -214,7 +208,8 @@ fn best_turn(axis: &Axis, low: f64, high: f64) -> f64 {
 }
 
 /// The smallest distance from a singular pose, as a share of [`FULL`].
-pub(super) fn singular_share(clearance: &Clearance) -> f64 {
+#[must_use]
+pub fn singular_share(clearance: &Clearance) -> f64 {
     (clearance.wrist / FULL.wrist)
         .min(clearance.elbow / FULL.elbow)
         .min(clearance.shoulder / FULL.shoulder)

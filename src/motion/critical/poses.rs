@@ -1,4 +1,4 @@
-//! The poses that a program teaches, and the few of them that tell whether the machine reaches them all.
+//! The poses that a program teaches, and the few of them that show whether the machine reaches them all.
 
 use crate::moves::paths;
 use glam::DVec3;
@@ -53,22 +53,22 @@ impl TaughtPoses {
             .flat_map(|group| group.tips.iter().map(|&tip| group.pose(tip)))
     }
 
-    /// The poses that tell most: for every orientation the tips farthest out in 26 directions (to the corners, edges and
-    /// faces of their box), and `spread` others evenly through the program; at most [`MOST_TELLING`] together.
+    /// The critical poses: for every orientation the tips farthest out in 26 directions (to the corners, edges and
+    /// faces of their box), and `spread` others evenly through the program; at most [`MOST_CRITICAL`] together.
     #[must_use]
-    pub fn telling(&self, spread: usize) -> Vec<Pose> {
+    pub fn outermost(&self, spread: usize) -> Vec<Pose> {
         let poses: Vec<Pose> = self
             .groups
             .iter()
-            .flat_map(|group| group.telling(spread).into_iter().map(|tip| group.pose(tip)))
+            .flat_map(|group| group.outermost(spread).into_iter().map(|tip| group.pose(tip)))
             .collect();
-        let step = poses.len().div_ceil(MOST_TELLING).max(1);
+        let step = poses.len().div_ceil(MOST_CRITICAL).max(1);
         poses.into_iter().step_by(step).collect()
     }
 }
 
 /// Most poses that a base is judged by in a search.
-pub const MOST_TELLING: usize = 400;
+pub const MOST_CRITICAL: usize = 400;
 
 impl Group {
     fn pose(&self, tip: DVec3) -> Pose {
@@ -78,7 +78,7 @@ impl Group {
         }
     }
 
-    fn telling(&self, spread: usize) -> Vec<DVec3> {
+    fn outermost(&self, spread: usize) -> Vec<DVec3> {
         let step = (self.tips.len() / (spread + 1)).max(1);
         let spread = (step..self.tips.len()).step_by(step).take(spread);
         let mut chosen: Vec<usize> = outermost(&self.tips).into_iter().chain(spread).collect();

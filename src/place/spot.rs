@@ -1,20 +1,4 @@
-//! Placing the work: where the base frame should stand so that the machine keeps the most room.
-//!
-//! A base is judged by the poses that the program teaches, the blade's ends of moves, which are far fewer than the poses
-//! it goes through and cost one inverse kinematics each. For every branch the smallest of all margins counts, and of the
-//! branches the best ([`score`]). Not even all taught poses are asked: the reach of an arm ends at surfaces, so that tips at
-//! the outside of the work tell almost everything ([`taught`]). The search ([`search`]) walks a grid over the bounds and
-//! climbs from its best places, as far as the axes are fast enough there for a few telling motions ([`motions`]). What it finds
-//! is a promising place and nothing more: whoever offers it to people has the
-//! whole program proven there first.
-
-mod clearance;
-pub mod motions;
-pub mod score;
-pub mod search;
-pub mod taught;
-#[cfg(test)]
-mod tests;
+//! A place for the base, on the lattice that is searched: what is found is what people paste.
 
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::units::Angle;

@@ -1,3 +1,0 @@
-//! Studies of a job: its trade-offs, and where the work should be
-
-pub mod placement;
