@@ -12,7 +12,7 @@ use vcutc_cancellation::{Interest, Wanted};
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Diagnostic, Severity};
 use vcutc_driver::memory::Memory;
-use vcutc_driver::{self as driver, Outcome, Patience, Request, RequestError};
+use vcutc_driver::{self as driver, Outcome, Patience, Request, RequestError, Run};
 
 /// How long help is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,9 +132,12 @@ pub(super) fn compile(
         progress: Some(&shared),
         ..Waiting::unseen(budget)
     };
-    driver::compile_patiently(request, memory, &mut waiting, &mut |stage| {
-        shared.borrow_mut().enter(stage);
-    })
+    let run = Run {
+        memory,
+        wanted: &Wanted::ALWAYS,
+        patience: &mut waiting,
+    };
+    driver::compile_in(run, request, &mut |stage| shared.borrow_mut().enter(stage))
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! What is asked for before anything is planned: the job as it is understood, and its machine in words.
 
-use super::{Request, Unhelped, target};
-use crate::memory::Memory;
+use super::{Request, target};
 use std::collections::BTreeSet;
 use vcutc_backend_api::backend::{Backend, BackendIssue};
 use vcutc_backend_api::ir::MachineKind;
@@ -23,7 +22,7 @@ pub fn understood(request: Request<'_>) -> Option<CheckedJob> {
 /// other reasons, too. Options that are typed for that target are set.
 #[must_use]
 pub fn misfits(request: Request<'_>, backend: &dyn Backend) -> Option<Vec<&'static str>> {
-    let outcome = super::compile_patiently(request, &mut Memory::none(), &mut Unhelped, &mut |_| ()).ok()?;
+    let outcome = super::compile_unhelped(request).ok()?;
     let (job, compiled) = (outcome.job.as_ref()?, outcome.compiled.as_ref()?);
     let reached = compiled.program.reached()?;
     let options = target::options(job, backend).ok()?;

@@ -4,14 +4,14 @@
 //! planned and carried out with it, as every other offer is ([`Trials`]).
 
 use super::trials::{Machine, Trials};
-use super::{Kept, Outcome, Request, Stage};
+use super::{Outcome, Request, Run, Stage};
 use vcutc_diagnostics::{Code, Diagnostic, Fix, Severity};
 
 /// Leaves the homes that work, where the home is all that is wrong with a job.
 pub(super) fn try_offers(
     outcome: &mut Outcome,
     request: Request<'_>,
-    kept: &mut Kept<'_>,
+    run: &mut Run<'_>,
     progress: &mut dyn FnMut(Stage),
 ) {
     let mut errors = outcome
@@ -21,10 +21,10 @@ pub(super) fn try_offers(
     if !errors.all(|one| one.code == Code::HomeOutsideLimits) {
         return;
     }
-    let limited = kept
+    let limited = run
         .patience
         .refused(&at_once(&outcome.diagnostics), &outcome.sources);
-    let wanted = kept.wanted.and(&limited);
+    let wanted = run.wanted.and(&limited);
     progress(Stage::Helping);
     let before = outcome.diagnostics.clone();
     let mut trials = Trials::of(request, &outcome.sources, &before, Machine::Here, &wanted);
@@ -52,7 +52,7 @@ pub(super) fn try_offers(
         }
     }
     if wanted.is_needless()
-        && let Some(words) = kept.patience.cut_short()
+        && let Some(words) = run.patience.cut_short()
         && let Some(first) = outcome
             .diagnostics
             .iter_mut()

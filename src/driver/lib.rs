@@ -14,10 +14,10 @@ mod home;
 pub mod manifest;
 pub mod memory;
 mod mount;
-mod narrower;
 pub mod numbers;
 mod reaching;
 mod refusal;
+mod routes;
 pub mod starter;
 pub mod summary;
 mod target;
@@ -26,7 +26,8 @@ mod trials;
 pub use air::{air_cut_height, into_air_cut};
 pub use asked::{machine_words, misfits, understood};
 pub use emitting::{EmitFailure, emit, write};
-pub use refusal::{Patience, Unhelped, Unhurried};
+pub use refusal::{Patience, Unhurried};
+
 pub use vcutc_job::sema::Typed;
 pub use vcutc_remedy::fallback::NotFollowed;
 
@@ -36,15 +37,16 @@ use crate::numbers::Numbers;
 use crate::summary::chosen::{self, OperationFigures};
 use crate::summary::summary;
 use crate::summary::times::{TimeFigures, figures as time_figures};
-use refusal::{NotCarriedOut, NotTaken, Refused};
+use refusal::{NotTaken, Refused, Unhelped};
+use routes::{Ended, Made, along_its_routes};
 use trials::{Machine, Trials};
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::ir::{Head, OpId, Purpose};
 use vcutc_backend_api::motion::MotionFault;
 use vcutc_backend_api::units::Duration;
 use vcutc_backend_api::verify::{Fault, VerifiedProgram};
-use vcutc_cancellation::{Needless, Wanted};
-use vcutc_diagnostics::source::{Loader, SourceMap};
+use vcutc_cancellation::Wanted;
+use vcutc_diagnostics::source::{Loader, SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic, Severity, has_errors};
 use vcutc_job::CheckedJob;
 use vcutc_job::PlannedJob;
@@ -56,7 +58,6 @@ use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 use vcutc_motion::verdict as reach_verdict;
 use vcutc_process::plan;
 use vcutc_process::verdict;
-use vcutc_remedy::fallback::Fallback;
 use vcutc_simulation::report::Report;
 use vcutc_simulation::timing::times;
 use vcutc_syntax::ast::Ast;
@@ -215,73 +216,45 @@ pub enum RequestError {
     Unreadable(String),
 }
 
+/// What a run knows of others.
+pub struct Run<'r> {
+    /// What they found.
+    pub memory: &'r mut Memory,
+    /// Whether a later one has made it needless. What was found by then is kept as far as it is complete.
+    pub wanted: &'r Wanted,
+    pub patience: &'r mut dyn Patience,
+}
+
 /// Compiles a job as far as it goes.
 ///
 /// # Errors
 /// When the job file itself cannot be read; everything else is in the outcome's diagnostics.
 pub fn compile(request: Request<'_>, progress: &mut dyn FnMut(Stage)) -> Result<Outcome, RequestError> {
-    compile_again(request, &mut Memory::none(), progress)
-}
-
-/// As [`compile`], with what is kept of runs before: the outcome is the same, sooner.
-///
-/// # Errors
-/// As for [`compile`].
-pub fn compile_again(
-    request: Request<'_>,
-    memory: &mut Memory,
-    progress: &mut dyn FnMut(Stage),
-) -> Result<Outcome, RequestError> {
-    compile_patiently(request, memory, &mut Unhurried, progress)
-}
-
-/// As [`compile_again`], for who learns of a refusal at once, and waits for help with it only so long.
-///
-/// # Errors
-/// As for [`compile`].
-pub fn compile_patiently(
-    request: Request<'_>,
-    memory: &mut Memory,
-    patience: &mut dyn Patience,
-    progress: &mut dyn FnMut(Stage),
-) -> Result<Outcome, RequestError> {
-    let kept = Kept {
-        memory,
+    let run = Run {
+        memory: &mut Memory::none(),
         wanted: &Wanted::ALWAYS,
-        patience,
+        patience: &mut Unhurried,
     };
-    as_far_as_wanted(request, kept, progress)
+    compile_in(run, request, progress)
 }
 
-/// As [`compile_patiently`], for who may lose interest meanwhile. What was found by then is kept as far as it is complete.
+/// As [`compile`], for who wants to know whether a job compiles, and not what would help one that does not.
+pub(crate) fn compile_unhelped(request: Request<'_>) -> Result<Outcome, RequestError> {
+    let run = Run {
+        memory: &mut Memory::none(),
+        wanted: &Wanted::ALWAYS,
+        patience: &mut Unhelped,
+    };
+    compile_in(run, request, &mut |_| ())
+}
+
+/// As [`compile`], in a run among others. The outcome is the same, sooner, if it is still wanted then ([`Wanted::answer`]).
 ///
 /// # Errors
-/// When the outcome is no longer wanted; within, as for [`compile`].
-pub fn compile_while(
+/// As for [`compile`].
+pub fn compile_in(
+    mut run: Run<'_>,
     request: Request<'_>,
-    memory: &mut Memory,
-    wanted: &Wanted,
-    patience: &mut dyn Patience,
-    progress: &mut dyn FnMut(Stage),
-) -> Result<Result<Outcome, RequestError>, Needless> {
-    let kept = Kept {
-        memory,
-        wanted,
-        patience,
-    };
-    wanted.answer(|| as_far_as_wanted(request, kept, progress))
-}
-
-/// What a run knows of others: what they found, and whether a later one has made it needless.
-struct Kept<'k> {
-    memory: &'k mut Memory,
-    wanted: &'k Wanted,
-    patience: &'k mut dyn Patience,
-}
-
-fn as_far_as_wanted(
-    request: Request<'_>,
-    mut kept: Kept<'_>,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Outcome, RequestError> {
     progress(Stage::Reading);
@@ -301,9 +274,9 @@ fn as_far_as_wanted(
     }
     outcome.job = job;
     if has_errors(&outcome.diagnostics) {
-        home::try_offers(&mut outcome, request, &mut kept, progress);
+        home::try_offers(&mut outcome, request, &mut run, progress);
     } else {
-        plan_and_prove(&mut outcome, request, &mut kept, progress);
+        plan_and_prove(&mut outcome, request, &mut run, progress);
     }
     Ok(outcome)
 }
@@ -311,68 +284,61 @@ fn as_far_as_wanted(
 /// Compiles a job that was checked before, perhaps changed since. None where it has errors, or is not wanted any more.
 #[must_use]
 pub fn compile_checked(job: &CheckedJob, wanted: &Wanted) -> Option<(PlannedJob, Compiled)> {
-    let mut memory = Memory::none();
-    let mut kept = Kept {
-        memory: &mut memory,
+    let mut run = Run {
+        memory: &mut Memory::none(),
         wanted,
         patience: &mut Unhurried,
     };
-    match along_its_routes(job, &SourceMap::default(), &mut kept, &mut |_| ()) {
-        Ended::Compiled(plan, _, compiled) if !wanted.is_needless() => Some((*plan, *compiled)),
-        Ended::Compiled(..) | Ended::Refused(_) | Ended::Overtaken => None,
+    match along_its_routes(job, &SourceMap::default(), &mut run, &mut |_| ()) {
+        Ended::Compiled(made) if !wanted.is_needless() => Some((*made.plan, *made.compiled)),
+        Ended::Compiled(_) | Ended::Refused(_) | Ended::Cancelled => None,
     }
-}
-
-/// How far a job came.
-enum Ended<'j> {
-    /// It cannot be planned, is not sound, or its machine does not carry it out, along whatever route.
-    Refused(Refused<'j>),
-    Compiled(Box<PlannedJob>, Vec<Diagnostic>, Box<Compiled>),
-    /// Nobody wants to know any more.
-    Overtaken,
 }
 
 fn plan_and_prove(
     outcome: &mut Outcome,
     request: Request<'_>,
-    kept: &mut Kept<'_>,
+    run: &mut Run<'_>,
     progress: &mut dyn FnMut(Stage),
 ) {
     let Some(job) = &outcome.job else { return };
-    let ended = match along_its_routes(job, &outcome.sources, kept, progress) {
-        Ended::Compiled(plan, told, compiled) => {
-            let objections = target::objections(job, &compiled, request);
+    let ended = match along_its_routes(job, &outcome.sources, run, progress) {
+        Ended::Compiled(made) => {
+            let objections = target::objections(job, &made.compiled, request);
             if objections.is_empty() {
-                Ended::Compiled(plan, told, compiled)
+                Ended::Compiled(made)
             } else {
-                let plan = *plan;
                 Ended::Refused(Refused::ByTarget(Box::new(NotTaken {
-                    plan,
-                    told,
+                    plan: *made.plan,
+                    told: made.warnings,
                     objections,
                 })))
             }
         }
-        ended @ (Ended::Refused(_) | Ended::Overtaken) => ended,
+        ended @ (Ended::Refused(_) | Ended::Cancelled) => ended,
     };
     match ended {
-        Ended::Overtaken => {}
-        Ended::Compiled(plan, told, compiled) => {
+        Ended::Cancelled => {}
+        Ended::Compiled(Made {
+            plan,
+            warnings,
+            compiled,
+        }) => {
             let compile = |changed: &CheckedJob| {
-                let (plan, compiled) = compile_checked(changed, kept.wanted)?;
+                let (plan, compiled) = compile_checked(changed, run.wanted)?;
                 Some((plan, compiled.report))
             };
             let much_stays = verdict::much_stays(job, &plan, &compiled.report, &compile);
             let carried = job.machine.as_ref().zip(compiled.program.reached());
             let warned = carried.map(|(machine, reached)| compiled.checks.warnings(machine, reached));
-            outcome.diagnostics.extend(told);
+            outcome.diagnostics.extend(warnings);
             outcome.diagnostics.extend(much_stays);
             outcome.diagnostics.extend(warned.into_iter().flatten());
             (outcome.plan, outcome.compiled) = (Some(*plan), Some(*compiled));
         }
         Ended::Refused(refused) => {
             let before = (&outcome.sources, outcome.diagnostics.as_slice());
-            let told = helped(job, &refused, before, request, kept, progress);
+            let told = helped(job, &refused, before, request, run, progress);
             outcome.plan = refused.into_plan();
             outcome.diagnostics.extend(told);
         }
@@ -385,28 +351,29 @@ fn helped(
     refused: &Refused<'_>,
     (sources, before): (&SourceMap, &[Diagnostic]),
     request: Request<'_>,
-    kept: &mut Kept<'_>,
+    run: &mut Run<'_>,
     progress: &mut dyn FnMut(Stage),
 ) -> Vec<Diagnostic> {
-    if kept.wanted.is_needless() {
+    if run.wanted.is_needless() {
         return Vec::new();
     }
     let at_once = refused.at_once(job);
-    let limited = kept.patience.refused(&[before, &at_once].concat(), sources);
-    let wanted = kept.wanted.and(&limited);
+    let limited = run.patience.refused(&[before, &at_once].concat(), sources);
+    let wanted = run.wanted.and(&limited);
     progress(Stage::Helping);
     let machine = match &job.machine {
         Some(_) => Machine::Here,
         None => Machine::None,
     };
     let mut trials = Trials::of(request, sources, &at_once, machine, &wanted);
-    let told = match with_limits_that_are_kept(job, (refused, &at_once), sources, &wanted) {
+    let works = &mut |edits: &[(Span, String)]| trials.works(edits);
+    let told = match with_limits_that_are_kept(job, (refused, &at_once), &wanted) {
         Some(told) => told,
-        None => refused.with_help(job, &wanted, &mut trials),
+        None => refused.with_help(job, &wanted, works),
     };
-    let mut told = refusal::tried(told, &at_once, &mut trials);
+    let mut told = refusal::tried(told, &at_once, works);
     if wanted.is_needless()
-        && let Some(words) = kept.patience.cut_short()
+        && let Some(words) = run.patience.cut_short()
         && let Some(first) = told.iter_mut().find(|one| one.severity() == Severity::Error)
     {
         first.notes.push(words);
@@ -419,7 +386,6 @@ fn helped(
 fn with_limits_that_are_kept(
     job: &CheckedJob,
     (refused, at_once): (&Refused<'_>, &[Diagnostic]),
-    sources: &SourceMap,
     wanted: &Wanted,
 ) -> Option<Vec<Diagnostic>> {
     let is_of_limits = match refused {
@@ -427,143 +393,8 @@ fn with_limits_that_are_kept(
         Refused::Broken(..) | Refused::Unsound(..) | Refused::Unreached(_) | Refused::ByTarget(_) => false,
     };
     let free = plan::without_plan_limits(job).filter(|free| is_of_limits && free.machine.is_some())?;
-    let mut kept = Kept {
-        memory: &mut Memory::none(),
-        wanted,
-        patience: &mut Unhurried,
-    };
-    match along_its_routes(&free, sources, &mut kept, &mut |_| ()) {
-        Ended::Compiled(plan, ..) => Some(verdict::broken_limits(job, &plan)).filter(|told| !told.is_empty()),
-        Ended::Refused(_) | Ended::Overtaken => None,
-    }
-}
-
-/// Along fewer routes and with narrower swings where the machine does not follow: the fastest ask the most of it.
-fn along_its_routes<'j>(
-    job: &'j CheckedJob,
-    sources: &SourceMap,
-    kept: &mut Kept<'_>,
-    progress: &mut dyn FnMut(Stage),
-) -> Ended<'j> {
-    let mut fallback = Fallback::new(job, kept.wanted);
-    match first_followed(job, sources, &mut fallback, kept, progress) {
-        Ended::Compiled(plan, warnings, compiled) => {
-            let slower = narrower::Slower {
-                plan,
-                warnings,
-                compiled,
-            };
-            narrower::or_with_a_narrower_swing(slower, job, sources, fallback, kept, progress)
-        }
-        ended @ (Ended::Refused(_) | Ended::Overtaken) => ended,
-    }
-}
-
-/// The first plan that the machine follows, of those that the job falls back to.
-fn first_followed<'j>(
-    job: &'j CheckedJob,
-    sources: &SourceMap,
-    fallback: &mut Fallback<'_>,
-    kept: &mut Kept<'_>,
-    progress: &mut dyn FnMut(Stage),
-) -> Ended<'j> {
-    let wanted = kept.wanted;
-    let mut refused: Option<Box<NotCarriedOut>> = None;
-    let unreached = |refused: Box<NotCarriedOut>| Ended::Refused(Refused::Unreached(refused));
-    // Limits that the first plan of a swing chose hold for all others, as if the job had set them.
-    let mut settled: Option<CheckedJob> = None;
-    loop {
-        progress(Stage::Planning);
-        let plan = match refused.take() {
-            None => kept
-                .memory
-                .choose(job, fallback.space(), wanted)
-                .map_err(Refused::Unplanned),
-            Some(before) => {
-                let within = settled.as_ref().unwrap_or(job);
-                match kept.memory.choose(within, fallback.space(), wanted) {
-                    Ok(plan) => {
-                        refused = Some(before);
-                        Ok(reaching::as_asked(plan, job))
-                    }
-                    // What the machine did not follow was sound, and is what there is to tell.
-                    Err(_) => Err(Refused::Unreached(before)),
-                }
-            }
-        };
-        if wanted.is_needless() {
-            return Ended::Overtaken;
-        }
-        let plan = match plan {
-            Ok(plan) => plan,
-            Err(why) => return Ended::Refused(why),
-        };
-        settled = settled.or_else(|| plan::settled(job, &plan));
-        progress(Stage::Proving);
-        let proven = match verdict::prove(&plan, sources) {
-            Ok(proven) => proven,
-            Err(faults) => {
-                let fault = Box::new(internal(job, &rules_broken(&faults)));
-                return Ended::Refused(Refused::Broken(Box::new(plan), fault));
-            }
-        };
-        let mut told = verdict::diagnose_while(job, &plan, &proven, &Wanted::never(), &mut |_| false);
-        if has_errors(&told) {
-            // What the machine did not follow was sound, and is what there is to tell.
-            return match refused {
-                Some(refused) => unreached(refused),
-                None => Ended::Refused(Refused::Unsound(Box::new(plan), Box::new(proven))),
-            };
-        }
-        let changes = fallback.changes(&plan);
-        match reaching::reach(job, proven.program, changes, kept, progress) {
-            Ok(program) => {
-                told.extend(
-                    program
-                        .reached()
-                        .and_then(|reached| axis_moves::many(job, reached)),
-                );
-                let compiled = compiled(job, program, &plan, proven.report, sources);
-                return Ended::Compiled(Box::new(plan), told, Box::new(compiled));
-            }
-            Err(_) if wanted.is_needless() => return Ended::Overtaken,
-            Err(why) => {
-                if let Some(roomier) = vcutc_remedy::farther_out(settled.as_ref().unwrap_or(job), &plan, &why)
-                {
-                    settled = Some(roomier);
-                    refused = refused.or(Some(Box::new(NotCarriedOut {
-                        plan,
-                        told,
-                        unreached: why,
-                        cut_short: None,
-                    })));
-                    continue;
-                }
-                let is_usual = fallback.is_usual();
-                let swing = fallback.space().swing;
-                let goes_on = fallback.narrow(&plan, &why);
-                // What little is left depends on the swing: with another one the limit is chosen anew.
-                if fallback.space().swing != swing {
-                    settled = None;
-                }
-                let this = Box::new(NotCarriedOut {
-                    plan,
-                    told,
-                    unreached: why,
-                    cut_short: None,
-                });
-                let mut told_of = match refused {
-                    Some(usual) if !is_usual => usual,
-                    Some(_) | None => this,
-                };
-                if !goes_on {
-                    told_of.cut_short = fallback.cut_short();
-                    return unreached(told_of);
-                }
-                refused = Some(told_of);
-            }
-        }
-    }
+    let plan = compile_checked(&free, wanted).map(|(plan, _)| plan)?;
+    Some(verdict::broken_limits(job, &plan)).filter(|told| !told.is_empty())
 }
 
 fn compiled(

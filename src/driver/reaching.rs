@@ -1,7 +1,7 @@
 //! How the job's machine carries out its program, and what that asks of the program: turns of a five-axis machine at the rate that
 //! the job allows its blade, and cuts that run out as far as those turns need.
 
-use super::{Finished, Kept, Stage};
+use super::{Finished, Run, Stage};
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_job::CheckedJob;
@@ -14,7 +14,7 @@ pub(super) fn reach(
     job: &CheckedJob,
     program: VerifiedProgram,
     changes: Changes,
-    kept: &mut Kept<'_>,
+    run: &mut Run<'_>,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Finished, Unreached> {
     let Some(machine) = &job.machine else {
@@ -25,12 +25,12 @@ pub(super) fn reach(
         MachineKind::FiveAxis => Some(program.clone()),
         MachineKind::Robot => None,
     };
-    let mut reached = kept.memory.reach(program, &machine.model, changes, kept.wanted)?;
+    let mut reached = run.memory.reach(program, &machine.model, changes, run.wanted)?;
     let motion = reached.program.motion();
     let slowed = asked.and_then(|asked| slowed(asked.program(), motion, &machine.model.mechanism));
     if let Some(slowed) = slowed {
         let slowed = verify(slowed).map_err(Unreached::Rules)?;
-        reached = kept.memory.reach(slowed, &machine.model, changes, kept.wanted)?;
+        reached = run.memory.reach(slowed, &machine.model, changes, run.wanted)?;
     }
     Ok(Finished::Reached(Box::new(reached)))
 }

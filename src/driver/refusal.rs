@@ -3,15 +3,15 @@
 //! A refusal is known as soon as a plan, a proof or the machine has failed, and whoever waits learns of it then
 //! ([`Patience::refused`]). Changes that help are looked for afterwards, for as long as they are wanted: each costs a plan, and
 //! mostly a proof of the whole program. What is offered for a job with a machine has been compiled as the text that comes of it
-//! ([`Trials`]).
+//! ([`super::trials`]).
 
 use super::target::{self, Objection};
-use super::trials::Trials;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::CheckedJob;
 use vcutc_job::PlannedJob;
+use vcutc_job::operation::WorksThere;
 use vcutc_motion::solve::{Unreachable, Unreached};
 use vcutc_motion::verdict::{self as reach_verdict, Explained};
 use vcutc_process::plan;
@@ -50,7 +50,7 @@ impl Patience for Unhurried {
 
 /// Who wants to know whether a job compiles, and not what would help one that does not.
 #[derive(Clone, Copy, Debug)]
-pub struct Unhelped;
+pub(super) struct Unhelped;
 
 impl Patience for Unhelped {
     fn refused(&mut self, _: &[Diagnostic], _: &SourceMap) -> Wanted {
@@ -124,22 +124,18 @@ impl Refused<'_> {
         &self,
         job: &CheckedJob,
         wanted: &Wanted,
-        trials: &mut Trials<'_>,
+        works: &mut WorksThere<'_>,
     ) -> Vec<Diagnostic> {
         match self {
-            Self::Unplanned(complaints) => complaints.with_help(wanted, &mut |edits| trials.works(edits)),
+            Self::Unplanned(complaints) => complaints.with_help(wanted, works),
             Self::Broken(..) => self.at_once(job),
-            Self::Unsound(plan, proven) => {
-                verdict::diagnose_while(job, plan, proven, wanted, &mut |edits| trials.works(edits))
-            }
+            Self::Unsound(plan, proven) => verdict::diagnose_while(job, plan, proven, wanted, works),
             Self::Unreached(refused) => refused.in_words(job, |unreachable| {
-                vcutc_remedy::diagnose(job, &refused.plan, unreachable, wanted, &mut |edits| {
-                    trials.works(edits)
-                })
+                vcutc_remedy::diagnose(job, &refused.plan, unreachable, wanted, works)
             }),
             Self::ByTarget(refused) => {
                 let objections = refused.objections.iter();
-                let helped = objections.map(|objection| target::with_help(objection, trials));
+                let helped = objections.map(|objection| target::with_help(objection, works));
                 refused.told.iter().cloned().chain(helped).collect()
             }
         }
@@ -179,14 +175,14 @@ impl NotCarriedOut {
 pub(super) fn tried(
     told: Vec<Diagnostic>,
     at_once: &[Diagnostic],
-    trials: &mut Trials<'_>,
+    works: &mut WorksThere<'_>,
 ) -> Vec<Diagnostic> {
     let one = |mut diagnostic: Diagnostic| {
         let before = diagnostic.fixes.len();
         diagnostic.fixes.retain(|fix| {
             let edits = fix.edits.iter();
             let edits: Vec<_> = edits.map(|edit| (edit.span, edit.replacement.clone())).collect();
-            trials.works(&edits)
+            works(&edits)
         });
         let is_same = |other: &&Diagnostic| {
             other.code == diagnostic.code && other.primary.span == diagnostic.primary.span

@@ -8,8 +8,7 @@
 mod places;
 mod text;
 
-use crate::memory::Memory;
-use crate::{self as driver, Request, Typed, Unhelped};
+use crate::{self as driver, Request, Typed};
 use places::{Place, Tool};
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::geometry::Frame;
@@ -179,7 +178,7 @@ fn compiled(asked: &Asked<'_>, text: &str) -> Result<driver::Outcome, (Vec<Diagn
         operations: asked.operations,
         targets: asked.targets,
     };
-    match driver::compile_patiently(request, &mut Memory::none(), &mut Unhelped, &mut |_| {}) {
+    match driver::compile_unhelped(request) {
         Ok(outcome) if has_errors(&outcome.diagnostics) => Err((outcome.diagnostics, outcome.sources)),
         Ok(outcome) => Ok(outcome),
         // The draft is in memory: it can always be read.

@@ -4,7 +4,8 @@
 //! the text, exactly as an editor would make it, and the text is compiled as far as these two. How often that is done for one
 //! refusal is bounded by a [`Budget`].
 
-use super::{Ended, Kept, Request, Stage, Unhurried, along_its_routes, target};
+use super::routes::{Ended, along_its_routes};
+use super::{Request, Run, Unhurried, target};
 use crate::memory::Memory;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_cancellation::Wanted;
@@ -89,26 +90,26 @@ impl<'t> Trials<'t> {
         let (mut sources, mut told) = (SourceMap::default(), Vec::new());
         let (_, job) = sema::check(self.request.path, &loader, choices, &mut sources, &mut told).ok()?;
         let job = job.filter(|_| !has_errors(&told))?;
-        let mut kept = Kept {
+        let mut run = Run {
             memory: &mut Memory::none(),
             wanted: &self.budget.wanted,
             patience: &mut Unhurried,
         };
-        let ended = along_its_routes(&job, &sources, &mut kept, &mut |_: Stage| ());
+        let ended = along_its_routes(&job, &sources, &mut run, &mut |_| ());
         let (plan, left) = match ended {
-            Ended::Compiled(plan, _, compiled) => {
-                let objections = target::objections(&job, &compiled, self.request);
+            Ended::Compiled(made) => {
+                let objections = target::objections(&job, &made.compiled, self.request);
                 let left = objections
                     .iter()
                     .map(|objection| named(&objection.told))
                     .collect();
-                (Some(*plan), left)
+                (Some(*made.plan), left)
             }
             Ended::Refused(refused) => {
                 let left = refused.at_once(&job).iter().map(named).collect();
                 (refused.into_plan(), left)
             }
-            Ended::Overtaken => return None,
+            Ended::Cancelled => return None,
         };
         Some((left, plan.as_ref().map_or(0, PlannedJob::cuts)))
     }

@@ -13,7 +13,7 @@ use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap};
 use vcutc_driver::hints::{Hint, hints};
 use vcutc_driver::memory::Memory;
-use vcutc_driver::{self as driver, Outcome, Patience, Request, RequestError, Typed, Unhurried};
+use vcutc_driver::{self as driver, Outcome, Patience, Request, RequestError, Run, Typed, Unhurried};
 use vcutc_job::PlannedJob;
 use vcutc_job::sema::kind::Operations;
 use vcutc_job::sema::study::{Study, study};
@@ -265,7 +265,15 @@ impl Task {
             patience,
             tell,
         };
-        let result = match driver::compile_while(request, memory, &self.wanted, &mut early, &mut |_| ()) {
+        let run = Run {
+            memory,
+            wanted: &self.wanted,
+            patience: &mut early,
+        };
+        let result = match self
+            .wanted
+            .answer(|| driver::compile_in(run, request, &mut |_| ()))
+        {
             Ok(Ok(outcome)) => early.helped(outcome, &self.wanted),
             Ok(Err(RequestError::Unreadable(_))) => Finding::Unreadable,
             Err(Needless) => Finding::Needless,

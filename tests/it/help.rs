@@ -5,7 +5,7 @@ use vcutc::cancellation::Wanted;
 use vcutc::diagnostics::Diagnostic;
 use vcutc::diagnostics::source::SourceMap;
 use vcutc::driver::memory::Memory;
-use vcutc::driver::{self, Outcome, Patience, Request, Stage, Typed};
+use vcutc::driver::{self, Outcome, Patience, Request, Run, Stage, Typed};
 use vcutc::registry;
 
 const JOB: &str = "job.vcut";
@@ -52,7 +52,12 @@ pub(crate) fn patiently(text: &str, wanted: Wanted) -> (Outcome, Vec<Diagnostic>
     };
     let mut stages = Vec::new();
     let mut enter = |stage| stages.push(stage);
-    let outcome = driver::compile_patiently(request, &mut Memory::none(), &mut noting, &mut enter);
+    let run = Run {
+        memory: &mut Memory::none(),
+        wanted: &Wanted::ALWAYS,
+        patience: &mut noting,
+    };
+    let outcome = driver::compile_in(run, request, &mut enter);
     (outcome.unwrap(), noting.at_once, stages)
 }
 

@@ -14,7 +14,7 @@ use std::slice;
 use std::time::Duration;
 use vcutc_cancellation::{Needless, Wanted};
 use vcutc_driver::memory::Memory;
-use vcutc_driver::{self as driver, Outcome, Request, RequestError};
+use vcutc_driver::{self as driver, Outcome, Request, RequestError, Run};
 
 /// A job that is compiled again and again.
 pub(super) struct Watched<'a> {
@@ -100,8 +100,12 @@ impl<'a> Watched<'a> {
             ..self.args.overrides.request(&disk, self.targets)
         };
         let enter = &mut |stage| progress.enter(stage);
-        let waiting = &mut Waiting::unseen(console.help_budget());
-        let outcome = match driver::compile_while(request, memory, wanted, waiting, enter) {
+        let run = Run {
+            memory,
+            wanted,
+            patience: &mut Waiting::unseen(console.help_budget()),
+        };
+        let outcome = match wanted.answer(|| driver::compile_in(run, request, enter)) {
             Err(Needless) => return Came::Needless,
             Ok(Err(RequestError::Unreadable(reason))) => {
                 drop(progress);

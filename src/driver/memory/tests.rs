@@ -1,7 +1,7 @@
 //! Compiling with a memory against compiling afresh, over random edits of a job: outcome and files must be the same to the byte.
 
 use super::*;
-use crate::{Request, Stage, Typed, Unhurried, compile, compile_again, compile_while, write};
+use crate::{Outcome, Request, RequestError, Run, Stage, Typed, Unhurried, compile, compile_in, write};
 use proptest::prelude::*;
 use vcutc_backend_api::backend::Backend;
 use vcutc_cancellation::{Needless, Wanted};
@@ -133,7 +133,7 @@ proptest! {
         let mut memory = Memory::with_room(room);
         for (place, word) in edits {
             text.0[place] = word;
-            let again = compile_again(request(&text, &targets), &mut memory, &mut |_| ()).unwrap();
+            let again = compile_again(request(&text, &targets), &mut memory);
             let fresh = compile(request(&text, &targets), &mut |_| ()).unwrap();
             let ((outcome, files), (expected, expected_files)) = (all_of(&again), all_of(&fresh));
             prop_assert!(outcome == expected, "{}", text.text());
@@ -161,7 +161,7 @@ proptest! {
         let mut interest = Some(interest);
         let mut entered = 0;
         let given_up = std::thread::scope(|scope| {
-            compile_while(request(&text, &targets), &mut memory, &wanted, &mut Unhurried, &mut |_| {
+            compile_while(request(&text, &targets), &mut memory, &wanted, &mut |_| {
                 entered += 1;
                 if entered > stage
                     && let Some(interest) = interest.take()
@@ -178,7 +178,7 @@ proptest! {
         if let Ok(answered) = given_up {
             prop_assert!(all_of(&answered.unwrap()) == all_of(&fresh), "{}", text.text());
         }
-        let again = compile_again(request(&text, &targets), &mut memory, &mut |_| ()).unwrap();
+        let again = compile_again(request(&text, &targets), &mut memory);
         prop_assert!(all_of(&again) == all_of(&fresh), "{}", text.text());
     }
 }
@@ -192,17 +192,11 @@ fn what_was_cut_short_is_not_kept() {
         let mut memory = Memory::of_some_runs();
         let (wanted, interest) = Wanted::while_held();
         let mut interest = Some(interest);
-        let given_up = compile_while(
-            request(&text, &targets),
-            &mut memory,
-            &wanted,
-            &mut Unhurried,
-            &mut |entered| {
-                if entered == stage {
-                    interest = None;
-                }
-            },
-        );
+        let given_up = compile_while(request(&text, &targets), &mut memory, &wanted, &mut |entered| {
+            if entered == stage {
+                interest = None;
+            }
+        });
         assert_eq!(given_up.map(|_| ()), Err(Needless), "{stage:?}");
         let plans = usize::from(stage != Stage::Planning);
         assert_eq!(
@@ -213,11 +207,30 @@ fn what_was_cut_short_is_not_kept() {
     }
 }
 
+fn compile_again(request: Request<'_>, memory: &mut Memory) -> Outcome {
+    let answer = compile_while(request, memory, &Wanted::ALWAYS, &mut |_| ());
+    answer.unwrap().unwrap()
+}
+
+fn compile_while(
+    request: Request<'_>,
+    memory: &mut Memory,
+    wanted: &Wanted,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<Result<Outcome, RequestError>, Needless> {
+    let run = Run {
+        memory,
+        wanted,
+        patience: &mut Unhurried,
+    };
+    wanted.answer(|| compile_in(run, request, progress))
+}
+
 /// The stages that were asked of a memory and answered by it.
 fn is_kept(memory: &mut Memory, text: &Text) -> bool {
     let targets = registry::backends();
     let before = (memory.plans.count(), memory.motions.count());
-    let outcome = compile_again(request(text, &targets), memory, &mut |_| ()).unwrap();
+    let outcome = compile_again(request(text, &targets), memory);
     assert!(outcome.compiled.is_some(), "{:#?}", outcome.diagnostics);
     before == (memory.plans.count(), memory.motions.count())
 }
@@ -242,6 +255,6 @@ fn a_memory_without_room_keeps_nothing() {
     let mut memory = Memory::none();
     let targets = registry::backends();
     let text = Text([0; PLACES.len()]);
-    compile_again(request(&text, &targets), &mut memory, &mut |_| ()).unwrap();
+    compile_again(request(&text, &targets), &mut memory);
     assert_eq!((memory.plans.count(), memory.motions.count()), (0, 0));
 }

@@ -4,13 +4,13 @@
 //! which the job's speed is off there; another motion may need twice that.
 
 use super::Objection;
-use crate::trials::Trials;
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::{Action, Program};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_job::CheckedJob;
+use vcutc_job::operation::WorksThere;
 use vcutc_job::setup::SpeedField;
 
 /// How far beyond the factor of the first motion is looked.
@@ -80,7 +80,7 @@ fn rounded(value: f64, from: f64) -> f64 {
 }
 
 /// An objection with the first speed that the target takes and the machine follows.
-pub(crate) fn with_help(objection: &Objection, trials: &mut Trials<'_>) -> Diagnostic {
+pub(crate) fn with_help(objection: &Objection, works: &mut WorksThere<'_>) -> Diagnostic {
     let told = objection.told.clone();
     let Some(off) = &objection.off else { return told };
     let candidates = off.speeds.iter().flat_map(|stated| {
@@ -95,7 +95,7 @@ pub(crate) fn with_help(objection: &Objection, trials: &mut Trials<'_>) -> Diagn
     });
     for (stated, value) in candidates.filter(|(_, value)| *value > 0.0) {
         let text = format!("{} {}", show(value), stated.unit);
-        if trials.works(&[(stated.span, text.clone())]) {
+        if works(&[(stated.span, text.clone())]) {
             let mut told = told;
             told.help.clear();
             return told.fix(format!("use `{} = {text}`", stated.field), stated.span, text);
