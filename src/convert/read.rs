@@ -1,7 +1,7 @@
 //! From the text of a KRL program to its motions.
 //!
-//! Statements, routines and named positions are those of the KRL crate. Routines are followed from call to call; where a
-//! motion leads is for [`motions`]. Statements that decide which motions are made (`IF`, `LOOP`, `GOTO` and their
+//! What a controller does is for the interpreter of the KRL crate: which statement comes next, what names stand for, and where
+//! targets lead. Here programs are accepted whoever wrote them, and become motions ([`motions`]) or messages. Statements that decide which motions are made (`IF`, `LOOP`, `GOTO` and their
 //! like) are not followed: with a motion inside they are refused. So are calls of routines that no file given holds, for
 //! their motions would be missing.
 
@@ -11,13 +11,14 @@ mod motions;
 use super::complaints;
 use super::milling::{Milling, Written};
 use frames::Frames;
-use motions::Tool;
+use motions::ExternalAxes;
 use vcutc_backend_api::readback::{ProgramFile, essence};
-use vcutc_backend_krl::read::index::{FileKind, Index, stem};
-use vcutc_backend_krl::read::syntax::{
-    Phrase, Span as Bytes, Statement, Statements, Value, Variable, is_same_name, statements,
+use vcutc_backend_krl::interpreter::speeds::{Velocity, velocities};
+use vcutc_backend_krl::interpreter::variables::Outcome;
+use vcutc_backend_krl::interpreter::{BreaksOff, Context, Execution, Line, State};
+use vcutc_backend_krl::syntax::{
+    Phrase, Span as Bytes, Statement, Statements, Value, Variable, is_same_name,
 };
-use vcutc_backend_krl::read::variables::{Asker, Outcome, Variables};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{FileId, SourceMap, Span};
 
@@ -28,7 +29,7 @@ const MOST_MOVES: usize = 4_000_000;
 const MOST_STATEMENTS: usize = 40_000_000;
 
 /// How deep routines may call one another.
-const DEEPEST: usize = 64;
+const DEEPEST: usize = 65;
 
 /// Most complaints about single statements.
 const MOST_COMPLAINTS: usize = 20;
@@ -50,20 +51,18 @@ impl<'t> Files<'t> {
         Some(Self { files, ids, start })
     }
 
-    fn span(&self, file: usize, bytes: Bytes) -> Option<Span> {
-        let id = *self.ids.get(file)?;
-        Some(Span::of_bytes(id, bytes.start..bytes.end))
+    fn span(&self, file: usize, bytes: Bytes) -> Span {
+        let id = self.ids.get(file).copied().unwrap_or(self.start.file);
+        Span::of_bytes(id, bytes.start..bytes.end)
     }
 
     /// What stands at a place.
     pub(super) fn said(&self, place: Span) -> &'t str {
         let at = self.ids.iter().position(|&id| id == place.file);
-        let text = at.map_or("", |file| self.text(file));
+        let text = at
+            .and_then(|file| self.files.get(file))
+            .map_or("", |file| &file.text);
         text.get(place.bytes()).unwrap_or_default().trim()
-    }
-
-    fn text(&self, file: usize) -> &'t str {
-        self.files.get(file).map_or("", |file| &file.text)
     }
 }
 
@@ -72,33 +71,36 @@ impl<'t> Files<'t> {
 /// # Errors
 /// What cannot be followed.
 pub(super) fn read(files: &Files<'_>) -> Result<Milling, Vec<Diagnostic>> {
-    let index = Index::of(files.files);
+    let mut execution = Execution::of(files.files);
     let mut reader = Reader {
         files,
-        index: &index,
-        variables: Variables::default(),
+        state: State::default(),
         milling: Milling::empty(files.start),
-        tool: Tool::default(),
+        external: ExternalAxes::default(),
         speed: None,
         forks: Vec::new(),
         frames: Frames::default(),
-        entered: vec![false; index.routines.len()],
         complaints: Vec::new(),
         statements: 0,
     };
-    reader.outside();
-    for (file, source) in files.files.iter().enumerate() {
-        match FileKind::of(source) {
-            FileKind::Data => reader.data(file, source),
-            FileKind::Source => {}
+    for (file, _, line) in execution.outside() {
+        match line.phrase {
+            Phrase::Mark(_) => {}
+            _ => reader.push(complaints::outside(files.span(file, line.span))),
         }
     }
-    match index.main() {
-        Some(main) => reader.follow(main),
+    for (file, context, lines) in execution.data_lists() {
+        reader.data(file, context, lines);
+    }
+    match execution.main() {
+        Some(main) => {
+            execution.enter(main);
+            reader.follow(&mut execution);
+        }
         None => reader.complaints.push(complaints::no_routine(files.start)),
     }
-    reader.never_called();
-    reader.milling.external = reader.tool.external();
+    reader.never_called(&execution);
+    reader.milling.external = reader.external.standing();
     if reader.complaints.is_empty() {
         Ok(reader.milling)
     } else {
@@ -107,18 +109,15 @@ pub(super) fn read(files: &Files<'_>) -> Result<Milling, Vec<Diagnostic>> {
 }
 
 /// Goes through a program.
-pub(super) struct Reader<'t, 'i> {
-    pub(super) files: &'i Files<'t>,
-    index: &'i Index<'t>,
-    pub(super) variables: Variables,
+pub(super) struct Reader<'a> {
+    pub(super) files: &'a Files<'a>,
+    pub(super) state: State,
     pub(super) milling: Milling,
-    pub(super) tool: Tool,
+    pub(super) external: ExternalAxes,
     pub(super) speed: Option<Written>,
     /// Statements that decide what is made, and are open; each with whether a motion in it was told.
     pub(super) forks: Vec<Fork>,
     pub(super) frames: Frames,
-    /// Which routines have been carried out.
-    entered: Vec<bool>,
     complaints: Vec<Diagnostic>,
     statements: usize,
 }
@@ -136,184 +135,102 @@ pub(super) enum Told {
     Once,
 }
 
-/// A routine that is being carried out.
-struct Call<'t> {
-    file: usize,
-    routine: usize,
-    lines: Statements<'t>,
-    /// The statement before the one that comes next.
-    last: Option<Span>,
-}
-
-/// Whether to go on with a routine.
+/// What to do after a statement.
 enum Next {
     GoOn,
     Enter(usize),
     Return,
-    Stop,
 }
 
-impl<'t> Reader<'t, '_> {
-    fn data(&mut self, file: usize, source: &'t ProgramFile) {
-        let asker = Asker {
-            routine: None,
-            module: stem(&source.name).0,
-        };
-        for line in statements(&source.text) {
+impl Reader<'_> {
+    fn data(&mut self, file: usize, context: Context<'_>, lines: Statements<'_>) {
+        for line in lines {
             match &line.phrase {
                 Phrase::Declaration(declaration) => {
-                    self.variables.declare(asker, declaration);
-                    self.frames.declare(asker, declaration);
+                    self.state.variables.declare(context, declaration);
+                    self.frames.declare(context, declaration);
                 }
                 Phrase::Assignment { to, value } => {
-                    self.variables.assign(asker, to, value);
+                    self.state.variables.assign(context, to, value);
                 }
                 Phrase::Unreadable { expected } => self.unreadable(file, &line, expected),
-                Phrase::Mark(_)
-                | Phrase::Def { .. }
-                | Phrase::End
-                | Phrase::DefDat { .. }
-                | Phrase::EndDat
-                | Phrase::Ext { .. }
-                | Phrase::Motion(_)
-                | Phrase::Arc(_)
-                | Phrase::Bas { .. }
-                | Phrase::Call { .. }
-                | Phrase::WaitSec(_)
-                | Phrase::WaitFor(_)
-                | Phrase::Halt
-                | Phrase::Other(_) => {}
+                _ => {}
             }
         }
     }
 
-    fn call(&self, routine: usize) -> Option<Call<'t>> {
-        let found = self.index.routines.get(routine)?;
-        Some(Call {
-            file: found.file,
-            routine,
-            lines: Statements::within(self.files.text(found.file), found.span),
-            last: None,
-        })
-    }
-
-    fn follow(&mut self, main: usize) {
-        if let Some(entered) = self.entered.get_mut(main) {
-            *entered = true;
-        }
-        let mut calls: Vec<Call<'t>> = self.call(main).into_iter().collect();
-        while let Some(mut call) = calls.pop() {
-            let Some(line) = call.lines.next() else {
-                let nothing = self.files.span(call.file, Bytes { start: 0, end: 0 });
-                self.milling.ends_early.extend(call.last.or(nothing));
-                continue;
+    fn follow(&mut self, execution: &mut Execution<'_>) {
+        while let Some(step) = execution.next() {
+            let line = match step {
+                Ok(line) => line,
+                Err(BreaksOff { file, last, .. }) => {
+                    let place = last.unwrap_or(Bytes { start: 0, end: 0 });
+                    self.milling.ends_early.push(self.files.span(file, place));
+                    continue;
+                }
             };
+            let place = self.files.span(line.file, line.statement.span);
             self.statements += 1;
             let is_endless = self.statements > MOST_STATEMENTS
                 || self.milling.moves.len() > MOST_MOVES
-                || calls.len() > DEEPEST;
+                || execution.depth() > DEEPEST;
             if is_endless {
-                self.complain(call.file, &line, complaints::endless);
-                return;
+                return self.push(complaints::endless(place));
             }
-            call.last = self.files.span(call.file, line.span);
-            match self.step(&call, &line) {
-                Next::GoOn => calls.push(call),
-                Next::Enter(routine) => {
-                    calls.push(call);
-                    calls.extend(self.call(routine));
-                }
-                Next::Return => {}
-                Next::Stop => return,
+            match self.step(execution, &line, place) {
+                Next::GoOn => {}
+                Next::Enter(routine) => execution.enter(routine),
+                Next::Return => execution.leave(),
             }
-        }
-    }
-
-    fn complain(&mut self, file: usize, line: &Statement<'_>, words: impl Fn(Span) -> Diagnostic) {
-        if let Some(place) = self.files.span(file, line.span)
-            && self.complaints.len() < MOST_COMPLAINTS
-        {
-            self.complaints.push(words(place));
         }
     }
 
     fn unreadable(&mut self, file: usize, line: &Statement<'_>, expected: &str) {
-        self.complain(file, line, |place| complaints::unreadable(place, expected));
-    }
-
-    /// What stands outside of routines belongs to none, and no controller carries it out.
-    fn outside(&mut self) {
-        for &(file, span) in &self.index.gaps {
-            for line in Statements::within(self.files.text(file), span) {
-                match line.phrase {
-                    Phrase::Mark(_) => {}
-                    _ => self.complain(file, &line, complaints::outside),
-                }
-            }
-        }
+        self.push(complaints::unreadable(self.files.span(file, line.span), expected));
     }
 
     /// Routines with motions that nobody has called.
-    fn never_called(&mut self) {
-        let routines = self.index.routines.iter().zip(&self.entered);
-        for (routine, _) in routines.filter(|(_, entered)| !**entered) {
-            let mut lines = Statements::within(self.files.text(routine.file), routine.span);
+    fn never_called(&mut self, execution: &Execution<'_>) {
+        for (file, mut lines) in execution.never_called() {
             let head = lines.next();
             let moves = lines.any(|line| matches!(line.phrase, Phrase::Motion(_) | Phrase::Arc(_)));
             if let (true, Some(head)) = (moves, head) {
-                self.milling
-                    .uncalled
-                    .extend(self.files.span(routine.file, head.span));
+                self.milling.uncalled.push(self.files.span(file, head.span));
             }
         }
     }
 
     /// Carries out a statement.
-    fn step(&mut self, call: &Call<'t>, line: &Statement<'t>) -> Next {
-        let Some(place) = self.files.span(call.file, line.span) else {
-            return Next::Stop;
-        };
-        let asker = Asker {
-            routine: Some(call.routine),
-            module: self.module(call.file),
-        };
-        match &line.phrase {
+    fn step(&mut self, execution: &Execution<'_>, line: &Line<'_>, place: Span) -> Next {
+        let context = line.context;
+        match &line.statement.phrase {
             Phrase::Mark(_) | Phrase::Def { .. } | Phrase::Ext { .. } => {}
             Phrase::End => return Next::Return,
             Phrase::Declaration(declaration) => {
-                self.variables.declare(asker, declaration);
-                self.frames.declare(asker, declaration);
+                self.state.variables.declare(context, declaration);
+                self.frames.declare(context, declaration);
             }
-            Phrase::Motion(motion) => self.motion(asker, motion, place),
-            Phrase::Arc(arc) => self.arc(asker, arc, place),
-            Phrase::Assignment { to, value } => self.assign(asker, to, value, place),
+            Phrase::Motion(motion) => self.motion(context, motion, place),
+            Phrase::Arc(arc) => self.arc(context, arc, place),
+            Phrase::Assignment { to, value } => self.assign(context, to, value, place),
             Phrase::Bas { command, value } => self.bas(command, *value, place),
-            Phrase::Call { name, arguments } => return self.enter(call.file, name, arguments, place),
-            Phrase::Other(word) => return self.other(asker, word, place),
+            Phrase::Call { name, arguments } => {
+                return self.call(execution.find(line.file, name), name, arguments, place);
+            }
+            Phrase::Other(word) => return self.other(context, word, place),
             Phrase::WaitSec(_) | Phrase::WaitFor(_) | Phrase::Halt => self.milling.left_out.push(place),
             Phrase::DefDat { .. } | Phrase::EndDat => {
-                self.unreadable(call.file, line, "an instruction, or `END`")
+                self.push(complaints::unreadable(place, "an instruction, or `END`"));
             }
-            Phrase::Unreadable { .. } if call.lines.clone().next().is_none() => {
-                self.push(complaints::cut_short(place));
-            }
-            Phrase::Unreadable { expected } => self.unreadable(call.file, line, expected),
+            Phrase::Unreadable { .. } if execution.is_at_end() => self.push(complaints::cut_short(place)),
+            Phrase::Unreadable { expected } => self.push(complaints::unreadable(place, expected)),
         }
         Next::GoOn
     }
 
-    fn module(&self, file: usize) -> &'t str {
-        self.files.files.get(file).map_or("", |file| stem(&file.name).0)
-    }
-
-    fn enter(&mut self, file: usize, name: &str, arguments: &str, place: Span) -> Next {
-        match self.index.find(file, name) {
-            Some(routine) if arguments.is_empty() => {
-                if let Some(entered) = self.entered.get_mut(routine) {
-                    *entered = true;
-                }
-                return Next::Enter(routine);
-            }
+    fn call(&mut self, routine: Option<usize>, name: &str, arguments: &str, place: Span) -> Next {
+        match routine {
+            Some(routine) if arguments.is_empty() => return Next::Enter(routine),
             Some(_) => self.push(complaints::arguments(place, name)),
             None if MOTIONLESS.iter().any(|known| is_same_name(name, known)) => {
                 self.milling.left_out.push(place);
@@ -327,7 +244,7 @@ impl<'t> Reader<'t, '_> {
     }
 
     /// A statement that the syntax does not describe.
-    fn other(&mut self, asker: Asker<'_>, word: &str, place: Span) -> Next {
+    fn other(&mut self, context: Context<'_>, word: &str, place: Span) -> Next {
         let is = |names: &[&str]| names.iter().any(|name| is_same_name(word, name));
         if is(&["CIRC", "CIRC_REL", "SCIRC", "SCIRC_REL", "SPL", "SPL_REL"]) {
             self.push(complaints::curve(place, word));
@@ -353,13 +270,13 @@ impl<'t> Reader<'t, '_> {
             }
             self.milling.settings.push(place);
         } else {
-            self.unknown_value(asker, word, place);
+            self.unknown_value(context, word, place);
         }
         Next::GoOn
     }
 
     /// A statement that may give something a value that is worked out while the program runs.
-    fn unknown_value(&mut self, asker: Asker<'_>, word: &str, place: Span) {
+    fn unknown_value(&mut self, context: Context<'_>, word: &str, place: Span) {
         let said = essence(self.files.said(place)).to_ascii_uppercase();
         if is_same_name(word, "$VEL") || said.starts_with("BAS(#VEL_CP") || said.starts_with("BAS(#CP_PARAMS")
         {
@@ -371,7 +288,7 @@ impl<'t> Reader<'t, '_> {
         } else {
             self.frame(word, &format!("{said}#{}", self.statements), place);
         }
-        self.variables.forget(asker, word);
+        self.state.variables.forget(context, word);
         self.milling.left_out.push(place);
     }
 
@@ -381,35 +298,24 @@ impl<'t> Reader<'t, '_> {
         }
     }
 
-    fn assign(&mut self, asker: Asker<'_>, to: &Variable<'_>, value: &Value<'_>, place: Span) {
-        let number = match value {
-            Value::Number(number) => Some(*number),
-            Value::Bool(_)
-            | Value::Enum(_)
-            | Value::Text(_)
-            | Value::Coordinates(_)
-            | Value::Structure(_)
-            | Value::Variable(_) => None,
-        };
-        if to.is_field("$VEL", "CP") {
-            self.drive(number, place);
-        } else if let (true, Value::Structure(fields)) = (to.is("$VEL"), value) {
-            for field in fields {
-                if let (true, Value::Number(value)) = (is_same_name(field.name, "CP"), &field.value) {
-                    self.drive(Some(*value), place);
+    fn assign(&mut self, context: Context<'_>, to: &Variable<'_>, value: &Value<'_>, place: Span) {
+        for (velocity, number) in velocities(to, value).into_iter().flatten() {
+            match velocity {
+                Some(Velocity::Path) => self.drive(number, place),
+                Some(Velocity::Swivel) if self.forks.is_empty() => {
+                    self.milling.turning = number.or(self.milling.turning);
                 }
+                Some(Velocity::Swivel | Velocity::Twist) | None => {}
             }
-        } else if to.is_field("$VEL", "ORI1") && self.forks.is_empty() {
-            self.milling.turning = number.or(self.milling.turning);
         }
-        self.framed(asker, to, value, place);
-        let is_followed = is_setting(to)
-            || self.forks.is_empty() && self.variables.assign(asker, to, value) == Outcome::Known;
+        self.framed(context, to, value, place);
+        let is_followed = is_setting(to.name)
+            || self.forks.is_empty() && self.state.variables.assign(context, to, value) == Outcome::Known;
         if is_followed {
             self.milling.settings.push(place);
         } else {
             // Whoever moves there now goes to a place that is not known.
-            self.variables.forget(asker, to.name);
+            self.state.variables.forget(context, to.name);
             self.milling.left_out.push(place);
         }
     }
@@ -448,6 +354,6 @@ const MOTIONLESS: [&str; 10] = [
 ];
 
 /// Variables that set up motions, and those that inline forms of the pendant leave behind.
-fn is_setting(variable: &Variable<'_>) -> bool {
-    frames::SETUP.iter().any(|name| is_same_name(variable.name, name))
+fn is_setting(variable: &str) -> bool {
+    frames::SETUP.iter().any(|name| is_same_name(variable, name))
 }

@@ -43,9 +43,9 @@
 //!
 //! # Reading
 //!
-//! [`read::KrlReader`] tells what a program does, whoever wrote it; Three of its modules serve other readers of KRL as
-//! well: [`read::syntax`] has the statements of a text with their places, [`read::index`] the routines of a program and where it
-//! begins, [`read::variables`] the positions with names.
+//! [`read::KrlReader`] tells what a program of this crate does, and nothing of what it does not know. It is built on what serves
+//! other readers of KRL as well, such as `vcutc convert`: [`syntax`] has the statements of a text with their places,
+//! [`interpreter`] carries them out.
 //!
 //! # Machines
 //!
@@ -63,12 +63,14 @@
 mod attitude;
 mod configuration;
 mod dialect;
+pub mod interpreter;
 mod keywords;
 mod limits;
 mod module;
 mod options;
 mod profile;
 pub mod read;
+pub mod syntax;
 mod turns;
 
 use crate::attitude::Attitudes;

@@ -6,7 +6,7 @@
 //! program's home, because the program would no longer be what was proven.
 
 use crate::keywords::HOME;
-use crate::read::syntax::{Phrase, Statement, is_same_name, statements};
+use crate::syntax::{Phrase, Statement, is_same_name, statements};
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::Cell;
 use vcutc_backend_api::profile::Profile;

@@ -1,9 +1,8 @@
 //! KRL programs read back.
 //!
-//! Reading has two halves that know nothing of each other's business. [`syntax`] turns lines into statements with places
-//! and would serve any reader of KRL. The rest carries them out as far as the programs of this crate go: routines are
-//! followed from call to call, variables, speeds and modes are kept, and every statement is told with what it does
-//! ([`Says`](vcutc_backend_api::readback::Says)).
+//! [`syntax`] turns lines into statements with places, and [`interpreter`](crate::interpreter) carries them out: both serve any
+//! reader of KRL. What is here is strict, and goes as far as the programs of this crate do: speeds and modes are kept, and
+//! every statement is told with what it does ([`Says`](vcutc_backend_api::readback::Says)).
 //!
 //! # What is understood
 //!
@@ -26,20 +25,14 @@
 //! no statements, like comments.
 
 mod controller;
-mod cursor;
-pub mod index;
-mod motions;
-mod parse;
 mod profile;
-mod run;
+mod program;
 mod setup;
-pub mod syntax;
-mod types;
-mod values;
-pub mod variables;
 
 use crate::configuration::Configuration;
+use crate::interpreter::index;
 use crate::options::Settings;
+use crate::syntax;
 use crate::turns::RATES;
 use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::ir::AxisValues;
@@ -83,6 +76,6 @@ impl Reader for KrlReader {
     }
 
     fn read(&self, sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
-        run::read(sources, heed);
+        program::read(sources, heed);
     }
 }

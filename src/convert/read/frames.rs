@@ -9,10 +9,10 @@ use crate::complaints;
 use crate::milling::Way;
 use std::collections::BTreeMap;
 use vcutc_backend_api::readback::essence;
-use vcutc_backend_krl::read::syntax::{
+use vcutc_backend_krl::interpreter::Context;
+use vcutc_backend_krl::syntax::{
     Component, Declaration, Field, Setting, SettingValue, Tail, Value, Variable, is_same_name,
 };
-use vcutc_backend_krl::read::variables::Asker;
 use vcutc_diagnostics::source::Span;
 
 /// Variables that set up motions, and those that inline forms of the pendant leave behind.
@@ -51,18 +51,18 @@ pub(crate) struct Frames {
 
 impl Frames {
     /// Keeps the data of a point.
-    pub(crate) fn declare(&mut self, asker: Asker<'_>, declaration: &Declaration<'_>) {
+    pub(crate) fn declare(&mut self, context: Context<'_>, declaration: &Declaration<'_>) {
         if let (true, Some(Value::Structure(fields))) =
             (is_same_name(declaration.kind, "FDAT"), &declaration.value)
         {
             self.points
-                .insert(key(asker, declaration.name.name), of_point(fields));
+                .insert(key(context, declaration.name.name), of_point(fields));
         }
     }
 
     /// What the data of a point says; where it is not known, its name stands for it.
-    fn point(&self, asker: Asker<'_>, name: &str) -> Said {
-        let known = self.points.get(&key(asker, name)).cloned();
+    fn point(&self, context: Context<'_>, name: &str) -> Said {
+        let known = self.points.get(&key(context, name)).cloned();
         known.unwrap_or_else(|| {
             let unknown = |what: &str| (what.to_owned(), name.to_ascii_uppercase());
             Said::from([unknown("tool"), unknown("base")])
@@ -70,8 +70,8 @@ impl Frames {
     }
 }
 
-fn key(asker: Asker<'_>, name: &str) -> (String, String) {
-    (asker.module.to_ascii_uppercase(), name.to_ascii_uppercase())
+fn key(context: Context<'_>, name: &str) -> (String, String) {
+    (context.module.to_ascii_uppercase(), name.to_ascii_uppercase())
 }
 
 /// `{TOOL_NO 1,BASE_NO 2,IPO_FRAME #BASE}`.
@@ -126,7 +126,7 @@ fn put(said: &mut Said, what: &str, part: &str, value: String) {
     }
 }
 
-impl Reader<'_, '_> {
+impl Reader<'_> {
     /// Takes what sets a frame by a word; other words set none.
     pub(crate) fn frame(&mut self, word: &str, value: &str, place: Span) {
         if let Some(what) = set_by(word) {
@@ -137,12 +137,12 @@ impl Reader<'_, '_> {
     }
 
     /// Takes an assignment, if it sets a frame.
-    pub(crate) fn framed(&mut self, asker: Asker<'_>, to: &Variable<'_>, value: &Value<'_>, place: Span) {
+    pub(crate) fn framed(&mut self, context: Context<'_>, to: &Variable<'_>, value: &Value<'_>, place: Span) {
         let mut said = self.frames.said.clone();
         if is_same_name(to.name, "FDAT_ACT") {
             let point = match value {
                 Value::Structure(fields) => of_point(fields),
-                Value::Variable(variable) => self.frames.point(asker, variable.name),
+                Value::Variable(variable) => self.frames.point(context, variable.name),
                 Value::Number(_)
                 | Value::Bool(_)
                 | Value::Enum(_)
@@ -156,7 +156,7 @@ impl Reader<'_, '_> {
             let index = to.index.map_or(String::new(), |index| index.to_string());
             let part = format!("{index}{}", to.field.unwrap_or_default().to_ascii_uppercase());
             let known = match value {
-                Value::Variable(variable) => self.variables.get(asker, variable),
+                Value::Variable(variable) => self.state.variables.get(context, variable),
                 Value::Number(_)
                 | Value::Bool(_)
                 | Value::Enum(_)
@@ -191,14 +191,20 @@ impl Reader<'_, '_> {
 
     /// Whether a motion, with what holds for it alone, has the frames of the first straight one. A straight motion that has not
     /// is told, once for every change.
-    pub(crate) fn frames_of(&mut self, asker: Asker<'_>, tail: &Tail<'_>, way: Way, place: Span) -> Framing {
+    pub(crate) fn frames_of(
+        &mut self,
+        context: Context<'_>,
+        tail: &Tail<'_>,
+        way: Way,
+        place: Span,
+    ) -> Framing {
         let own = tail.with.iter().any(|setting| set_by(setting.to.name).is_some());
         if !own && self.frames.first.as_ref() == Some(&self.frames.said) {
             return Framing::Same;
         }
         let mut said = self.frames.said.clone();
         for setting in &tail.with {
-            self.with_frame(asker, setting, &mut said);
+            self.with_frame(context, setting, &mut said);
         }
         let is_other = self.frames.first.as_ref().is_some_and(|first| *first != said);
         match (way, is_other) {
@@ -215,14 +221,14 @@ impl Reader<'_, '_> {
     }
 
     /// `WITH $TOOL=STOOL2(FP1), $BASE=SBASE(FP1.BASE_NO)`.
-    fn with_frame(&self, asker: Asker<'_>, setting: &Setting<'_>, said: &mut Said) {
+    fn with_frame(&self, context: Context<'_>, setting: &Setting<'_>, said: &mut Said) {
         let Some(what) = set_by(setting.to.name) else {
             return;
         };
         let value = match &setting.value {
             SettingValue::Function { arguments, .. } => {
                 let point = arguments.split('.').next().unwrap_or_default().trim();
-                let known = self.frames.point(asker, point);
+                let known = self.frames.point(context, point);
                 known
                     .get(what)
                     .cloned()

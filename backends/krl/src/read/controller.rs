@@ -1,23 +1,24 @@
 //! What single instructions do.
 
 use super::setup::{Need, Setup, Wanted};
-use super::types::{
-    Approximation, Component, Coordinates, Motion, MotionWord, Phrase, Target, Value, Variable, is_same_name,
-};
-use super::variables::{Asker, Outcome, Variables};
 use crate::configuration::Configuration;
-use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
+use crate::interpreter::position::{Position, orientation};
+use crate::interpreter::variables::Outcome;
+use crate::interpreter::{Context, State};
+use crate::syntax::{
+    Approximation, Component, Coordinates, Directions, Motion, Path, Phrase, Planner, Points, Value,
+    Variable, is_same_name,
+};
+use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::{AxisValues, Switch};
 use vcutc_backend_api::readback::{Deed, End, FrameRole, FrameSetting, Held, Says, Stance, Target as Goal};
-use vcutc_backend_api::units::{Angle, Duration};
+use vcutc_backend_api::units::Duration;
 
 /// The state that instructions change.
 pub(super) struct Controller<'a> {
     wanted: Wanted<'a>,
     setup: Setup,
-    pub(super) variables: Variables,
-    /// What the last target said, and the ones before it where it left something out.
-    last: Coordinates,
+    pub(super) state: State,
     /// The angles A, B, C of some of the last targets, and what they are: most moves keep them, or change between two.
     turned: [([f64; 3], Orientation); 4],
     /// Which of them is the oldest.
@@ -29,6 +30,8 @@ enum MotionError {
     Unknown,
     Expected(&'static str),
 }
+
+const INCOMPLETE: MotionError = MotionError::Expected("all components, where no target before it has them");
 
 impl From<MotionError> for Says {
     fn from(error: MotionError) -> Self {
@@ -44,8 +47,7 @@ impl<'a> Controller<'a> {
         Self {
             wanted,
             setup: Setup::default(),
-            variables: Variables::default(),
-            last: Coordinates::default(),
+            state: State::default(),
             turned: [([0.0; 3], Orientation::IDENTITY); 4],
             oldest: 0,
         }
@@ -54,21 +56,21 @@ impl<'a> Controller<'a> {
     /// `BAS (#INITMOV,0 )` at the head of a routine, which may have been started alone.
     pub(super) fn begin(&mut self) {
         self.setup = Setup::started();
-        self.last = Coordinates::default();
+        self.state.position = Position::default();
     }
 
     /// What an instruction does.
-    pub(super) fn carry_out(&mut self, asker: Asker<'_>, phrase: &Phrase<'_>) -> Says {
+    pub(super) fn carry_out(&mut self, context: Context<'_>, phrase: &Phrase<'_>) -> Says {
         match phrase {
-            Phrase::Motion(motion) => match self.motion(asker, motion) {
+            Phrase::Motion(motion) => match self.motion(context, motion) {
                 Ok(deed) => Says::Deed(deed),
                 Err(error) => {
                     // Nobody knows where it leads, so nobody knows what later targets leave out.
-                    self.last = Coordinates::default();
+                    self.state.position = Position::default();
                     error.into()
                 }
             },
-            Phrase::Assignment { to, value } => self.assign(asker, to, value),
+            Phrase::Assignment { to, value } => self.assign(context, to, value),
             Phrase::Bas { command, value } => self.bas(command, *value),
             Phrase::WaitSec(seconds) if *seconds >= 0.0 => Says::Deed(Deed::Wait(Duration::s(*seconds))),
             Phrase::WaitSec(_) => Says::expected("a time that is not negative"),
@@ -77,7 +79,7 @@ impl<'a> Controller<'a> {
                 None => Says::Unknown,
             },
             Phrase::Arc(_) => {
-                self.last = Coordinates::default();
+                self.state.position = Position::default();
                 Says::Unknown
             }
             Phrase::Halt | Phrase::Other(_) | Phrase::Call { .. } => Says::Unknown,
@@ -108,7 +110,7 @@ impl<'a> Controller<'a> {
         }
     }
 
-    fn assign(&mut self, asker: Asker<'_>, to: &Variable<'_>, value: &Value<'_>) -> Says {
+    fn assign(&mut self, context: Context<'_>, to: &Variable<'_>, value: &Value<'_>) -> Says {
         if let Some(output) = to.index_in("$OUT") {
             return match value {
                 Value::Bool(true) => switch(output, Switch::On),
@@ -122,27 +124,27 @@ impl<'a> Controller<'a> {
             };
         }
         if to.is("$TOOL") {
-            return self.frame(asker, FrameRole::Tool, "TOOL_DATA", value);
+            return self.frame(context, FrameRole::Tool, "TOOL_DATA", value);
         }
         if to.is("$BASE") {
-            return self.frame(asker, FrameRole::Base, "BASE_DATA", value);
+            return self.frame(context, FrameRole::Base, "BASE_DATA", value);
         }
         if let Some(says) = self.setup.assign(to, value, self.wanted) {
             return says;
         }
-        match self.variables.assign(asker, to, value) {
+        match self.state.variables.assign(context, to, value) {
             Outcome::Known => Says::Setting,
             Outcome::Unknown => Says::Unknown,
         }
     }
 
-    fn frame(&mut self, asker: Asker<'_>, role: FrameRole, table: &str, value: &Value<'_>) -> Says {
+    fn frame(&mut self, context: Context<'_>, role: FrameRole, table: &str, value: &Value<'_>) -> Says {
         if let Value::Variable(variable) = value
             && let Some(number) = variable.index_in(table)
         {
             return Says::Frame(role, FrameSetting::Number(number));
         }
-        let value = self.variables.value(asker, value);
+        let value = self.state.variables.value(context, value);
         let values = value.and_then(|value| value.all(Component::TIP).zip(value.all(Component::ANGLES)));
         match values {
             Some(([x, y, z], angles)) => Says::Frame(
@@ -156,16 +158,11 @@ impl<'a> Controller<'a> {
         }
     }
 
-    fn motion(&mut self, asker: Asker<'_>, motion: &Motion<'_>) -> Result<Deed, MotionError> {
-        let named;
-        let target = match &motion.target {
-            Target::Literal(coordinates) => coordinates,
-            Target::Variable(variable) => {
-                let known = self.variables.get(asker, variable);
-                named = known.ok_or(MotionError::Expected("a position that is declared"))?;
-                &named
-            }
-        };
+    fn motion(&mut self, context: Context<'_>, motion: &Motion<'_>) -> Result<Deed, MotionError> {
+        let target = &self
+            .state
+            .coordinates(context, &motion.target)
+            .ok_or(MotionError::Expected("a position that is declared"))?;
         let external = Component::EXTERNAL.into_iter();
         let mut external = external.filter_map(|component| target.get(component));
         if external.any(|value| value != 0.0) {
@@ -175,22 +172,14 @@ impl<'a> Controller<'a> {
         if tail.second.is_some() || tail.directions.is_some() || !tail.with.is_empty() {
             return Err(MotionError::Unknown);
         }
-        let (need, end) = match (motion.word, tail.approximation) {
-            (MotionWord::Ptp | MotionWord::Sptp, None) => (Need::Axes, End::Exact),
-            (MotionWord::Lin | MotionWord::Slin, None) => (Need::Straight, End::Exact),
-            (MotionWord::Lin, Some(Approximation::Distance))
-            | (MotionWord::Slin, Some(Approximation::Spline)) => (Need::Rounded, End::Rounded),
-            (
-                MotionWord::Ptp
-                | MotionWord::Sptp
-                | MotionWord::Lin
-                | MotionWord::Slin
-                | MotionWord::PtpRel
-                | MotionWord::LinRel
-                | MotionWord::SptpRel
-                | MotionWord::SlinRel,
-                _,
-            ) => return Err(MotionError::Unknown),
+        let (need, end) = match (motion.points, motion.path, motion.planner, tail.approximation) {
+            (Points::Absolute, Path::Axes, _, None) => (Need::Axes, End::Exact),
+            (Points::Absolute, Path::Straight, _, None) => (Need::Straight, End::Exact),
+            (Points::Absolute, Path::Straight, Planner::Classic, Some(Approximation::Distance))
+            | (Points::Absolute, Path::Straight, Planner::Spline, Some(Approximation::Spline)) => {
+                (Need::Rounded, End::Rounded)
+            }
+            (Points::Absolute | Points::Relative, _, _, _) => return Err(MotionError::Unknown),
         };
         if let Some(missing) = self.setup.missing(need, self.wanted) {
             return Err(MotionError::Expected(missing));
@@ -219,15 +208,14 @@ impl<'a> Controller<'a> {
         if target.has_any(&Component::AXES) {
             return Err(MotionError::Expected("a pose: X, Y, Z, A, B, C"));
         }
-        let [x, y, z] = self.complete(target, Component::TIP)?;
-        let angles = self.complete(target, Component::ANGLES)?;
-        let orientation = self.orientation(angles);
-        self.last.forget();
-        self.remember(Component::TIP, [x, y, z]);
-        self.remember(Component::ANGLES, angles);
+        let after = self.state.position;
+        let after = after.at_pose(target, Points::Absolute, Directions::Base);
+        let pose = after.and_then(|after| after.all(Component::TIP).zip(after.all(Component::ANGLES)));
+        let (after, ([x, y, z], angles)) = after.zip(pose).ok_or(INCOMPLETE)?;
+        self.state.position = after;
         Ok(Goal {
             tip: Point3::new(x, y, z),
-            held: Held::Orientation(orientation, stance),
+            held: Held::Orientation(self.orientation(angles), stance),
         })
     }
 
@@ -248,46 +236,15 @@ impl<'a> Controller<'a> {
         if target.has_any(&Component::TIP) || target.has_any(&Component::ANGLES) {
             return Err(MotionError::Expected("either a pose or axes"));
         }
-        let degrees = self.complete(target, Component::AXES)?;
-        self.last.forget();
-        self.remember(Component::AXES, degrees);
+        let after = self.state.position.at_axes(target);
+        let degrees = after.all(Component::AXES).ok_or(INCOMPLETE)?;
+        self.state.position = after;
         Ok(AxisValues(degrees.map(f64::to_radians)))
-    }
-
-    /// Components, with those of the last target where this one leaves some out.
-    fn complete<const N: usize>(
-        &self,
-        target: &Coordinates,
-        components: [Component; N],
-    ) -> Result<[f64; N], MotionError> {
-        let mut values = [0.0; N];
-        for (value, component) in values.iter_mut().zip(components) {
-            let given = target.get(component).or_else(|| self.last.get(component));
-            *value = given.ok_or(MotionError::Expected(
-                "all components, where no target before it has them",
-            ))?;
-        }
-        Ok(values)
-    }
-
-    fn remember<const N: usize>(&mut self, components: [Component; N], values: [f64; N]) {
-        for (component, value) in components.into_iter().zip(values) {
-            self.last.set(component, value);
-        }
     }
 }
 
 const fn switch(output: u32, state: Switch) -> Says {
     Says::Deed(Deed::Switch { output, state })
-}
-
-/// `R = Rz(A) Ry(B) Rx(C)`, from degrees.
-fn orientation([a, b, c]: [f64; 3]) -> Orientation {
-    Orientation::from_zyx(Zyx {
-        a: Angle::deg(a),
-        b: Angle::deg(b),
-        c: Angle::deg(c),
-    })
 }
 
 /// A number that counts something.

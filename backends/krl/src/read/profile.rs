@@ -1,13 +1,12 @@
 //! The lines of a machine's profile, which stand in the program as they are and are not understood.
 
-use super::parse;
-use super::types::{Phrase, Span};
+use crate::syntax::{Phrase, Span, statements};
 use vcutc_backend_api::readback::essence;
 
 /// What the statements among some lines are, without layout.
 fn essences(lines: &[String]) -> Vec<String> {
-    let statements = lines.iter().filter_map(|line| parse::code(line, 0));
-    statements.map(|(_, code)| essence(code)).collect()
+    let statements = lines.iter().filter_map(|line| statements(line).next());
+    statements.map(|statement| essence(statement.text)).collect()
 }
 
 /// The lines at the head of the main routine, of which the first still to come is known.
@@ -52,15 +51,15 @@ pub(super) fn footer(text: &str, routine: Span, lines: &[String]) -> Option<usiz
         let before = text.get(routine.start..end)?;
         let inner = before.strip_suffix('\n').unwrap_or(before);
         let start = routine.start + inner.rfind('\n').map_or(0, |at| at + 1);
-        let code = parse::code(text.get(start..end)?, start);
+        let last = statements(text.get(start..end)?).next();
         end = start;
-        let Some((_, code)) = code else { continue };
+        let Some(last) = last else { continue };
         if !ended {
-            if parse::phrase(code) != Phrase::End {
+            if last.phrase != Phrase::End {
                 return None;
             }
             ended = true;
-        } else if expected.next().is_none_or(|line| *line != essence(code)) {
+        } else if expected.next().is_none_or(|line| *line != essence(last.text)) {
             return None;
         } else if expected.len() == 0 {
             return Some(start);

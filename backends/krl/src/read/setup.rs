@@ -4,8 +4,9 @@
 //! when everything it depends on has been said behind that; and what is said must be what the job says, because paths,
 //! rates and corners were proven for that. Another mode is not understood, even though the controller knows it.
 
-use super::types::{Component, Coordinates, Field, Value, Variable, is_same_name};
+use crate::interpreter::speeds::{Velocity, velocities};
 use crate::options::Settings;
+use crate::syntax::{Component, Coordinates, Field, Value, Variable, is_same_name};
 use vcutc_backend_api::ir::{Cell, Load, Registered};
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::readback::{Pace, Says};
@@ -147,18 +148,8 @@ impl Setup {
         value: &Value<'_>,
         wanted: Wanted<'_>,
     ) -> Option<Says> {
-        let says = if to.is_field("$VEL", "CP") {
-            let speed = positive(value).map(Speed::m_per_s);
-            self.tip = speed;
-            said_or_unknown(speed.is_some())
-        } else if to.is_field("$VEL", "ORI1") {
-            self.swivel = positive(value).map(AngularSpeed::deg_per_s);
-            said_or_unknown(self.swivel.is_some())
-        } else if to.is_field("$VEL", "ORI2") {
-            self.twist = positive(value).map(AngularSpeed::deg_per_s);
-            said_or_unknown(self.twist.is_some())
-        } else if to.is("$VEL") {
-            said_or_unknown(self.speeds(value).is_some())
+        let says = if let Some(velocities) = velocities(to, value) {
+            self.speeds(velocities)
         } else if to.is("$IPO_MODE") {
             self.note(Said::IpoMode, is_word(value, "BASE"))
         } else if to.is("$ORI_TYPE") {
@@ -179,34 +170,22 @@ impl Setup {
         Some(says)
     }
 
-    /// `$VEL={CP 0.2,ORI1 200.0,ORI2 200.0}`.
-    fn speeds(&mut self, value: &Value<'_>) -> Option<()> {
-        let Value::Structure(fields) = value else {
-            return None;
-        };
-        for Field { name, value } in fields {
-            let value = positive(value)?;
-            if is_same_name(name, "CP") {
-                self.tip = Some(Speed::m_per_s(value));
-            } else if is_same_name(name, "ORI1") {
-                self.swivel = Some(AngularSpeed::deg_per_s(value));
-            } else if is_same_name(name, "ORI2") {
-                self.twist = Some(AngularSpeed::deg_per_s(value));
-            } else {
-                return None;
+    /// Takes speeds that a controller takes for some.
+    fn speeds(&mut self, velocities: impl Iterator<Item = (Option<Velocity>, Option<f64>)>) -> Says {
+        for (velocity, value) in velocities {
+            let value = value.filter(|value| *value > 0.0);
+            match velocity {
+                Some(Velocity::Path) => self.tip = value.map(Speed::m_per_s),
+                Some(Velocity::Swivel) => self.swivel = value.map(AngularSpeed::deg_per_s),
+                Some(Velocity::Twist) => self.twist = value.map(AngularSpeed::deg_per_s),
+                None => return Says::Unknown,
+            }
+            if value.is_none() {
+                return Says::Unknown;
             }
         }
-        Some(())
+        Says::Setting
     }
-}
-
-const fn said_or_unknown(is_known: bool) -> Says {
-    if is_known { Says::Setting } else { Says::Unknown }
-}
-
-/// A number that a controller takes for a speed.
-fn positive(value: &Value<'_>) -> Option<f64> {
-    value.number().filter(|value| *value > 0.0)
 }
 
 fn is_word(value: &Value<'_>, word: &str) -> bool {

@@ -2,7 +2,7 @@
 
 /// A place in the text of a statement. Every function leaves it where it was when what it looks for is not there.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cursor<'t> {
+pub(crate) struct Cursor<'t> {
     text: &'t str,
     at: usize,
 }
@@ -34,7 +34,7 @@ const MOST_DIGITS: usize = 19;
 
 /// What stands where a number should.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Number {
+pub(crate) enum Number {
     None,
     Is(f64),
     /// Digits that are no number, or one that is too large.
@@ -42,7 +42,7 @@ pub(super) enum Number {
 }
 
 impl<'t> Cursor<'t> {
-    pub(super) const fn new(text: &'t str) -> Self {
+    pub(crate) const fn new(text: &'t str) -> Self {
         Self { text, at: 0 }
     }
 
@@ -53,7 +53,7 @@ impl<'t> Cursor<'t> {
 
     /// The next byte that is no blank.
     #[inline]
-    pub(super) fn peek(&mut self) -> Option<u8> {
+    pub(crate) fn peek(&mut self) -> Option<u8> {
         let mut at = self.at;
         loop {
             match self.byte(at) {
@@ -67,19 +67,19 @@ impl<'t> Cursor<'t> {
     }
 
     /// What is left, without the blanks before it.
-    pub(super) fn rest(&mut self) -> &'t str {
+    pub(crate) fn rest(&mut self) -> &'t str {
         self.peek();
         self.text.get(self.at..).unwrap_or_default()
     }
 
     /// The text from here to another place behind it, without the blanks around it.
-    pub(super) fn until(&self, other: Self) -> &'t str {
+    pub(crate) fn until(&self, other: Self) -> &'t str {
         self.text.get(self.at..other.at).unwrap_or_default().trim_ascii()
     }
 
     /// Goes over a sign.
     #[inline]
-    pub(super) fn skip(&mut self, sign: u8) -> bool {
+    pub(crate) fn skip(&mut self, sign: u8) -> bool {
         let is_there = self.peek() == Some(sign);
         if is_there {
             self.at += 1;
@@ -89,7 +89,7 @@ impl<'t> Cursor<'t> {
 
     /// A name: letters, digits, `_` and `$`, not beginning with a digit.
     #[inline]
-    pub(super) fn word(&mut self) -> Option<&'t str> {
+    pub(crate) fn word(&mut self) -> Option<&'t str> {
         let begins = self
             .peek()
             .is_some_and(|byte| is_of_word(byte) && !byte.is_ascii_digit());
@@ -109,7 +109,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// Text in this kind of quotes.
-    pub(super) fn quoted(&mut self, quote: u8) -> Option<&'t str> {
+    pub(crate) fn quoted(&mut self, quote: u8) -> Option<&'t str> {
         if self.peek() != Some(quote) {
             return None;
         }
@@ -120,7 +120,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// What stands in round brackets, with the brackets within, blanks at its ends apart.
-    pub(super) fn bracketed(&mut self) -> Option<&'t str> {
+    pub(crate) fn bracketed(&mut self) -> Option<&'t str> {
         if self.peek() != Some(b'(') {
             return None;
         }
@@ -139,7 +139,7 @@ impl<'t> Cursor<'t> {
     }
 
     /// A number without sign and point, as places of arrays have it.
-    pub(super) fn whole(&mut self) -> Option<u32> {
+    pub(crate) fn whole(&mut self) -> Option<u32> {
         self.peek()?;
         let before = *self;
         let number = self.run(|byte| byte.is_ascii_digit()).parse().ok();
@@ -154,7 +154,7 @@ impl<'t> Cursor<'t> {
     /// As a whole number of at most 19 digits divided by a power of ten, which rounds once and so gives the nearest double
     /// (Clinger, How to Read Floating Point Numbers Accurately, 1990); what is longer goes the long way.
     #[inline]
-    pub(super) fn number(&mut self) -> Number {
+    pub(crate) fn number(&mut self) -> Number {
         let before = *self;
         let negative = match self.peek() {
             Some(sign @ (b'-' | b'+')) => {

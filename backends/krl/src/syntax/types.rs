@@ -8,7 +8,7 @@ pub const fn is_same_name(one: &str, other: &str) -> bool {
 
 /// What a table of words says of a name.
 #[inline]
-pub(super) fn meaning<T: Copy>(name: &str, words: &[(&str, T)]) -> Option<T> {
+pub(crate) fn meaning<T: Copy>(name: &str, words: &[(&str, T)]) -> Option<T> {
     let found = words.iter().find(|(word, _)| is_same_name(name, word));
     found.map(|(_, meaning)| *meaning)
 }
@@ -308,9 +308,13 @@ impl Coordinates {
         }
     }
 
-    /// Gives nothing any more.
-    pub const fn forget(&mut self) {
-        self.given = 0;
+    /// The same without some components.
+    #[must_use]
+    pub fn without(mut self, components: &[Component]) -> Self {
+        for &component in components {
+            self.given &= !(1 << component as u32);
+        }
+        self
     }
 
     /// Whether a component is given.
@@ -342,11 +346,15 @@ impl Coordinates {
 /// A motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion<'t> {
-    /// By which planner, and on which way.
-    pub word: MotionWord,
+    /// What moves on a line.
+    pub path: Path,
+    /// Which planner of the controller plans it.
+    pub planner: Planner,
+    /// How its target is given.
+    pub points: Points,
     /// Where to.
     pub target: Target<'t>,
-    /// What stands behind it.
+    /// What follows it.
     pub tail: Tail<'t>,
 }
 
@@ -354,7 +362,7 @@ pub struct Motion<'t> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arc<'t> {
     /// How its points are given.
-    pub points: ArcPoints,
+    pub points: Points,
     /// A point on the way.
     pub through: Target<'t>,
     /// Its end; with an angle, a second point of the circle.
@@ -365,12 +373,12 @@ pub struct Arc<'t> {
     pub tail: Tail<'t>,
 }
 
-/// How the points of an arc are given.
+/// How the points of a motion are given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ArcPoints {
-    /// `CIRC`, `SCIRC`: in the base.
+pub enum Points {
+    /// `LIN`, `CIRC`: in the base.
     Absolute,
-    /// `CIRC_REL`, `SCIRC_REL`: from where it begins.
+    /// `LIN_REL`, `CIRC_REL`: from where the motion begins.
     Relative,
 }
 
@@ -421,25 +429,22 @@ pub enum SettingValue<'t> {
     },
 }
 
-/// Words of motions to one point.
+/// What moves on a line in a motion to one point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MotionWord {
-    /// `PTP`.
-    Ptp,
-    /// `LIN`.
-    Lin,
-    /// `SPTP`.
-    Sptp,
-    /// `SLIN`.
-    Slin,
-    /// `PTP_REL`.
-    PtpRel,
-    /// `LIN_REL`.
-    LinRel,
-    /// `SPTP_REL`.
-    SptpRel,
-    /// `SLIN_REL`.
-    SlinRel,
+pub enum Path {
+    /// `LIN`, `SLIN`: the tip.
+    Straight,
+    /// `PTP`, `SPTP`: every axis.
+    Axes,
+}
+
+/// The planners of a controller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Planner {
+    /// `LIN`, `PTP`.
+    Classic,
+    /// `SLIN`, `SPTP`.
+    Spline,
 }
 
 /// Where a motion leads.

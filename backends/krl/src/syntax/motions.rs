@@ -2,7 +2,7 @@
 
 use super::cursor::{Cursor, Number};
 use super::types::{
-    Approximation, Arc, ArcPoints, Directions, Motion, MotionWord, Phrase, Setting, SettingValue, Tail,
+    Approximation, Arc, Directions, Motion, Path, Phrase, Planner, Points, Setting, SettingValue, Tail,
     Target, is_same_name, meaning,
 };
 use super::values::{DEEPEST, ParseError, Parsed, at_end, coordinates, expected, name, value, variable};
@@ -10,50 +10,50 @@ use super::values::{DEEPEST, ParseError, Parsed, at_end, coordinates, expected, 
 /// A motion that begins with this word; none where the word begins something else.
 #[inline]
 pub(super) fn phrase<'t>(word: &str, cursor: &mut Cursor<'t>) -> Option<Parsed<Phrase<'t>>> {
-    if let Some(word) = motion_word(word) {
-        return Some(motion(word, cursor));
+    if let Some(kind) = meaning(word, &MOTIONS) {
+        return Some(motion(kind, cursor));
     }
-    let points = arc_word(word)?;
+    let points = meaning(word, &ARCS)?;
     // How an arc is said in other ways than this is not described.
     Some(arc(points, cursor).map_err(|_| ParseError::Other))
 }
 
-#[inline]
-fn motion_word(word: &str) -> Option<MotionWord> {
-    let words = [
-        ("LIN", MotionWord::Lin),
-        ("SLIN", MotionWord::Slin),
-        ("PTP", MotionWord::Ptp),
-        ("SPTP", MotionWord::Sptp),
-        ("LIN_REL", MotionWord::LinRel),
-        ("SLIN_REL", MotionWord::SlinRel),
-        ("PTP_REL", MotionWord::PtpRel),
-        ("SPTP_REL", MotionWord::SptpRel),
-    ];
-    meaning(word, &words)
-}
+/// Words of motions to one point.
+const MOTIONS: [(&str, (Path, Planner, Points)); 8] = [
+    ("LIN", (Path::Straight, Planner::Classic, Points::Absolute)),
+    ("SLIN", (Path::Straight, Planner::Spline, Points::Absolute)),
+    ("PTP", (Path::Axes, Planner::Classic, Points::Absolute)),
+    ("SPTP", (Path::Axes, Planner::Spline, Points::Absolute)),
+    ("LIN_REL", (Path::Straight, Planner::Classic, Points::Relative)),
+    ("SLIN_REL", (Path::Straight, Planner::Spline, Points::Relative)),
+    ("PTP_REL", (Path::Axes, Planner::Classic, Points::Relative)),
+    ("SPTP_REL", (Path::Axes, Planner::Spline, Points::Relative)),
+];
 
-fn arc_word(word: &str) -> Option<ArcPoints> {
-    let words = [
-        ("CIRC", ArcPoints::Absolute),
-        ("SCIRC", ArcPoints::Absolute),
-        ("CIRC_REL", ArcPoints::Relative),
-        ("SCIRC_REL", ArcPoints::Relative),
-    ];
-    meaning(word, &words)
-}
+/// Words of arcs.
+const ARCS: [(&str, Points); 4] = [
+    ("CIRC", Points::Absolute),
+    ("SCIRC", Points::Absolute),
+    ("CIRC_REL", Points::Relative),
+    ("SCIRC_REL", Points::Relative),
+];
 
 #[inline]
-fn motion<'t>(word: MotionWord, cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
+fn motion<'t>(
+    (path, planner, points): (Path, Planner, Points),
+    cursor: &mut Cursor<'t>,
+) -> Parsed<Phrase<'t>> {
     Ok(Phrase::Motion(Motion {
-        word,
+        path,
+        planner,
+        points,
         target: target(cursor)?,
         tail: tail(cursor)?,
     }))
 }
 
 /// `CIRC {point on the way}, {end}, CA 180`.
-fn arc<'t>(points: ArcPoints, cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
+fn arc<'t>(points: Points, cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
     let through = target(cursor)?;
     if !cursor.skip(b',') {
         return expected("`,` and the end of the arc");
@@ -182,8 +182,8 @@ fn settings<'t>(cursor: &mut Cursor<'t>) -> Parsed<Vec<Setting<'t>>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::syntax::{Component, Value, statements};
     use super::*;
+    use crate::syntax::{Component, Value, statements};
 
     fn phrase(line: &str) -> Phrase<'_> {
         statements(line).next().unwrap().phrase
@@ -251,7 +251,7 @@ mod tests {
             panic!("a literal");
         };
         assert_eq!(to.get(Component::X), Some(4.5));
-        assert_eq!((arc.points, arc.angle), (ArcPoints::Absolute, Some(180.0)));
+        assert_eq!((arc.points, arc.angle), (Points::Absolute, Some(180.0)));
         assert_eq!(phrase("CIRC XP1"), Phrase::Other("CIRC"));
     }
 }

@@ -1,8 +1,7 @@
 //! Which routines there are, and where they stand: found by the first words of lines, before anything is carried out.
 
-use super::cursor::Cursor;
-use super::parse;
-use super::types::{Phrase, Scope, Span, is_same_name};
+use crate::syntax::cursor::Cursor;
+use crate::syntax::{Phrase, Scope, Span, is_same_name, statements};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::readback::ProgramFile;
 
@@ -115,7 +114,7 @@ impl<'t> Index<'t> {
                     } else {
                         self.gap(file, gap, start);
                     }
-                    let (name, scope) = named(line, start);
+                    let (name, scope) = named(line);
                     let span = Span { start, end: start };
                     open = Some(Routine {
                         file,
@@ -213,8 +212,8 @@ impl<'t> Head<'t> {
 }
 
 /// Name and scope in the head of a routine. Functions give a value, which only arithmetic could use: they have none here.
-fn named(line: &str, start: usize) -> (&str, Scope) {
-    match parse::code(line, start).map(|(_, code)| parse::phrase(code)) {
+fn named(line: &str) -> (&str, Scope) {
+    match statements(line).next().map(|head| head.phrase) {
         Some(Phrase::Def { name, scope }) => (name, scope),
         _ => ("", Scope::Module),
     }

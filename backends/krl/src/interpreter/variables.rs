@@ -1,6 +1,6 @@
 //! Named positions and frames, and who sees them.
 
-use super::types::{Component, Coordinates, Declaration, Scope, Value, Variable, meaning};
+use crate::syntax::{Component, Coordinates, Declaration, Scope, Value, Variable, meaning};
 use std::collections::BTreeMap;
 
 /// Where a name is known. A controller looks in this order.
@@ -13,16 +13,16 @@ enum Place {
     All,
 }
 
-/// Who asks.
+/// Where a statement stands that names something.
 #[derive(Clone, Copy, Debug)]
-pub struct Asker<'t> {
+pub struct Context<'t> {
     /// The routine, unless it is a data list.
     pub routine: Option<usize>,
     /// The module's name.
     pub module: &'t str,
 }
 
-impl Asker<'_> {
+impl Context<'_> {
     fn places(self) -> impl Iterator<Item = Place> {
         let own = self.routine.map(Place::Routine);
         let module = Place::Module(self.module.to_ascii_uppercase());
@@ -55,18 +55,24 @@ pub struct Variables {
 impl Variables {
     /// The value of a variable, as it is now.
     #[must_use]
-    pub fn get(&self, asker: Asker<'_>, variable: &Variable<'_>) -> Option<Coordinates> {
+    pub fn get(&self, context: Context<'_>, variable: &Variable<'_>) -> Option<Coordinates> {
         if variable.index.is_some() || variable.field.is_some() {
             return None;
         }
-        let name = variable.name.to_ascii_uppercase();
-        let mut places = asker.places();
-        places.find_map(|place| self.values.get(&(place, name.clone())).copied())
+        let key = self.key(context, variable.name)?;
+        self.values.get(&key).copied()
+    }
+
+    /// Where a name is known, as it is seen from a place.
+    fn key(&self, context: Context<'_>, name: &str) -> Option<(Place, String)> {
+        let name = name.to_ascii_uppercase();
+        let mut keys = context.places().map(|place| (place, name.clone()));
+        keys.find(|key| self.values.contains_key(key))
     }
 
     /// Takes a declaration. Only positions and frames are kept; numbers, texts and the data of inline forms move nothing by
     /// themselves, and who uses one is not understood.
-    pub fn declare(&mut self, asker: Asker<'_>, declaration: &Declaration<'_>) -> Outcome {
+    pub fn declare(&mut self, context: Context<'_>, declaration: &Declaration<'_>) -> Outcome {
         let Declaration {
             scope,
             kind,
@@ -83,7 +89,7 @@ impl Variables {
         let value = match (shape.components(), value) {
             (None, _) => return Outcome::Known,
             (Some(_), None) => Coordinates::default(),
-            (Some(components), Some(value)) => match self.value(asker, value) {
+            (Some(components), Some(value)) => match self.value(context, value) {
                 Some(value) if is_of(&value, components) => value,
                 Some(_) | None => return Outcome::Unknown,
             },
@@ -91,7 +97,7 @@ impl Variables {
         let own = name.index.is_none().then_some(name.name);
         for name in own.into_iter().chain(declaration.further_names()) {
             let place = match scope {
-                Scope::Module => asker.own(),
+                Scope::Module => context.own(),
                 Scope::Global => Place::All,
             };
             self.values.insert((place, name.to_ascii_uppercase()), value);
@@ -100,12 +106,10 @@ impl Variables {
     }
 
     /// Takes an assignment to a variable that was declared.
-    pub fn assign(&mut self, asker: Asker<'_>, to: &Variable<'_>, value: &Value<'_>) -> Outcome {
-        let new = self.value(asker, value);
-        let name = to.name.to_ascii_uppercase();
-        let mut places = asker.places();
-        let place = places.find(|place| self.values.contains_key(&(place.clone(), name.clone())));
-        let old = place.and_then(|place| self.values.get_mut(&(place, name)));
+    pub fn assign(&mut self, context: Context<'_>, to: &Variable<'_>, value: &Value<'_>) -> Outcome {
+        let new = self.value(context, value);
+        let key = self.key(context, to.name);
+        let old = key.and_then(|key| self.values.get_mut(&key));
         let (Some(old), None) = (old, to.index) else {
             return Outcome::Unknown;
         };
@@ -128,21 +132,18 @@ impl Variables {
     }
 
     /// Takes from a variable that was declared what is known of it: it has been changed in a way that is not followed.
-    pub fn forget(&mut self, asker: Asker<'_>, name: &str) {
-        let name = name.to_ascii_uppercase();
-        let mut places = asker.places();
-        let place = places.find(|place| self.values.contains_key(&(place.clone(), name.clone())));
-        if let Some(place) = place {
-            self.values.remove(&(place, name));
+    pub fn forget(&mut self, context: Context<'_>, name: &str) {
+        if let Some(key) = self.key(context, name) {
+            self.values.remove(&key);
         }
     }
 
     /// The coordinates that a value stands for.
     #[must_use]
-    pub fn value(&self, asker: Asker<'_>, value: &Value<'_>) -> Option<Coordinates> {
+    pub fn value(&self, context: Context<'_>, value: &Value<'_>) -> Option<Coordinates> {
         match value {
             Value::Coordinates(coordinates) => Some(*coordinates),
-            Value::Variable(variable) => self.get(asker, variable),
+            Value::Variable(variable) => self.get(context, variable),
             Value::Number(_) | Value::Bool(_) | Value::Enum(_) | Value::Text(_) | Value::Structure(_) => None,
         }
     }

@@ -8,10 +8,16 @@
 //! Sources: KUKA, Quickguide KRL-Syntax, KSS 8.x (2012); KUKA, KSS 8.3 Operating and Programming Instructions for System
 //! Integrators (2015).
 
-use super::parse;
-pub use super::types::{
-    Approximation, Arc, ArcPoints, Component, Coordinates, Declaration, Directions, Field, Motion,
-    MotionWord, Phrase, Scope, Setting, SettingValue, Span, Statement, Tail, Target, Value, Variable,
+pub(crate) mod cursor;
+mod motions;
+mod parse;
+mod types;
+mod values;
+
+pub(crate) use types::meaning;
+pub use types::{
+    Approximation, Arc, Component, Coordinates, Declaration, Directions, Field, Motion, Path, Phrase,
+    Planner, Points, Scope, Setting, SettingValue, Span, Statement, Tail, Target, Value, Variable,
     is_same_name,
 };
 
@@ -35,7 +41,7 @@ pub struct Statements<'t> {
 
 impl<'t> Statements<'t> {
     /// Over the lines that begin in this span only, such as those of a routine
-    /// ([`Routine::span`](super::index::Routine::span)).
+    /// ([`Routine::span`](crate::interpreter::index::Routine::span)).
     #[must_use]
     pub const fn within(text: &'t str, span: Span) -> Self {
         Self {
@@ -43,6 +49,12 @@ impl<'t> Statements<'t> {
             at: span.start,
             end: span.end,
         }
+    }
+
+    /// Where they end in the text.
+    #[must_use]
+    pub const fn end(&self) -> usize {
+        self.end
     }
 }
 
