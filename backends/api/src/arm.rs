@@ -2,9 +2,8 @@
 
 use crate::backend::MachineMismatch;
 use crate::findings::{Findings, Number};
-use crate::geometry::Point3;
-use crate::ir::{Action, AxisKind, Cell, FeedId, Load, MOST_AXES, MachineKind, Maker, OpId, Program, RateId};
-use crate::motion::ReachableProgram;
+use crate::ir::{Action, AxisKind, Cell, Load, MOST_AXES, MachineKind, Maker, OpId, PlacedFrame};
+use crate::motion::{ReachableProgram, Stretch};
 use crate::units::Speed;
 
 /// The numbers of a controller.
@@ -49,11 +48,19 @@ pub fn foreign(kind: MachineKind, maker: Maker, wanted: Maker) -> Option<Machine
     }
 }
 
-/// Whether a machine has as many rotary axes as an arm, and no others.
-#[must_use]
-pub fn has_six_rotary_axes(cell: &Cell) -> bool {
+/// What sets the machine of a program apart from the arms of a maker: those with six rotary axes, of which the dialect names
+/// every configuration that the motion uses.
+pub fn foreign_arm(
+    program: &ReachableProgram,
+    cell: &Cell,
+    wanted: Maker,
+    is_named: impl Fn(&Stretch) -> bool,
+) -> Option<MachineMismatch> {
     let mut kinds = cell.axes.iter().map(|axis| axis.kind);
-    cell.axes.len() == MOST_AXES && kinds.all(|kind| kind == AxisKind::Rotary)
+    let is_arm = cell.axes.len() == MOST_AXES
+        && kinds.all(|kind| kind == AxisKind::Rotary)
+        && program.motion().stretches.iter().all(is_named);
+    foreign(cell.kind, cell.maker, wanted).or((!is_arm).then_some(MachineMismatch::Arm))
 }
 
 impl Findings {
@@ -67,28 +74,31 @@ impl Findings {
         let tables = program.program();
         self.ops(program, &mut |found, segment| {
             let (id, action) = (segment.id, &segment.op.action);
-            match *action {
-                Action::Travel { to, feed, rate, .. } => {
-                    found.target(id, to, limits);
-                    found.feed(id, tables, feed, limits);
-                    found.rate(id, tables, rate, limits);
-                }
-                Action::Approach { to, feed }
-                | Action::Retract { to, feed }
-                | Action::Cut { to, feed, .. } => {
-                    found.target(id, to, limits);
-                    found.feed(id, tables, feed, limits);
-                }
-                Action::AxisTravel { to, .. } => found.target(id, to, limits),
-                Action::Turn { rate, .. } => found.rate(id, tables, rate, limits),
-                Action::Home
-                | Action::Ultrasonic { .. }
-                | Action::AwaitReady
-                | Action::Dwell { .. }
-                | Action::ToolChange { .. } => {}
+            if let Some(to) = action.tip() {
+                found.point(Some(id), ["X", "Y", "Z"], to, limits.farthest_mm);
+            }
+            if let Some(feed) = action.feed().and_then(|feed| tables.feed(feed)) {
+                let (value, unit) = limits.speed_unit.of(feed);
+                let what = "tip speed";
+                found.range(Some(id), &Number { what, value, unit }, limits.tip_speed);
+            }
+            if let Some(rate) = action.rate().and_then(|rate| tables.rate(rate)) {
+                let number = Number {
+                    what: "reorientation rate",
+                    value: rate.to_deg_per_s(),
+                    unit: "deg/s",
+                };
+                found.range(Some(id), &number, limits.rate);
             }
             also(found, id, action);
         });
+    }
+
+    /// The origin of a frame that the program states itself, and not the controller.
+    pub fn frame(&mut self, names: [&'static str; 3], placed: PlacedFrame, limits: &ArmLimits) {
+        if placed.number.is_none() {
+            self.point(None, names, placed.frame.origin, limits.farthest_mm);
+        }
     }
 
     /// What the flange carries.
@@ -105,28 +115,5 @@ impl Findings {
             load.centre,
             limits.farthest_mm,
         );
-    }
-
-    fn target(&mut self, op: OpId, to: Point3, limits: &ArmLimits) {
-        self.point(Some(op), ["X", "Y", "Z"], to, limits.farthest_mm);
-    }
-
-    fn feed(&mut self, op: OpId, program: &Program, feed: FeedId, limits: &ArmLimits) {
-        if let Some(&feed) = program.feeds.get(usize::from(feed.0)) {
-            let (value, unit) = limits.speed_unit.of(feed);
-            let what = "tip speed";
-            self.range(Some(op), &Number { what, value, unit }, limits.tip_speed);
-        }
-    }
-
-    fn rate(&mut self, op: OpId, program: &Program, rate: RateId, limits: &ArmLimits) {
-        if let Some(rate) = program.rates.get(usize::from(rate.0)) {
-            let number = Number {
-                what: "reorientation rate",
-                value: rate.to_deg_per_s(),
-                unit: "deg/s",
-            };
-            self.range(Some(op), &number, limits.rate);
-        }
     }
 }

@@ -65,14 +65,7 @@ impl ProgramBuilder {
             Action::Ultrasonic { .. } | Action::AwaitReady => {
                 cell.is_some_and(|cell| cell.ultrasonic.is_some())
             }
-            Action::Travel { .. }
-            | Action::AxisTravel { .. }
-            | Action::Approach { .. }
-            | Action::Retract { .. }
-            | Action::Cut { .. }
-            | Action::Turn { .. }
-            | Action::Dwell { .. }
-            | Action::ToolChange { .. } => true,
+            _ => true,
         };
         if exists {
             self.state = self.state.after(&action);

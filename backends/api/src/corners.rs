@@ -11,34 +11,15 @@ use crate::state::Place;
 /// three tips. That triangle must be clear of the stock: all three tips on one outer side of the box, which is convex.
 /// (The two moves alone are checked by the verifier, each on a side of its own; the chord between them is not.)
 pub fn may_round(stock: Stock, before: Place, first: &Action, second: Option<&Action>) -> bool {
-    let from = before.pose().map(|pose| pose.tip);
-    let corner = match first {
-        Action::Travel { to, .. } | Action::Retract { to, .. } => *to,
-        Action::Home
-        | Action::AxisTravel { .. }
-        | Action::Approach { .. }
-        | Action::Cut { .. }
-        | Action::Turn { .. }
-        | Action::Ultrasonic { .. }
-        | Action::AwaitReady
-        | Action::Dwell { .. }
-        | Action::ToolChange { .. } => return false,
+    let (Action::Travel { to: corner, .. } | Action::Retract { to: corner, .. }) = *first else {
+        return false;
     };
-    let to = match second {
-        Some(Action::Travel { to, .. } | Action::Approach { to, .. } | Action::Retract { to, .. }) => *to,
-        Some(
-            Action::Home
-            | Action::AxisTravel { .. }
-            | Action::Cut { .. }
-            | Action::Turn { .. }
-            | Action::Ultrasonic { .. }
-            | Action::AwaitReady
-            | Action::Dwell { .. }
-            | Action::ToolChange { .. },
-        )
-        | None => return false,
+    let Some(Action::Travel { to, .. } | Action::Approach { to, .. } | Action::Retract { to, .. }) = second
+    else {
+        return false;
     };
-    from.is_some_and(|from| beside_stock(stock, [from, corner, to]))
+    let from = before.pose();
+    from.is_some_and(|from| beside_stock(stock, [from.tip, corner, *to]))
 }
 
 /// Whether all points lie on one outer side of the stock (in front, behind or above; the sides that blades come from).

@@ -603,6 +603,24 @@ impl ActionKind {
 }
 
 impl Action {
+    /// Where it leads the tip; none for an action that leaves the tip where it is, or goes home.
+    #[must_use]
+    pub const fn tip(&self) -> Option<Point3> {
+        match *self {
+            Self::Travel { to, .. }
+            | Self::AxisTravel { to, .. }
+            | Self::Approach { to, .. }
+            | Self::Retract { to, .. }
+            | Self::Cut { to, .. } => Some(to),
+            Self::Home
+            | Self::Turn { .. }
+            | Self::Ultrasonic { .. }
+            | Self::AwaitReady
+            | Self::Dwell { .. }
+            | Self::ToolChange { .. } => None,
+        }
+    }
+
     /// The speed of the ops that move the tip on a line.
     #[must_use]
     pub const fn feed(&self) -> Option<FeedId> {

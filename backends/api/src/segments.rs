@@ -123,18 +123,11 @@ impl LinearSegment {
         action: &Action,
         angle: impl FnOnce([OrientationId; 2]) -> Option<Angle>,
     ) -> Option<Self> {
-        let (feed, rate) = match *action {
-            Action::Travel { feed, rate, .. } => (Some(program.feed(feed)?), Some(program.rate(rate)?)),
-            Action::Approach { feed, .. } | Action::Retract { feed, .. } | Action::Cut { feed, .. } => {
-                (Some(program.feed(feed)?), None)
-            }
-            Action::Turn { rate, .. } => (None, Some(program.rate(rate)?)),
-            Action::Home
-            | Action::AxisTravel { .. }
-            | Action::Ultrasonic { .. }
-            | Action::AwaitReady
-            | Action::Dwell { .. }
-            | Action::ToolChange { .. } => return None,
+        let (feed, rate) = match (action.feed(), action.rate()) {
+            (Some(feed), Some(rate)) => (Some(program.feed(feed)?), Some(program.rate(rate)?)),
+            (Some(feed), None) => (Some(program.feed(feed)?), None),
+            (None, Some(rate)) => (None, Some(program.rate(rate)?)),
+            (None, None) => return None,
         };
         let to = action.leads_to(Some(from))?;
         let turn = if from.orientation == to.orientation {

@@ -58,14 +58,7 @@ impl State {
             Action::Ultrasonic { state: Switch::On } => self.generator = Generator::Starting,
             Action::Ultrasonic { state: Switch::Off } => self.generator = Generator::Off,
             Action::AwaitReady => self.generator = Generator::Running,
-            Action::Travel { .. }
-            | Action::AxisTravel { .. }
-            | Action::Approach { .. }
-            | Action::Retract { .. }
-            | Action::Cut { .. }
-            | Action::Turn { .. }
-            | Action::Dwell { .. }
-            | Action::ToolChange { .. } => {
+            _ => {
                 if let Some(pose) = action.leads_to(self.place.pose()) {
                     self.place = Place::Pose(pose);
                 }
@@ -91,30 +84,13 @@ impl Action {
     /// home, and for one that needs to know where it begins.
     #[must_use]
     pub const fn leads_to(&self, from: Option<TipPose>) -> Option<TipPose> {
-        match (*self, from) {
-            (
-                Self::Travel {
-                    to: tip, orientation, ..
-                }
-                | Self::AxisTravel { to: tip, orientation },
-                _,
-            ) => Some(TipPose { tip, orientation }),
-            (
-                Self::Approach { to: tip, .. } | Self::Retract { to: tip, .. } | Self::Cut { to: tip, .. },
-                Some(TipPose { orientation, .. }),
-            )
-            | (Self::Turn { to: orientation, .. }, Some(TipPose { tip, .. })) => {
+        match (*self, self.tip(), from) {
+            (Self::Travel { orientation, .. } | Self::AxisTravel { orientation, .. }, Some(tip), _)
+            | (_, Some(tip), Some(TipPose { orientation, .. })) => Some(TipPose { tip, orientation }),
+            (Self::Turn { to: orientation, .. }, None, Some(TipPose { tip, .. })) => {
                 Some(TipPose { tip, orientation })
             }
-            (Self::Approach { .. } | Self::Retract { .. } | Self::Cut { .. } | Self::Turn { .. }, None)
-            | (
-                Self::Home
-                | Self::Ultrasonic { .. }
-                | Self::AwaitReady
-                | Self::Dwell { .. }
-                | Self::ToolChange { .. },
-                _,
-            ) => None,
+            (_, _, _) => None,
         }
     }
 }

@@ -487,15 +487,7 @@ impl<'p> Walk<'p> {
             Action::Ultrasonic { state: Switch::On } | Action::AwaitReady => false,
             // The tip stays where the op before has led it.
             Action::Turn { .. } => true,
-            Action::Home
-            | Action::Travel { .. }
-            | Action::AxisTravel { .. }
-            | Action::Approach { .. }
-            | Action::Retract { .. }
-            | Action::Cut { .. }
-            | Action::Ultrasonic { state: Switch::Off }
-            | Action::Dwell { .. }
-            | Action::ToolChange { .. } => {
+            _ => {
                 let to = segment.path.target();
                 to.is_none_or(|to| to.tip.z >= lowest)
             }

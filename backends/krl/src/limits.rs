@@ -5,8 +5,8 @@
 //! would otherwise be told a million times.
 
 use crate::configuration::status;
-use vcutc_backend_api::arm::{ArmLimits, SpeedUnit, foreign, has_six_rotary_axes};
-use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
+use vcutc_backend_api::arm::{ArmLimits, SpeedUnit, foreign_arm};
+use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::findings::{Findings, Number, driven_cell};
 use vcutc_backend_api::ir::{Action, AxisValues, Cell, Maker, OpId, PlacedFrame, Ready, Registered};
 use vcutc_backend_api::motion::ReachableProgram;
@@ -54,7 +54,11 @@ pub(crate) fn check<'p>(
     program: &'p ReachableProgram,
     parts: &[Part],
 ) -> Result<&'p Cell, Vec<BackendIssue>> {
-    let cell = driven_cell(program, DRIVES, |cell| mismatch(cell, program))?;
+    let cell = driven_cell(program, DRIVES, |cell| {
+        foreign_arm(program, cell, Maker::Kuka, |stretch| {
+            status(stretch.branch).is_some()
+        })
+    })?;
     let mut found = Findings::default();
     machine(cell, &mut found);
     found.arm_ops(program, &LIMITS, &mut |found, id, action| {
@@ -64,14 +68,6 @@ pub(crate) fn check<'p>(
     });
     restarts(program, parts, &mut found);
     found.result().map(|()| cell)
-}
-
-/// What sets a machine apart from those that KRL programs are for.
-fn mismatch(cell: &Cell, program: &ReachableProgram) -> Option<MachineMismatch> {
-    let mut branches = program.motion().stretches.iter().map(|stretch| stretch.branch);
-    let has_status = branches.all(|branch| status(branch).is_some());
-    let is_arm = has_six_rotary_axes(cell) && has_status;
-    foreign(cell.kind, cell.maker, Maker::Kuka).or((!is_arm).then_some(MachineMismatch::Arm))
 }
 
 fn machine(cell: &Cell, found: &mut Findings) {
@@ -124,9 +120,9 @@ fn frame(
     (what, highest): (&'static str, u32),
     found: &mut Findings,
 ) {
-    match placed.number {
-        None => found.point(None, coordinates, placed.frame.origin, LIMITS.farthest_mm),
-        Some(number) => found.number(what, number, 1..=highest),
+    found.frame(coordinates, placed, &LIMITS);
+    if let Some(number) = placed.number {
+        found.number(what, number, 1..=highest);
     }
 }
 

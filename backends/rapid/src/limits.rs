@@ -7,8 +7,8 @@ use crate::keywords::{
 };
 use crate::options::{READY_SIGNAL, Settings, TOOL_NAME, ULTRASONIC_SIGNAL, WORK_OBJECT_NAME};
 use crate::profile::objection;
-use vcutc_backend_api::arm::{ArmLimits, SpeedUnit, foreign, has_six_rotary_axes};
-use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
+use vcutc_backend_api::arm::{ArmLimits, SpeedUnit, foreign_arm};
+use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::findings::{Findings, driven_cell};
 use vcutc_backend_api::geometry::Point3;
@@ -55,7 +55,12 @@ pub(crate) fn check<'p>(
     settings: &Settings<'_>,
     parts: usize,
 ) -> Result<&'p Cell, Vec<BackendIssue>> {
-    let cell = driven_cell(program, DRIVES, |cell| mismatch(cell, program))?;
+    let cell = driven_cell(program, DRIVES, |cell| {
+        foreign_arm(program, cell, Maker::Abb, |stretch| {
+            let axes = program.axes_after(stretch.from);
+            axes.and_then(|axes| confdata(stretch.branch, &axes)).is_some()
+        })
+    })?;
     let mut findings = Findings::default();
     profile(settings, cell, &mut findings);
     names(settings, cell, &mut findings);
@@ -64,16 +69,6 @@ pub(crate) fn check<'p>(
     findings.arm_ops(program, &LIMITS, &mut |_, _, _| {});
     turns(program, &mut findings);
     findings.result().map(|()| cell)
-}
-
-/// What sets a machine apart from those that RAPID programs are for.
-fn mismatch(cell: &Cell, program: &ReachableProgram) -> Option<MachineMismatch> {
-    let has_confdata = program.motion().stretches.iter().all(|stretch| {
-        let axes = program.axes_after(stretch.from);
-        axes.and_then(|axes| confdata(stretch.branch, &axes)).is_some()
-    });
-    let is_arm = has_six_rotary_axes(cell) && has_confdata;
-    foreign(cell.kind, cell.maker, Maker::Abb).or((!is_arm).then_some(MachineMismatch::Arm))
 }
 
 /// What the machine's profile asks for.
@@ -189,25 +184,13 @@ fn machine(cell: &Cell, findings: &mut Findings) {
     }
     findings.generator(cell);
     if cell.tool.number.is_none() {
-        findings.point(
-            None,
-            ["tool X", "tool Y", "tool Z"],
-            cell.tool.frame.origin,
-            LIMITS.farthest_mm,
-        );
+        findings.frame(["tool X", "tool Y", "tool Z"], cell.tool, &LIMITS);
         match cell.load {
             Some(Registered::Value(carried)) => load(carried, findings),
             Some(Registered::Number(_)) | None => findings.tell("load", LOAD_MISSING),
         }
     }
-    if cell.base.number.is_none() {
-        findings.point(
-            None,
-            ["base X", "base Y", "base Z"],
-            cell.base.frame.origin,
-            LIMITS.farthest_mm,
-        );
-    }
+    findings.frame(["base X", "base Y", "base Z"], cell.base, &LIMITS);
     match cell.ready {
         Ready::Input(_) => {}
         Ready::After(time) => findings.wait(None, "time until ready", time),

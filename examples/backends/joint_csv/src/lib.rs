@@ -96,16 +96,7 @@ impl Backend for JointCsv {
                 op,
                 what: Capability::ToolChange.words(),
             }),
-            Action::Home
-            | Action::Travel { .. }
-            | Action::AxisTravel { .. }
-            | Action::Approach { .. }
-            | Action::Retract { .. }
-            | Action::Cut { .. }
-            | Action::Turn { .. }
-            | Action::Ultrasonic { .. }
-            | Action::AwaitReady
-            | Action::Dwell { .. } => None,
+            _ => None,
         }));
         if issues.is_empty() {
             Ok(write::emission(program, options))

@@ -84,18 +84,10 @@ impl Table<'_> {
                 Ready::After(time) => ("wait", self.number(time.to_s())?),
             },
             Action::Dwell { time } => ("wait", self.number(time.to_s())?),
-            Action::Home
-            | Action::Travel { .. }
-            | Action::AxisTravel { .. }
-            | Action::Approach { .. }
-            | Action::Retract { .. }
-            | Action::Cut { .. }
-            | Action::Turn { .. } => {
-                return Err(EmitError::Internal("a straight move from nowhere"));
-            }
             Action::ToolChange { .. } => {
                 return Err(EmitError::Internal("a tool change in a checked program"));
             }
+            _ => return Err(EmitError::Internal("a straight move from nowhere")),
         };
         let (does, value) = value;
         let unused = ",".repeat(3 + AXES + 2);
