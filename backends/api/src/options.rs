@@ -2,6 +2,7 @@
 
 use crate::profile::Profile;
 use crate::units::Length;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// One option of a backend.
@@ -50,9 +51,12 @@ impl OptionSpec {
     }
 }
 
-/// What values an option takes, and its default.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum OptionKind {
+/// What values an option takes, and its default. Words are those of a linked backend, or those that one outside of the
+/// compiler describes ([`crate::protocol::DescribedKind`]).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum OptionKind<W = &'static [&'static str]> {
     /// A whole number.
     Integer {
         /// Smallest.
@@ -62,7 +66,7 @@ pub enum OptionKind {
         /// When not given.
         default: u32,
     },
-    /// A length.
+    /// A length in mm.
     Length {
         /// Smallest.
         min: Length,
@@ -73,13 +77,29 @@ pub enum OptionKind {
     },
     /// Lines of text, none when not given.
     Lines,
-    /// A text on one line, empty when not given.
+    /// One text on one line, empty when not given.
     Text,
     /// One of a few words.
     Choice {
         /// The words; the first is the default.
-        of: &'static [&'static str],
+        of: W,
     },
+}
+
+impl<W> OptionKind<W> {
+    /// The same with its words in another form.
+    ///
+    /// # Errors
+    /// Why they cannot be had in that form.
+    pub fn with_words<V, E>(self, words: impl FnOnce(W) -> Result<V, E>) -> Result<OptionKind<V>, E> {
+        Ok(match self {
+            Self::Integer { min, max, default } => OptionKind::Integer { min, max, default },
+            Self::Length { min, max, default } => OptionKind::Length { min, max, default },
+            Self::Lines => OptionKind::Lines,
+            Self::Text => OptionKind::Text,
+            Self::Choice { of } => OptionKind::Choice { of: words(of)? },
+        })
+    }
 }
 
 /// A value given to an option.

@@ -168,52 +168,7 @@ pub struct DescribedOption {
 }
 
 /// What values an option takes, and its default.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(tag = "kind", rename_all = "snake_case")]
-pub enum DescribedKind {
-    /// A whole number.
-    Integer {
-        /// Smallest.
-        min: u32,
-        /// Largest.
-        max: u32,
-        /// When not given.
-        default: u32,
-    },
-    /// A length in mm.
-    Length {
-        /// Smallest.
-        min: Length,
-        /// Largest.
-        max: Length,
-        /// When not given.
-        default: Length,
-    },
-    /// Lines of text, none when not given.
-    Lines,
-    /// One text on one line, empty when not given.
-    Text,
-    /// One of a few words.
-    Choice {
-        /// The words; the first is the default.
-        of: Vec<String>,
-    },
-}
-
-impl From<OptionKind> for DescribedKind {
-    fn from(kind: OptionKind) -> Self {
-        match kind {
-            OptionKind::Integer { min, max, default } => Self::Integer { min, max, default },
-            OptionKind::Length { min, max, default } => Self::Length { min, max, default },
-            OptionKind::Lines => Self::Lines,
-            OptionKind::Text => Self::Text,
-            OptionKind::Choice { of } => Self::Choice {
-                of: of.iter().map(|&word| word.to_owned()).collect(),
-            },
-        }
-    }
-}
+pub type DescribedKind = OptionKind<Vec<String>>;
 
 /// How a program reads what it wrote.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 
 use super::fault::{fault, line};
 use vcutc_backend_api::backend::{Fault, OptionKind, OptionSpec};
-use vcutc_backend_api::protocol::{DescribedKind, DescribedOption, Description, Driven, Reads};
+use vcutc_backend_api::protocol::{DescribedOption, Description, Driven, Reads};
 use vcutc_backend_api::readback::Grain;
 use vcutc_backend_api::verify::Capabilities;
 
@@ -80,36 +80,34 @@ pub(super) fn described(name: &str, description: Description) -> Result<Describe
 
 fn spec(option: &DescribedOption) -> Result<OptionSpec, Fault> {
     let key = line(&option.key);
-    let refused = |what: &str| Err(fault(format!("has an option `{key}` {what}")));
+    let refused = |what: &str| fault(format!("has an option `{key}` {what}"));
     if !is_name(&option.key) {
-        return refused("whose key is not a name (letters a to z, digits and `_`, a letter first)");
+        return Err(refused(
+            "whose key is not a name (letters a to z, digits and `_`, a letter first)",
+        ));
     }
     if option.key == PROFILE {
-        return refused("which is the key under which jobs name a profile");
+        return Err(refused("which is the key under which jobs name a profile"));
     }
     if option.help.trim().is_empty() {
-        return refused("without help");
+        return Err(refused("without help"));
     }
-    let kind = match &option.kind {
-        &DescribedKind::Integer { min, max, default } => OptionKind::Integer { min, max, default },
-        &DescribedKind::Length { min, max, default } => OptionKind::Length { min, max, default },
-        DescribedKind::Lines => OptionKind::Lines,
-        DescribedKind::Text => OptionKind::Text,
-        DescribedKind::Choice { of } => {
-            if of.is_empty() || of.len() > MOST_OPTIONS || !of.iter().all(|word| is_name(word)) {
-                return refused("with no words, too many words, or words that are not names");
-            }
-            if of.iter().any(|word| word == DEFAULT) {
-                return refused("with the word `default`, by which jobs take an option back");
-            }
-            let words: Vec<&'static str> = of.iter().map(|word| kept(word)).collect();
-            OptionKind::Choice {
-                of: Box::leak(words.into_boxed_slice()),
-            }
+    let kind = option.kind.clone().with_words(|of| {
+        if of.is_empty() || of.len() > MOST_OPTIONS || !of.iter().all(|word| is_name(word)) {
+            return Err(refused(
+                "with no words, too many words, or words that are not names",
+            ));
         }
-    };
+        if of.iter().any(|word| word == DEFAULT) {
+            return Err(refused(
+                "with the word `default`, by which jobs take an option back",
+            ));
+        }
+        let words: Vec<&'static str> = of.iter().map(|word| kept(word)).collect();
+        Ok(&*Box::leak(words.into_boxed_slice()))
+    })?;
     if !is_sound(kind) {
-        return refused("whose default is not in its range");
+        return Err(refused("whose default is not in its range"));
     }
     Ok(OptionSpec {
         key: kept(&option.key),
