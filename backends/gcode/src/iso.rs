@@ -1,6 +1,8 @@
 //! Codes that mean the same on all controllers that have them (ISO 6983).
 
-use crate::statement::{Convention, FeedMode, Mode, Motion, Number, Order, Parsed, Scope, expected};
+use crate::statement::{
+    Convention, Coordinates, FeedMode, Mode, Motion, Number, Order, Parsed, Scope, expected,
+};
 use vcutc_backend_api::readback::End;
 use vcutc_backend_api::units::Duration;
 
@@ -41,6 +43,8 @@ pub(crate) fn american_g_code(code: u32, order: &mut Order<'_>) -> Parsed<bool> 
         800 => {}
         200 => order.set(Mode::Not(Convention::Millimetres))?,
         210 => order.set(Mode::Convention(Convention::Millimetres))?,
+        530 => order.coordinates = Coordinates::Machine,
+        540 | 550 | 560 | 570 | 580 | 590 => order.set(Mode::Work(code / 10 - 53))?,
         _ => return g_code(code, order),
     }
     Ok(true)

@@ -12,8 +12,8 @@
 use crate::controller::{AxisPace, Codes, Controller, FARTHEST, Facts, File, Letters};
 use crate::iso::{american_g_code, m_code, seconds};
 use crate::statement::{
-    Act, Block, Code, Coordinates, Cursor, Flow, Mode, Number, Once, Order, Parsed, Point, ReadError,
-    Routine, Scope, Style, Tcp, block, expected, line,
+    Act, Block, Code, Cursor, Flow, Mode, Number, Once, Order, Parsed, Point, ReadError, Routine, Scope,
+    Style, Tcp, block, expected, line,
 };
 use vcutc_backend_api::readback::End;
 use vcutc_backend_api::script::Layout;
@@ -176,11 +176,6 @@ fn g(code: u32, words: &mut Block, order: &mut Order<'_>) -> Parsed<()> {
             order.set(Mode::Tcp(Some(Tcp::Off)))?;
             order.set(Mode::Tool(Some(0)))
         }
-        530 => {
-            order.coordinates = Coordinates::Machine;
-            Ok(())
-        }
-        540 | 550 | 560 | 570 | 580 | 590 => order.set(Mode::Work(code / 10 - 53)),
         541 => {
             let more = words.whole(b'P')?;
             order.set(Mode::Work(more.saturating_add(6)))

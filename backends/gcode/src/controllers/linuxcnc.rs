@@ -18,8 +18,7 @@
 use crate::controller::{Codes, Controller, Facts, File, Heads, Letters, TcpCodes};
 use crate::iso::{american_g_code, m_code, rounding, seconds};
 use crate::statement::{
-    Act, Block, Coordinates, Cursor, Cycle, Flow, Mode, Order, Parsed, ReadError, Routine, Scope, Style,
-    block, expected,
+    Act, Block, Cursor, Cycle, Flow, Mode, Order, Parsed, ReadError, Routine, Scope, Style, block, expected,
 };
 use vcutc_backend_api::ir::Switch;
 use vcutc_backend_api::readback::{End, essence};
@@ -229,11 +228,6 @@ fn g(code: u32, words: &mut Block, order: &mut Order<'_>, scope: Scope<'_>) -> P
         40 => order.does(Act::Wait(seconds(words.must(b'P')?)?)),
         430 => order.set(Mode::Tool(Some(words.whole(b'H')?))),
         490 => order.set(Mode::Tool(Some(0))),
-        530 => {
-            order.coordinates = Coordinates::Machine;
-            Ok(())
-        }
-        540 | 550 | 560 | 570 | 580 | 590 => order.set(Mode::Work(code / 10 - 53)),
         591..=593 => order.set(Mode::Work(code - 584)),
         611 => order.set(Mode::Stop(Some(End::Exact))),
         610 => order.set(Mode::Stop(None)),
@@ -243,7 +237,8 @@ fn g(code: u32, words: &mut Block, order: &mut Order<'_>, scope: Scope<'_>) -> P
             let keeps_all = words.take(b'Q').is_some_and(|dropped| dropped.value == 0.0);
             order.set(if keeps_all { mode } else { Mode::Stop(None) })
         }
-        _ => known(american_g_code(code, order)?),
+        _ if american_g_code(code, order)? => Ok(()),
+        _ => Err(ReadError::Unknown),
     }
 }
 
@@ -264,8 +259,4 @@ fn m(code: u32, words: &mut Block, order: &mut Order<'_>) -> Parsed<()> {
         }
         _ => Err(ReadError::Unknown),
     }
-}
-
-fn known(is: bool) -> Parsed<()> {
-    if is { Ok(()) } else { Err(ReadError::Unknown) }
 }
