@@ -3,6 +3,7 @@
 //! [`OPTIONS`] is what the compiler checks a job against; [`Settings`] is the same as types, so that the rest of the
 //! crate never asks for a key by its name.
 
+use crate::syntax::Planner;
 use vcutc_backend_api::backend::{OptionSpec, Options};
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::script::{Common, approximation, decimals, header, lines_per_part};
@@ -44,16 +45,6 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
         "Axis speed of the moves of all axes, to home and from there, in percent of the greatest.",
     ),
 ];
-
-/// Which motion planner of the controller moves the robot. The two do not blend into each other, so a program keeps
-/// to one [K-SI].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Planner {
-    /// `PTP` and `LIN`.
-    Classic,
-    /// `SPTP` and `SLIN`.
-    Spline,
-}
 
 impl Planner {
     /// The word of a move of all axes.
@@ -97,7 +88,8 @@ pub(crate) struct Settings<'p> {
     pub(crate) common: Common<'p>,
     /// Format of angles in degrees: 0.001 deg at the end of a 300 mm blade is 5 um, so one decimal more than lengths.
     pub(crate) angles: FixedDecimal,
-    /// Motion planner.
+    /// Which motion planner of the controller moves the robot. The two do not blend into each other, so a program keeps to one
+    /// [K-SI].
     pub(crate) planner: Planner,
     /// How parts are made known.
     pub(crate) part_names: PartNames,

@@ -65,9 +65,8 @@ impl Turns {
 }
 
 fn rates(program: &Program, (from, to): (OrientationId, OrientationId), rate: RateId) -> Option<Rates> {
-    let orientation = |id: OrientationId| program.orientations.get(id.0 as usize).copied();
-    let rate = program.rates.get(usize::from(rate.0)).copied()?;
-    let Apart { swivel, twist } = Apart::rates(orientation(from)?, orientation(to)?, rate);
+    let (from, to) = (program.orientation(from)?, program.orientation(to)?);
+    let Apart { swivel, twist } = Apart::rates(from, to, program.rate(rate)?);
     Some(Apart {
         swivel: rounded_down(swivel),
         twist: rounded_down(twist),

@@ -27,18 +27,8 @@ impl Speeds {
     /// Of a program, numbered in the order of first use.
     pub(crate) fn of(program: &Program) -> Self {
         let named = || program.ops.iter().filter_map(|op| named(&op.action));
-        let feed = |id: &FeedId| {
-            program
-                .feeds
-                .get(usize::from(id.0))
-                .map_or(0.0, |feed| feed.to_mm_per_s())
-        };
-        let rate = |id: &RateId| {
-            program
-                .rates
-                .get(usize::from(id.0))
-                .map_or(0.0, |rate| rate.to_rad_per_s())
-        };
+        let feed = |id: &FeedId| program.feed(*id).map_or(0.0, |feed| feed.to_mm_per_s());
+        let rate = |id: &RateId| program.rate(*id).map_or(0.0, |rate| rate.to_rad_per_s());
         let mut all = Self {
             numbers: BTreeMap::new(),
             pairs: Vec::new(),

@@ -11,8 +11,9 @@ use crate::units::{AngularSpeed, Speed};
 /// # Errors
 /// That the program has no such operation.
 pub fn operation_heading(program: &Program, id: OperationId) -> Result<(String, &str), EmitError> {
-    let found = program.operations.get(usize::from(id.0));
-    let operation = found.ok_or(EmitError::Internal("an operation is not in its table"))?;
+    let operation = program
+        .operation(id)
+        .ok_or(EmitError::Internal("an operation is not in its table"))?;
     let what = operation.kind.head();
     let ours = format!("operation {}: {what} with blade ", u32::from(id.0) + 1);
     Ok((ours, &operation.blade.name))
@@ -23,8 +24,9 @@ pub fn operation_heading(program: &Program, id: OperationId) -> Result<(String, 
 /// # Errors
 /// That the program has no such feed.
 pub fn feed(program: &Program, id: FeedId) -> Result<Speed, EmitError> {
-    let found = program.feeds.get(usize::from(id.0)).copied();
-    found.ok_or(EmitError::Internal("a feed is not in its table"))
+    program
+        .feed(id)
+        .ok_or(EmitError::Internal("a feed is not in its table"))
 }
 
 /// A rate of turning.
@@ -32,6 +34,7 @@ pub fn feed(program: &Program, id: FeedId) -> Result<Speed, EmitError> {
 /// # Errors
 /// That the program has no such rate.
 pub fn rate(program: &Program, id: RateId) -> Result<AngularSpeed, EmitError> {
-    let found = program.rates.get(usize::from(id.0)).copied();
-    found.ok_or(EmitError::Internal("a rate is not in its table"))
+    program
+        .rate(id)
+        .ok_or(EmitError::Internal("a rate is not in its table"))
 }

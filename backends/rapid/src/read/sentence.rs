@@ -98,19 +98,23 @@ impl Reader<'_> {
                 value: Some(Value::Other),
             });
         }
-        let value = match self.lexer.peek().map(|token| token.kind) {
-            Some(Kind::Becomes) => {
-                let _ = self.lexer.next();
-                Some(self.value(0)?)
-            }
-            Some(_) | None => None,
-        };
+        let value = self.becomes()?;
         Ok(Sentence::Declaration {
             local,
             kind,
             name,
             value,
         })
+    }
+
+    /// `:=` with a value, where it follows.
+    fn becomes(&mut self) -> Result<Option<Value>, String> {
+        let next = self.lexer.peek().map(|token| token.kind);
+        if next != Some(Kind::Becomes) {
+            return Ok(None);
+        }
+        let _ = self.lexer.next();
+        self.value(0).map(Some)
     }
 
     fn doing(&mut self, name: String) -> Result<Sentence, String> {
@@ -149,13 +153,7 @@ impl Reader<'_> {
     fn optional(&mut self) -> Result<Optional, String> {
         self.sign(b'\\', "`\\`")?;
         let name = self.word("the name of an argument")?;
-        let value = match self.lexer.peek().map(|token| token.kind) {
-            Some(Kind::Becomes) => {
-                let _ = self.lexer.next();
-                Some(self.value(0)?)
-            }
-            Some(_) | None => None,
-        };
+        let value = self.becomes()?;
         Ok(Optional { name, value })
     }
 
