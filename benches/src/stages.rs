@@ -15,7 +15,7 @@ use vcutc::syntax::{self, ast::Ast};
 use vcutc_backend_api::backend::{Backend, Emission, OptionValue, Options};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_backend_api::readback::{Judge, ProgramFile, Retrace, Sources, Statement};
+use vcutc_backend_api::readback::{Comparator, ProgramFile, Replay, Sources, Statement};
 use vcutc_backend_api::testkit;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_backend_krl::Krl;
@@ -213,21 +213,21 @@ pub fn read(program: &ReachableProgram, options: &Options, files: &[ProgramFile]
 #[inline(never)]
 pub fn retrace(program: &ReachableProgram, options: &Options, files: &[ProgramFile]) {
     let reader = Krl.reader().expect("KRL is read");
-    let judge = Judge::new(program, reader, reader.grain(options));
-    let mut retrace = Retrace::new(judge, reader.frames());
-    told(program, options, files, &mut |statement| retrace.heed(&statement));
-    retrace.finish().expect("the program is what was written");
+    let comparator = Comparator::new(program, reader, reader.resolution(options));
+    let mut replay = Replay::new(comparator, reader.frames());
+    told(program, options, files, &mut |statement| replay.take(&statement));
+    replay.finish().expect("the program is what was written");
 }
 
 fn told(
     program: &ReachableProgram,
     options: &Options,
     files: &[ProgramFile],
-    heed: &mut dyn FnMut(Statement),
+    visit: &mut dyn FnMut(Statement),
 ) {
     let cell = program.program().cell.as_ref().expect("the job has a machine");
     let reader = Krl.reader().expect("KRL is read");
-    reader.read(Sources { files, cell, options }, heed);
+    reader.read(Sources { files, cell, options }, visit);
 }
 
 /// Program to text.

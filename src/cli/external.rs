@@ -29,10 +29,10 @@ use vcutc_backend_api::ir::{AxisValues, Cell, MachineKind, Maker, OpId};
 use vcutc_backend_api::motion::{Branch, ReachableProgram};
 use vcutc_backend_api::protocol::{
     Ask, Description, Emit, Emitted, PROGRAM_PREFIX, PROTOCOL_VERSION, Read, ReadBack, Request,
-    branch_as_stance, values,
+    branch_as_configuration, values,
 };
 use vcutc_backend_api::readback::{
-    Frames, Grain, Place, ProgramFile, Reader, Says, Sources, Stance, Statement,
+    Configuration, Effect, Frames, Place, ProgramFile, Reader, Resolution, Sources, Statement,
 };
 use vcutc_backend_api::units::{self, Angle, AngularSpeed, Length, Speed};
 use vcutc_backend_api::verify::{Capabilities, Capability};
@@ -166,7 +166,7 @@ impl External {
         }
         // The job may have asked for fewer decimals than the description has by itself.
         if described.reads.is_some() {
-            fine_enough(&self.grain(options)).map_err(|fault| vec![BackendIssue::Failed(fault)])?;
+            fine_enough(&self.resolution(options)).map_err(|fault| vec![BackendIssue::Failed(fault)])?;
         }
         let emit = Emit {
             program: Exchange::of(program.program(), Some(program.motion())),
@@ -311,7 +311,7 @@ impl Emission for Written {
 }
 
 /// How finely a program prints that cannot be started: what it writes is not read.
-const EXACT: Grain = Grain {
+const EXACT: Resolution = Resolution {
     length: Length::ZERO,
     attitude: Angle::ZERO,
     axis: Angle::ZERO,
@@ -336,14 +336,14 @@ impl Reader for External {
             .any(|known| known.eq_ignore_ascii_case(extension))
     }
 
-    fn grain(&self, options: &Options) -> Grain {
+    fn resolution(&self, options: &Options) -> Resolution {
         let reads = self
             .described()
             .ok()
             .and_then(|described| described.reads.as_ref());
         reads.map_or(EXACT, |reads| match &reads.decimals {
-            Some(key) => divided(&reads.grain, options.integer(key)),
-            None => reads.grain,
+            Some(key) => divided(&reads.resolution, options.integer(key)),
+            None => reads.resolution,
         })
     }
 
@@ -355,11 +355,11 @@ impl Reader for External {
         reads.map_or(Frames::OnMachine, |reads| reads.frames)
     }
 
-    fn stance(&self, branch: Branch, _axes: AxisValues) -> Option<Stance> {
-        Some(branch_as_stance(branch))
+    fn configuration(&self, branch: Branch, _axes: AxisValues) -> Option<Configuration> {
+        Some(branch_as_configuration(branch))
     }
 
-    fn read(&self, sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
+    fn read(&self, sources: Sources<'_>, visit: &mut dyn FnMut(Statement)) {
         let read = Read {
             files: Cow::Borrowed(sources.files),
             cell: Cow::Borrowed(sources.cell),
@@ -382,9 +382,9 @@ impl Reader for External {
                 }
             });
         match told {
-            Ok(statements) => statements.into_iter().for_each(heed),
+            Ok(statements) => statements.into_iter().for_each(visit),
             Err(fault) => {
-                heed(unread(self.name, &fault));
+                visit(unread(self.name, &fault));
                 if let Ok(mut unread) = self.unread.lock() {
                     *unread = Some(fault);
                 }
@@ -407,7 +407,7 @@ fn unread(name: &str, fault: &Fault) -> Statement {
             start: 0,
             end: 0,
         },
-        says: Says::Unreadable {
+        effect: Effect::Unreadable {
             expected: format!("what the program of `{name}` would read (it {})", fault.what),
         },
     }

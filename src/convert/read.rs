@@ -12,7 +12,7 @@ use super::complaints;
 use super::milling::{Milling, Written};
 use frames::Frames;
 use motions::ExternalAxes;
-use vcutc_backend_api::readback::{ProgramFile, essence};
+use vcutc_backend_api::readback::{ProgramFile, normalized};
 use vcutc_backend_krl::interpreter::speeds::{Velocity, velocities};
 use vcutc_backend_krl::interpreter::variables::Outcome;
 use vcutc_backend_krl::interpreter::{BreaksOff, Context, Execution, Line, State};
@@ -277,7 +277,7 @@ impl Reader<'_> {
 
     /// A statement that may give something a value that is worked out while the program runs.
     fn unknown_value(&mut self, context: Context<'_>, word: &str, place: Span) {
-        let said = essence(self.files.said(place)).to_ascii_uppercase();
+        let said = normalized(self.files.said(place)).to_ascii_uppercase();
         if is_same_name(word, "$VEL") || said.starts_with("BAS(#VEL_CP") || said.starts_with("BAS(#CP_PARAMS")
         {
             self.speed = None;

@@ -5,7 +5,7 @@ use vcutc_backend_api::backend::{Backend, BackendIssue, EmitError, Origin};
 use vcutc_backend_api::bundle::{Bundle, Sink};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::CheckedJob;
-use vcutc_readback::{Astray, Written};
+use vcutc_readback::{RoundTripError, Written};
 
 /// Writes the program of an outcome with a backend. An outcome without a program writes nothing.
 ///
@@ -60,7 +60,7 @@ pub fn write(outcome: &Outcome, backend: &dyn Backend) -> Result<Option<Written>
     drop(emission);
     Written::read_back(&reached.program, backend, options, bundle)
         .map(Some)
-        .map_err(|Astray(notes)| {
+        .map_err(|RoundTripError(notes)| {
             let what = "the written program does not match the program that it was made from";
             EmitFailure::Diagnostics(vec![match backend.ready() {
                 Ok(()) => match backend.origin() {

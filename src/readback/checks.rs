@@ -4,13 +4,13 @@
 //! The same proofs as for a fresh program are run on the one that was rebuilt from the statements. Those of chips and reach
 //! need a program that keeps the rules; that no cut enters the part is looked at in any case.
 
+use super::comparison::Comparison;
 use super::rebuild::{Obstacle, Rebuilt};
-use super::scene::{Scene, asked, place_in};
 use super::wording::op_words;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Flank, OpId, Program, Purpose, Site};
-use vcutc_backend_api::readback::{Deed, Judge, Mismatch, Moment, Reader, Says};
+use vcutc_backend_api::readback::{Comparator, Mismatch, Moment, Reader};
 use vcutc_backend_api::segments::{LinearSegment, Path};
 use vcutc_backend_api::verify::{Fault, Rule, VerifiedProgram, verify};
 use vcutc_diagnostics::number::show;
@@ -28,23 +28,23 @@ use vcutc_simulation::timing::timing;
 
 /// What is needed to prove a program that was read.
 #[derive(Clone, Copy)]
-pub(super) struct Bench<'b> {
-    pub(super) scene: &'b Scene<'b>,
+pub(super) struct Checker<'b> {
+    pub(super) comparison: &'b Comparison<'b>,
     pub(super) plan: &'b PlannedJob,
     pub(super) model: &'b Model,
     pub(super) reader: &'b dyn Reader,
 }
 
-impl Bench<'_> {
+impl Checker<'_> {
     /// Everything that is wrong with what the program would do.
     pub(super) fn findings(&self, rebuilt: Rebuilt) -> Vec<Diagnostic> {
-        let scene = self.scene;
-        if rebuilt.program == *scene.judge.reachable().program() {
-            return self.stances(&rebuilt, None);
+        let comparison = self.comparison;
+        if rebuilt.program == *comparison.program() {
+            return self.configurations(&rebuilt, None);
         }
         let read = Read {
-            bench: *self,
-            proven: (scene.judge.reachable().program().segments())
+            checker: *self,
+            proven: (comparison.program().segments())
                 .map(|segment| segment.path)
                 .collect(),
             rebuilt: &rebuilt,
@@ -53,9 +53,9 @@ impl Bench<'_> {
         match verify(rebuilt.program.clone()) {
             Err(faults) => found.extend(read.rules(&faults)),
             Ok(verified) => {
-                let is_told = !found.is_empty();
+                let is_reported = !found.is_empty();
                 found.extend(match verified.program().purpose {
-                    Purpose::Work => read.contour(&verified, is_told),
+                    Purpose::Work => read.contour(&verified, is_reported),
                     // Its cuts free nothing, and the rules keep them above the stock.
                     Purpose::AirCut { .. } => Vec::new(),
                 });
@@ -66,16 +66,20 @@ impl Bench<'_> {
     }
 
     /// Ways to stand as the program says them that are not those that were proven.
-    fn stances(&self, rebuilt: &Rebuilt, reached: Option<&Reached>) -> Vec<Diagnostic> {
-        let proven = reached.map_or_else(|| self.scene.judge.reachable(), |reached| &reached.program);
-        let judge = Judge::new(proven, self.reader, self.scene.grain);
+    fn configurations(&self, rebuilt: &Rebuilt, reached: Option<&Reached>) -> Vec<Diagnostic> {
+        let proven = reached.map_or_else(
+            || self.comparison.comparator.reachable(),
+            |reached| &reached.program,
+        );
+        let comparator = Comparator::new(proven, self.reader, self.comparison.resolution);
         let said = rebuilt.program.segments().zip(&rebuilt.origins);
         let other = said.filter_map(|(segment, &given)| {
             let op = segment.id;
-            let deed = deed(self.scene, given)?;
+            let command = self.comparison.given.effect(given)?.command()?;
             let before = segment.before;
-            let mismatches = judge.mismatches(Moment { op, before }, deed);
-            let stands = |found: &&Mismatch| matches!(found, Mismatch::Stance { .. } | Mismatch::Axis { .. });
+            let mismatches = comparator.mismatches(Moment { op, before }, command);
+            let stands =
+                |found: &&Mismatch| matches!(found, Mismatch::Configuration { .. } | Mismatch::Axis { .. });
             mismatches.iter().find(stands).map(|_| (op, given))
         });
         let other: Vec<_> = other.collect();
@@ -97,12 +101,12 @@ impl Bench<'_> {
     }
 
     fn span(&self, given: usize) -> Span {
-        place_in(self.scene.given, self.scene.sources, given).unwrap_or(self.scene.job.name_span)
+        self.comparison.span(given)
     }
 }
 
 /// Why nothing of this was looked at.
-pub(super) fn left_out(scene: &Scene<'_>, obstacle: Obstacle) -> Diagnostic {
+pub(super) fn left_out(comparison: &Comparison<'_>, obstacle: Obstacle) -> Diagnostic {
     let (given, why, label) = match obstacle {
         Obstacle::NotUnderstood(given) => (
             given,
@@ -130,7 +134,7 @@ pub(super) fn left_out(scene: &Scene<'_>, obstacle: Obstacle) -> Diagnostic {
             "of unknown speed",
         ),
     };
-    let span = place_in(scene.given, scene.sources, given).unwrap_or(scene.job.name_span);
+    let span = comparison.span(given);
     Diagnostic::new(
         Code::ChecksLeftOut,
         "what the program does to the part, and whether the machine reaches it, was not checked",
@@ -139,13 +143,6 @@ pub(super) fn left_out(scene: &Scene<'_>, obstacle: Obstacle) -> Diagnostic {
     )
     .note(why)
     .help("fix this line first, then verify again")
-}
-
-fn deed<'s>(scene: &'s Scene<'_>, given: usize) -> Option<&'s Deed> {
-    match &scene.given.statements.get(given)?.says {
-        Says::Deed(deed) => Some(deed),
-        Says::Frame(..) | Says::Setting | Says::PartBegins | Says::Unknown | Says::Unreadable { .. } => None,
-    }
 }
 
 fn and_more(diagnostic: Diagnostic, others: usize) -> Diagnostic {
@@ -158,7 +155,7 @@ fn and_more(diagnostic: Diagnostic, others: usize) -> Diagnostic {
 
 /// A program as it was read, on the bench.
 struct Read<'r> {
-    bench: Bench<'r>,
+    checker: Checker<'r>,
     rebuilt: &'r Rebuilt,
     /// What the ops of the fresh program move.
     proven: Vec<Path>,
@@ -180,12 +177,12 @@ impl Read<'_> {
 
     fn span(&self, op: OpId) -> Span {
         let given = self.rebuilt.origins.get(op.0 as usize).copied();
-        self.bench.span(given.unwrap_or(usize::MAX))
+        self.checker.span(given.unwrap_or(usize::MAX))
     }
 
     /// A diagnostic at the line of an op, with the job's operation as the other party.
     fn at(&self, code: Code, message: String, op: OpId, label: impl Into<String>) -> Diagnostic {
-        let asked = asked(self.bench.scene.job, self.program(), Some(op));
+        let asked = self.checker.comparison.asked(self.program(), Some(op));
         Diagnostic::new(code, message, self.span(op), label).and(asked, "part of this")
     }
 
@@ -207,7 +204,7 @@ impl Read<'_> {
     fn is_proven(&self, cut: &CutAt) -> bool {
         let partner = self.rebuilt.partners.get(cut.op.0 as usize).copied().flatten();
         let proven = partner.and_then(|id| self.proven.get(id.0 as usize)?.line());
-        let fresh = self.bench.scene.judge.reachable().program();
+        let fresh = self.checker.comparison.program();
         let ends = |program: &Program, line: &LinearSegment| {
             (
                 line.from.tip,
@@ -220,7 +217,7 @@ impl Read<'_> {
 
     /// The cut that goes deepest into the part.
     fn entries(&self) -> Option<Diagnostic> {
-        let bounds = verdict::bounds(self.bench.plan);
+        let bounds = verdict::bounds(self.checker.plan);
         let mut worst: Option<(CutAt, Entry)> = None;
         let mut count = 0_usize;
         for cut in self.cuts().filter(|cut| !self.is_proven(cut)) {
@@ -240,7 +237,7 @@ impl Read<'_> {
         let label = format!("deepest at x {} mm, z {} mm", show(entry.at.x), show(entry.at.z));
         let diagnostic = self
             .at(Code::ProgramCuts, message, cut.op, label)
-            .and(self.bench.scene.job.profile_span, "the part")
+            .and(self.checker.comparison.job.profile_span, "the part")
             .help("restore the line: this would cut into the part");
         Some(and_more(diagnostic, count - 1))
     }
@@ -302,9 +299,9 @@ impl Read<'_> {
 
     /// Each broken rule once, at its first place.
     fn rules(&self, faults: &[Fault]) -> Vec<Diagnostic> {
-        let mut told: Vec<(Rule, usize, Diagnostic)> = Vec::new();
+        let mut reported: Vec<(Rule, usize, Diagnostic)> = Vec::new();
         for fault in faults {
-            if let Some((_, count, _)) = told.iter_mut().find(|(rule, ..)| *rule == fault.rule) {
+            if let Some((_, count, _)) = reported.iter_mut().find(|(rule, ..)| *rule == fault.rule) {
                 *count += 1;
                 continue;
             }
@@ -314,7 +311,7 @@ impl Read<'_> {
                 Some(op) => format!("{}: {words}", op_words(self.program(), op)),
                 None => words.to_owned(),
             };
-            told.push((
+            reported.push((
                 fault.rule,
                 0,
                 self.at(Code::ProgramRule, message, op, rule_label(fault.rule)),
@@ -322,27 +319,29 @@ impl Read<'_> {
         }
         let left_out =
             "because of this, whether chips come free and the machine reaches everything was not checked";
-        let told = told.into_iter().enumerate();
-        told.map(|(index, (_, others, diagnostic))| {
-            let diagnostic = and_more(diagnostic, others).help("restore the line, or compile the job again");
-            match index {
-                0 => diagnostic.note(left_out),
-                _ => diagnostic,
-            }
-        })
-        .collect()
+        let reported = reported.into_iter().enumerate();
+        reported
+            .map(|(index, (_, others, diagnostic))| {
+                let diagnostic =
+                    and_more(diagnostic, others).help("restore the line, or compile the job again");
+                match index {
+                    0 => diagnostic.note(left_out),
+                    _ => diagnostic,
+                }
+            })
+            .collect()
     }
 
     /// Chips that are not freed, and what stays on the part.
-    fn contour(&self, verified: &VerifiedProgram, is_told: bool) -> Vec<Diagnostic> {
-        let plan = self.bench.plan;
+    fn contour(&self, verified: &VerifiedProgram, is_reported: bool) -> Vec<Diagnostic> {
+        let plan = self.checker.plan;
         let replay = verdict::replay(plan, verified);
         let findings = replay.findings.clone();
         let mut found: Vec<Diagnostic> = findings
             .iter()
-            .filter_map(|(count, finding)| self.finding(count, &finding, is_told))
+            .filter_map(|(count, finding)| self.finding(count, &finding, is_reported))
             .collect();
-        if found.is_empty() && !is_told {
+        if found.is_empty() && !is_reported {
             let report = report(replay, plan.stock, &plan.profile, timing(verified));
             let excess = verdict::scallop_excess(plan, &report);
             found.extend(excess.and_then(|(operation, limit)| {
@@ -356,7 +355,7 @@ impl Read<'_> {
                 let diagnostic = Diagnostic::new(
                     Code::ProgramCuts,
                     message,
-                    self.bench.span(usize::MAX),
+                    self.checker.span(usize::MAX),
                     "when the program ends",
                 )
                 .and(limit.span.unwrap_or(head_span), "the limit");
@@ -366,7 +365,7 @@ impl Read<'_> {
         found
     }
 
-    fn finding(&self, count: usize, finding: &Finding, is_told: bool) -> Option<Diagnostic> {
+    fn finding(&self, count: usize, finding: &Finding, is_reported: bool) -> Option<Diagnostic> {
         let site = Site::Cut {
             operation: finding.operation,
             layer: finding.layer,
@@ -388,7 +387,7 @@ impl Read<'_> {
                 format!("the blade meets it at x {} mm, z {} mm", show(at.x), show(at.z)),
             ),
             // The slits of changed cuts have been told already, and are the same.
-            CutFault::Overcut { .. } if is_told => return None,
+            CutFault::Overcut { .. } if is_reported => return None,
             CutFault::Overcut { at, depth } => (
                 format!("{place} enters the part by {} mm", show(depth.to_mm())),
                 format!("deepest at x {} mm, z {} mm", show(at.x), show(at.z)),
@@ -401,16 +400,16 @@ impl Read<'_> {
     }
 
     fn reach(&self, verified: VerifiedProgram) -> Vec<Diagnostic> {
-        match solve(verified, self.bench.model, &LEAST_CLEARANCE, Changes::InTheAir) {
+        match solve(verified, self.checker.model, &LEAST_CLEARANCE, Changes::InTheAir) {
             Ok(reached) => match reached.report.changes.first() {
                 Some(&op) => vec![self.needs_change(op)],
-                None => self.bench.stances(self.rebuilt, Some(&reached)),
+                None => self.checker.configurations(self.rebuilt, Some(&reached)),
             },
             Err(Unreached::Unreachable(unreachable)) => self.unreachable(&unreachable).into_iter().collect(),
             Err(Unreached::Rules(_) | Unreached::Motion(_)) => vec![Diagnostic::new(
                 Code::ProgramReach,
                 "whether the machine reaches everything could not be proven",
-                self.bench.span(usize::MAX),
+                self.checker.span(usize::MAX),
                 "of this program",
             )],
         }
@@ -432,10 +431,10 @@ impl Read<'_> {
 
     /// The words of the proof, at the line of the program.
     fn unreachable(&self, unreachable: &Unreachable) -> Option<Diagnostic> {
-        let scene = self.bench.scene;
-        let words = reach_verdict::explain(scene.job, unreachable)?.diagnostic;
+        let comparison = self.checker.comparison;
+        let words = reach_verdict::explain(comparison.job, unreachable)?.diagnostic;
         let op = unreachable.trouble.op();
-        let span = op.map_or_else(|| self.bench.span(usize::MAX), |op| self.span(op));
+        let span = op.map_or_else(|| self.checker.span(usize::MAX), |op| self.span(op));
         let mut diagnostic = Diagnostic::new(Code::ProgramReach, words.message, span, "with this line");
         diagnostic.secondary.push(words.primary);
         diagnostic.secondary.extend(words.secondary);

@@ -5,7 +5,7 @@
 
 use super::rebuild::Rebuilt;
 use vcutc_backend_api::ir::{ActionKind, Op, Program, Purpose};
-use vcutc_backend_api::readback::Grain;
+use vcutc_backend_api::readback::Resolution;
 use vcutc_diagnostics::number::show;
 
 /// Most kinds of changed speeds that are named.
@@ -38,7 +38,7 @@ pub(super) struct OtherSpeed {
 }
 
 /// The speeds of a rebuilt program that are not those of its job: cuts first, then in the order of the program.
-pub(super) fn other_speeds(rebuilt: &Rebuilt, fresh: &Program, grain: Grain) -> Vec<OtherSpeed> {
+pub(super) fn other_speeds(rebuilt: &Rebuilt, fresh: &Program, resolution: Resolution) -> Vec<OtherSpeed> {
     let mut found: Vec<OtherSpeed> = Vec::new();
     for (op, partner) in rebuilt.program.ops.iter().zip(&rebuilt.partners) {
         let partner = partner.and_then(|partner| fresh.op(partner));
@@ -47,7 +47,7 @@ pub(super) fn other_speeds(rebuilt: &Rebuilt, fresh: &Program, grain: Grain) -> 
         for (is, should) in is.into_iter().zip(should) {
             let Some((moved, is)) = is else { continue };
             let should = should.map(|(_, should)| should);
-            if should.is_some_and(|should| is_same(moved, is, should, grain)) {
+            if should.is_some_and(|should| is_same(moved, is, should, resolution)) {
                 continue;
             }
             let of_kind =
@@ -85,12 +85,12 @@ fn stated(program: &Program, op: &Op) -> [Option<(Moved, f64)>; 2] {
     ]
 }
 
-fn is_same(moved: Moved, is: f64, should: f64, grain: Grain) -> bool {
-    let grain = match moved {
-        Moved::Cut | Moved::Travel => grain.speed.to_mm_per_s(),
-        Moved::Turn => grain.rate.to_rad_per_s().to_degrees(),
+fn is_same(moved: Moved, is: f64, should: f64, resolution: Resolution) -> bool {
+    let resolution = match moved {
+        Moved::Cut | Moved::Travel => resolution.speed.to_mm_per_s(),
+        Moved::Turn => resolution.rate.to_rad_per_s().to_degrees(),
     };
-    (is - should).abs() <= grain + SAME_SHARE * should.abs()
+    (is - should).abs() <= resolution + SAME_SHARE * should.abs()
 }
 
 /// The lines: what was proven, what differs in speed, what was not judged, and what to do.

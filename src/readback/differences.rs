@@ -1,14 +1,14 @@
 //! The steps between two programs as diagnostics: at their places in the given program, with the place in the job that
 //! asks for something else.
 
+use super::comparison::Comparison;
+use super::edits::{Edits, Parts};
+use super::listing::{Listing, skeleton};
 use super::meaning::says_the_same;
-use super::scene::{Scene, asked, moments, place_in};
 use super::steps::Step;
-use super::told::{Told, skeleton};
-use super::way::{Parts, Way};
-use super::wording::{deed_words, kind_words, mismatch_words, op_words, pace_words};
+use super::wording::{command_words, kind_words, mismatch_words, op_words, pace_words};
 use vcutc_backend_api::ir::{Action, OpId, Registered};
-use vcutc_backend_api::readback::{Deed, FrameRole, Mismatch, Moment, Says, essence};
+use vcutc_backend_api::readback::{Command, Effect, FrameRole, Mismatch, Moment, normalized};
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic, Label};
 use vcutc_job::Machine;
@@ -33,34 +33,34 @@ impl Differences {
 }
 
 /// Puts what differs into words.
-pub(super) fn differences(scene: &Scene<'_>, way: &Way) -> Differences {
-    let mut teller = Teller {
-        scene,
-        moments: moments(scene.judge.reachable().program()),
+pub(super) fn differences(comparison: &Comparison<'_>, edits: &Edits) -> Differences {
+    let mut reporter = Reporter {
+        comparison,
+        moments: comparison.moments(),
         diagnostics: Vec::new(),
         counts: Vec::new(),
         after_effects: AfterEffects::default(),
     };
-    match way.parts {
+    match edits.parts {
         Parts::AsWritten => {}
-        Parts::Otherwise => teller.other_parts(),
+        Parts::Otherwise => reporter.other_parts(),
     }
-    for &step in &way.steps {
-        teller.step(step);
+    for &step in &edits.steps {
+        reporter.step(step);
     }
-    teller.settle();
-    if scene.given.beyond > 0 {
-        teller.too_long();
+    reporter.settle();
+    if comparison.given.beyond > 0 {
+        reporter.too_long();
     }
-    teller.count_the_rest();
+    reporter.count_the_rest();
     Differences {
-        diagnostics: teller.diagnostics,
-        counts: teller.counts,
+        diagnostics: reporter.diagnostics,
+        counts: reporter.counts,
     }
 }
 
-struct Teller<'s> {
-    scene: &'s Scene<'s>,
+struct Reporter<'s> {
+    comparison: &'s Comparison<'s>,
     moments: Vec<Moment>,
     diagnostics: Vec<Diagnostic>,
     counts: Vec<(Code, usize)>,
@@ -93,25 +93,25 @@ enum Follow {
     Cause,
 }
 
-impl Teller<'_> {
+impl Reporter<'_> {
     fn step(&mut self, step: Step) {
         match step {
             Step::Same { fresh, given } => self.same(fresh, given),
             Step::Changed { fresh, given } => {
                 let diagnostic = self.changed(fresh, given);
-                self.tell(diagnostic);
+                self.report(diagnostic);
             }
             Step::Moved { fresh, given } => {
                 let diagnostic = self.moved(fresh, given);
-                self.tell(diagnostic);
+                self.report(diagnostic);
             }
             Step::Missing { fresh, given } => {
                 let diagnostic = self.missing(fresh, given);
-                self.tell(diagnostic);
+                self.report(diagnostic);
             }
             Step::Added { given, .. } => {
                 let diagnostic = self.added(given);
-                self.tell(diagnostic);
+                self.report(diagnostic);
             }
             Step::OfPart { .. } => {}
         }
@@ -119,12 +119,12 @@ impl Teller<'_> {
 
     /// That the program is split in another way. What the parts do is compared all the same.
     fn other_parts(&mut self) {
-        let begins = |told: &Told<'_>| {
-            let statements = told.statements.iter().enumerate();
-            let begins = statements.filter(|(_, statement)| statement.says == Says::PartBegins);
+        let begins = |listing: &Listing<'_>| {
+            let statements = listing.statements.iter().enumerate();
+            let begins = statements.filter(|(_, statement)| statement.effect == Effect::PartBegins);
             begins.map(|(index, _)| index).collect::<Vec<_>>()
         };
-        let (is, should) = (begins(self.scene.given), begins(self.scene.fresh));
+        let (is, should) = (begins(self.comparison.given), begins(self.comparison.fresh));
         let parts = |count: usize| match count {
             1 => "1 part".to_owned(),
             count => format!("{count} parts"),
@@ -152,9 +152,9 @@ impl Teller<'_> {
             )
         };
         let span = self.span(is.first().copied().unwrap_or_default());
-        self.tell(
+        self.report(
             Diagnostic::new(Code::OtherSetting, message, span, label)
-                .and(self.scene.job.name_span, "the job")
+                .and(self.comparison.job.name_span, "the job")
                 .note("the effect of the parts is still compared; what each part sets up and restates does not count as a difference")
                 .help(help),
         );
@@ -162,13 +162,13 @@ impl Teller<'_> {
         self.after_effects = AfterEffects::default();
     }
 
-    fn tell(&mut self, diagnostic: Diagnostic) {
+    fn report(&mut self, diagnostic: Diagnostic) {
         let is_setting = diagnostic.code == Code::OtherSetting;
         match self.counts.iter_mut().find(|(code, _)| *code == diagnostic.code) {
             Some((_, count)) => *count += 1,
             None => self.counts.push((diagnostic.code, 1)),
         }
-        let is_shown = self.told() <= MOST_IN_FULL;
+        let is_shown = self.reported() <= MOST_IN_FULL;
         if is_setting || !self.after_effects.is_setting {
             self.settle();
             self.after_effects = AfterEffects {
@@ -183,7 +183,7 @@ impl Teller<'_> {
         }
     }
 
-    fn told(&self) -> usize {
+    fn reported(&self) -> usize {
         self.counts.iter().map(|(_, count)| count).sum()
     }
 
@@ -227,8 +227,8 @@ impl Teller<'_> {
 
     fn same(&mut self, fresh: usize, given: usize) {
         let (Some(should), Some(is)) = (
-            self.says(self.scene.fresh, fresh),
-            self.says(self.scene.given, given),
+            self.comparison.fresh.effect(fresh),
+            self.comparison.given.effect(given),
         ) else {
             return;
         };
@@ -239,10 +239,13 @@ impl Teller<'_> {
         match (self.after_effects.follow, is) {
             (Follow::Nothing, _) => {
                 let diagnostic = self.changed(fresh, given);
-                self.tell(diagnostic);
+                self.report(diagnostic);
             }
-            (Follow::Cause, Says::Unknown | Says::Unreadable { .. }) => self.after_effects.lost += 1,
-            (Follow::Cause, Says::Deed(_) | Says::Frame(..) | Says::Setting | Says::PartBegins) => {
+            (Follow::Cause, Effect::Unknown | Effect::Unreadable { .. }) => self.after_effects.lost += 1,
+            (
+                Follow::Cause,
+                Effect::Command(_) | Effect::Frame(..) | Effect::Setting | Effect::PartBegins,
+            ) => {
                 self.after_effects.count += 1;
                 if self.after_effects.first.is_none() {
                     self.after_effects.first = Some(self.after_effect(fresh, should, is));
@@ -253,23 +256,25 @@ impl Teller<'_> {
     }
 
     /// The field of the job that says what an after-effect should be, such as a feed; at least its operation.
-    fn asked_of_effect(&self, fresh: usize, is: &Says) -> Option<Span> {
-        let op = self.owner(fresh)?;
+    fn asked_of_effect(&self, fresh: usize, is: &Effect) -> Option<Span> {
+        let op = self.comparison.owner(fresh)?;
         let mismatches = self.mismatches(fresh, is);
         Some(self.speed_or(self.asked(Some(op)), op, mismatches.first()))
     }
 
-    fn after_effect(&self, fresh: usize, should: &Says, is: &Says) -> String {
-        let words = self.owner(fresh).map_or_else(
+    fn after_effect(&self, fresh: usize, should: &Effect, is: &Effect) -> String {
+        let words = self.comparison.owner(fresh).map_or_else(
             || kind_words(should).to_owned(),
-            |op| op_words(self.scene.judge.reachable().program(), op),
+            |op| op_words(self.comparison.program(), op),
         );
         let what = match (should, is, self.mismatches(fresh, is).first()) {
             (_, _, Some(mismatch)) => Some(self.in_words(mismatch)),
-            (Says::Deed(should), Says::Deed(is), None) => match (pace_words(is), pace_words(should)) {
-                (Some(is), Some(should)) if is != should => Some(format!("{is} instead of {should}")),
-                (_, _) => None,
-            },
+            (Effect::Command(should), Effect::Command(is), None) => {
+                match (pace_words(is), pace_words(should)) {
+                    (Some(is), Some(should)) if is != should => Some(format!("{is} instead of {should}")),
+                    (_, _) => None,
+                }
+            }
             (_, _, None) => None,
         };
         match what {
@@ -280,36 +285,40 @@ impl Teller<'_> {
 
     /// The op that a statement of the fresh program, or the first one behind it that says an op, says.
     fn next_owner(&self, fresh: usize) -> Option<OpId> {
-        self.scene.owners.iter().skip(fresh).find_map(|owner| *owner)
+        self.comparison.owners.iter().skip(fresh).find_map(|owner| *owner)
     }
 
     fn changed(&self, fresh: usize, given: usize) -> Diagnostic {
         let (should, is) = (
-            self.says(self.scene.fresh, fresh),
-            self.says(self.scene.given, given),
+            self.comparison.fresh.effect(fresh),
+            self.comparison.given.effect(given),
         );
         let span = self.span(given);
-        let owner = self.owner(fresh);
+        let owner = self.comparison.owner(fresh);
         let asked = self.asked(owner);
         let diagnostic = match (is, should, owner) {
-            (Some(is @ (Says::Unknown | Says::Unreadable { .. })), Some(should), _)
+            (Some(is @ (Effect::Unknown | Effect::Unreadable { .. })), Some(should), _)
                 if is_setting(should) && self.is_of_one_kind(fresh, given) =>
             {
                 self.other_setting(should, is, (fresh, given))
             }
-            (Some(Says::Unknown), _, _) => self.not_understood(given),
-            (Some(Says::Unreadable { expected }), _, _) => self.unreadable(given, expected),
-            (Some(is), Some(Says::Deed(_)), Some(op)) => {
-                let program = self.scene.judge.reachable().program();
+            (Some(Effect::Unknown), _, _) => self.not_understood(given),
+            (Some(Effect::Unreadable { expected }), _, _) => self.unreadable(given, expected),
+            (Some(is), Some(Effect::Command(_)), Some(op)) => {
+                let program = self.comparison.program();
                 let mismatches = self.mismatches(fresh, is);
                 let what = match (mismatches.first(), is) {
-                    (Some(Mismatch::Kind), Says::Deed(deed)) => format!("instead, {}", deed_words(deed)),
-                    (Some(mismatch), Says::Deed(_)) => self.in_words(mismatch),
-                    (None, Says::Deed(_)) => "differs by no more than the rounding of its numbers".to_owned(),
-                    (_, Says::Frame(..) | Says::Setting | Says::PartBegins) => {
+                    (Some(Mismatch::Kind), Effect::Command(command)) => {
+                        format!("instead, {}", command_words(command))
+                    }
+                    (Some(mismatch), Effect::Command(_)) => self.in_words(mismatch),
+                    (None, Effect::Command(_)) => {
+                        "differs by no more than the rounding of its numbers".to_owned()
+                    }
+                    (_, Effect::Frame(..) | Effect::Setting | Effect::PartBegins) => {
                         format!("{} is there instead", kind_words(is))
                     }
-                    (_, Says::Unknown | Says::Unreadable { .. }) => "not understood".to_owned(),
+                    (_, Effect::Unknown | Effect::Unreadable { .. }) => "not understood".to_owned(),
                 };
                 let message = format!("{}: {what}", op_words(program, op));
                 let more = mismatches.iter().skip(1);
@@ -321,25 +330,21 @@ impl Teller<'_> {
                 })
             }
             (Some(is), Some(should), _) => {
-                let code = match should {
-                    Says::Deed(_) => Code::ChangedOperation,
-                    Says::Frame(..)
-                    | Says::Setting
-                    | Says::PartBegins
-                    | Says::Unknown
-                    | Says::Unreadable { .. } => Code::OtherSetting,
+                let code = match should.command() {
+                    Some(_) => Code::ChangedOperation,
+                    None => Code::OtherSetting,
                 };
                 let what = match (should, is) {
-                    (Says::Deed(Deed::Straight { .. }), Says::Deed(deed)) => {
+                    (Effect::Command(Command::Straight { .. }), Effect::Command(command)) => {
                         // A point between the two ends of an op, where a wrist turns far.
-                        let program = self.scene.judge.reachable().program();
+                        let program = self.comparison.program();
                         let of = self
                             .next_owner(fresh)
                             .map_or_else(|| "a motion".to_owned(), |op| op_words(program, op));
-                        format!("at a point on the way of {of}: {}", deed_words(deed))
+                        format!("at a point on the way of {of}: {}", command_words(command))
                     }
-                    (Says::Deed(_), Says::Deed(deed)) => {
-                        format!("where a part restates what holds, {}", deed_words(deed))
+                    (Effect::Command(_), Effect::Command(command)) => {
+                        format!("where a part restates what holds, {}", command_words(command))
                     }
                     (_, _) => format!("{} differs from what the compiler writes", kind_words(should)),
                 };
@@ -351,8 +356,11 @@ impl Teller<'_> {
             }
             (None, _, _) | (_, None, _) => self.added(given),
         };
-        let texts = [self.scene.fresh.text(fresh), self.scene.given.text(given)];
-        if let [should, is] = texts.map(essence)
+        let texts = [
+            self.comparison.fresh.text(fresh),
+            self.comparison.given.text(given),
+        ];
+        if let [should, is] = texts.map(normalized)
             && should == is
         {
             return diagnostic.help("the line itself is as it should be: fix what it depends on");
@@ -360,34 +368,37 @@ impl Teller<'_> {
         diagnostic.fix(
             "restore the compiler's line, or change the job to match",
             span,
-            self.scene.fresh.text(fresh),
+            self.comparison.fresh.text(fresh),
         )
     }
 
     /// Whether two statements differ in their numbers only.
     fn is_of_one_kind(&self, fresh: usize, given: usize) -> bool {
-        skeleton(self.scene.fresh.text(fresh)) == skeleton(self.scene.given.text(given))
+        skeleton(self.comparison.fresh.text(fresh)) == skeleton(self.comparison.given.text(given))
     }
 
     /// A setting with another value, with which nobody knows what it means.
-    fn other_setting(&self, should: &Says, is: &Says, (fresh, given): (usize, usize)) -> Diagnostic {
+    fn other_setting(&self, should: &Effect, is: &Effect, (fresh, given): (usize, usize)) -> Diagnostic {
         let message = format!("{} differs from what the compiler writes", kind_words(should));
         let diagnostic = Diagnostic::new(Code::OtherSetting, message, self.span(given), "reads differently");
-        let diagnostic = match (self.field(should, (fresh, given)), &self.scene.job.machine) {
+        let diagnostic = match (self.field(should, (fresh, given)), &self.comparison.job.machine) {
             (Some(field), _) => diagnostic.and(field, OWN_VALUE),
             (None, Some(machine)) => diagnostic.and(machine.head_span, "the machine that it is written for"),
             (None, None) => diagnostic,
         };
         match is {
-            Says::Unreadable { expected } => diagnostic.note(format!("{expected} is expected")),
-            Says::Deed(_) | Says::Frame(..) | Says::Setting | Says::PartBegins | Says::Unknown => diagnostic,
+            Effect::Unreadable { expected } => diagnostic.note(format!("{expected} is expected")),
+            _ => diagnostic,
         }
     }
 
     /// The field of the job's machine that a setting follows from, where that can be told.
-    fn field(&self, should: &Says, (fresh, given): (usize, usize)) -> Option<Span> {
-        let machine = self.scene.job.machine.as_ref()?;
-        let texts = [self.scene.fresh.text(fresh), self.scene.given.text(given)];
+    fn field(&self, should: &Effect, (fresh, given): (usize, usize)) -> Option<Span> {
+        let machine = self.comparison.job.machine.as_ref()?;
+        let texts = [
+            self.comparison.fresh.text(fresh),
+            self.comparison.given.text(given),
+        ];
         let [should_be, are] = texts.map(|text| {
             let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.');
             numbers.filter_map(|number| number.parse::<f64>().ok())
@@ -407,10 +418,10 @@ impl Teller<'_> {
     }
 
     fn moved(&self, fresh: usize, given: usize) -> Diagnostic {
-        let program = self.scene.judge.reachable().program();
-        let what = match (self.owner(fresh), self.says(self.scene.fresh, fresh)) {
+        let program = self.comparison.program();
+        let what = match (self.comparison.owner(fresh), self.comparison.fresh.effect(fresh)) {
             (Some(op), _) => op_words(program, op),
-            (None, Some(says)) => kind_words(says).to_owned(),
+            (None, Some(effect)) => kind_words(effect).to_owned(),
             (None, None) => "a statement".to_owned(),
         };
         let diagnostic = Diagnostic::new(
@@ -419,10 +430,13 @@ impl Teller<'_> {
             self.span(given),
             "the compiler writes this elsewhere",
         )
-        .and(self.asked(self.owner(fresh)), "the order follows from this");
+        .and(
+            self.asked(self.comparison.owner(fresh)),
+            "the order follows from this",
+        );
         let diagnostic = match fresh.checked_sub(1) {
             Some(before) => {
-                let before = quote(self.scene.fresh.text(before));
+                let before = quote(self.comparison.fresh.text(before));
                 diagnostic.note(format!("it belongs after `{before}`"))
             }
             None => diagnostic.note("it belongs first"),
@@ -431,16 +445,16 @@ impl Teller<'_> {
     }
 
     fn missing(&self, fresh: usize, given: usize) -> Diagnostic {
-        let text = quote(self.scene.fresh.text(fresh));
-        let program = self.scene.judge.reachable().program();
-        let owner = self.owner(fresh);
-        let (code, what) = match (owner, self.says(self.scene.fresh, fresh)) {
+        let text = quote(self.comparison.fresh.text(fresh));
+        let program = self.comparison.program();
+        let owner = self.comparison.owner(fresh);
+        let (code, what) = match (owner, self.comparison.fresh.effect(fresh)) {
             (Some(op), _) => (Code::MissingOperation, op_words(program, op)),
-            (None, Some(Says::Deed(deed))) => (Code::MissingOperation, deed_words(deed)),
-            (None, Some(says)) => (Code::OtherSetting, kind_words(says).to_owned()),
+            (None, Some(Effect::Command(command))) => (Code::MissingOperation, command_words(command)),
+            (None, Some(effect)) => (Code::OtherSetting, kind_words(effect).to_owned()),
             (None, None) => (Code::OtherSetting, "a statement".to_owned()),
         };
-        let (span, label) = match self.scene.given.statements.get(given) {
+        let (span, label) = match self.comparison.given.statements.get(given) {
             Some(_) => (self.span(given), "it belongs before this"),
             None => (self.span(given), "the program ends here"),
         };
@@ -454,20 +468,20 @@ impl Teller<'_> {
 
     fn added(&self, given: usize) -> Diagnostic {
         let span = self.span(given);
-        match self.says(self.scene.given, given) {
-            Some(Says::Unknown) => self.not_understood(given),
-            Some(Says::Unreadable { expected }) => self.unreadable(given, expected),
-            Some(Says::Deed(deed)) => Diagnostic::new(
+        match self.comparison.given.effect(given) {
+            Some(Effect::Unknown) => self.not_understood(given),
+            Some(Effect::Unreadable { expected }) => self.unreadable(given, expected),
+            Some(Effect::Command(command)) => Diagnostic::new(
                 Code::AddedOperation,
-                format!("the job does not ask for this: {}", deed_words(deed)),
+                format!("the job does not ask for this: {}", command_words(command)),
                 span,
                 "added to the program",
             )
-            .and(self.scene.job.name_span, "the job")
+            .and(self.comparison.job.name_span, "the job")
             .help("delete this line, or change the job to match"),
-            Some(says) => Diagnostic::new(
+            Some(effect) => Diagnostic::new(
                 Code::OtherSetting,
-                format!("{} that the compiler does not write", kind_words(says)),
+                format!("{} that the compiler does not write", kind_words(effect)),
                 span,
                 "added to the program",
             )
@@ -481,7 +495,7 @@ impl Teller<'_> {
             Code::UnknownStatement,
             format!(
                 "the effect of `{}` is unknown",
-                quote(self.scene.given.text(given))
+                quote(self.comparison.given.text(given))
             ),
             self.span(given),
             "not a statement that the compiler writes or knows",
@@ -500,8 +514,11 @@ impl Teller<'_> {
     }
 
     fn too_long(&mut self) {
-        let given = self.scene.given.statements.len().saturating_sub(1);
-        let (held, beyond) = (self.scene.given.statements.len(), self.scene.given.beyond);
+        let given = self.comparison.given.statements.len().saturating_sub(1);
+        let (held, beyond) = (
+            self.comparison.given.statements.len(),
+            self.comparison.given.beyond,
+        );
         let diagnostic = Diagnostic::new(
             Code::AddedOperation,
             format!("the program continues for {beyond} statements that no program of this job has"),
@@ -509,12 +526,12 @@ impl Teller<'_> {
             format!("compared up to here, {held} statements"),
         )
         .help("give the files of one program of this job only");
-        self.tell(diagnostic);
+        self.report(diagnostic);
     }
 
     /// Says how many differences are not told one by one.
     fn count_the_rest(&mut self) {
-        let more = self.told().saturating_sub(MOST_IN_FULL);
+        let more = self.reported().saturating_sub(MOST_IN_FULL);
         if more == 0 {
             return;
         }
@@ -531,46 +548,40 @@ impl Teller<'_> {
         }
     }
 
-    fn says<'t>(&self, told: &'t Told<'_>, index: usize) -> Option<&'t Says> {
-        told.statements.get(index).map(|statement| &statement.says)
-    }
-
-    fn owner(&self, fresh: usize) -> Option<OpId> {
-        self.scene.owners.get(fresh).copied().flatten()
-    }
-
     /// In what a statement is not the op that a fresh one says.
-    fn mismatches(&self, fresh: usize, is: &Says) -> Vec<Mismatch> {
-        let (Some(op), Says::Deed(deed)) = (self.owner(fresh), is) else {
+    fn mismatches(&self, fresh: usize, is: &Effect) -> Vec<Mismatch> {
+        let (Some(op), Effect::Command(command)) = (self.comparison.owner(fresh), is) else {
             return Vec::new();
         };
         let moment = self.moments.get(op.0 as usize);
-        moment.map_or_else(Vec::new, |moment| self.scene.judge.mismatches(*moment, deed))
+        moment.map_or_else(Vec::new, |moment| {
+            self.comparison.comparator.mismatches(*moment, command)
+        })
     }
 
     fn in_words(&self, mismatch: &Mismatch) -> String {
-        mismatch_words(mismatch, self.scene.judge.reachable().program().cell.as_ref())
+        mismatch_words(mismatch, self.comparison.program().cell.as_ref())
     }
 
     /// Where a statement of the given program stands; behind the last one where there is none.
     fn span(&self, given: usize) -> Span {
-        place_in(self.scene.given, self.scene.sources, given).unwrap_or(self.scene.job.name_span)
+        self.comparison.span(given)
     }
 
     /// Where in the job an op is asked for.
     fn asked(&self, op: Option<OpId>) -> Span {
-        asked(self.scene.job, self.scene.judge.reachable().program(), op)
+        self.comparison.asked(self.comparison.program(), op)
     }
 
     /// Where the job says a speed, if that is what differs.
     fn speed_or(&self, asked: Span, op: OpId, mismatch: Option<&Mismatch>) -> Span {
-        let program = self.scene.judge.reachable().program();
-        let machine = self.scene.job.machine.as_ref();
+        let program = self.comparison.program();
+        let machine = self.comparison.job.machine.as_ref();
         let Some(found) = program.op(op) else {
             return asked;
         };
         let operation = found.site.operation();
-        let operation = operation.and_then(|id| self.scene.job.operations.get(usize::from(id.0)));
+        let operation = operation.and_then(|id| self.comparison.job.operations.get(usize::from(id.0)));
         let setup = operation.map(|operation| operation.setup());
         let span = match (mismatch, found.action) {
             (Some(Mismatch::Feed { .. }), Action::Cut { .. }) => setup.and_then(|setup| setup.cut_feed.span),
@@ -590,24 +601,19 @@ impl Teller<'_> {
         span.unwrap_or(asked)
     }
 
-    fn frame_span(&self, says: &Says) -> Option<Span> {
-        let of = |machine: &Machine| match says {
-            Says::Frame(FrameRole::Tool, _) => machine.tool.span,
-            Says::Frame(FrameRole::Base, _) => machine.base.span,
-            Says::Deed(_) | Says::Setting | Says::PartBegins | Says::Unknown | Says::Unreadable { .. } => {
-                None
-            }
+    fn frame_span(&self, effect: &Effect) -> Option<Span> {
+        let of = |machine: &Machine| match effect {
+            Effect::Frame(FrameRole::Tool, _) => machine.tool.span,
+            Effect::Frame(FrameRole::Base, _) => machine.base.span,
+            _ => None,
         };
-        self.scene.job.machine.as_ref().and_then(of)
+        self.comparison.job.machine.as_ref().and_then(of)
     }
 }
 
 /// Whether a statement sets something for those behind it.
-const fn is_setting(says: &Says) -> bool {
-    match says {
-        Says::Frame(..) | Says::Setting => true,
-        Says::Deed(_) | Says::PartBegins | Says::Unknown | Says::Unreadable { .. } => false,
-    }
+const fn is_setting(effect: &Effect) -> bool {
+    matches!(effect, Effect::Frame(..) | Effect::Setting)
 }
 
 /// Masses nearer than this are the same, in kg.

@@ -6,42 +6,42 @@
 //!   and their statements aligned; every difference that is not one of layout or comments is told at its place in the
 //!   files, with the place in the job that asks for something else.
 //!
-//! Nothing here knows a dialect: a reader tells statements, and texts are compared by their essence. A difference in the
-//! essence is always told, also where a number differs by less than its rounding.
+//! Nothing here knows a dialect: a reader tells statements, and texts are compared by their normalized text. A difference in the
+//! normalized text is always told, also where a number differs by less than its rounding.
 
 mod absent;
 mod checks;
 mod closing;
+mod comparison;
 mod differences;
+mod edits;
+mod listing;
 mod meaning;
 mod rebuild;
-mod scene;
 mod split;
 mod steps;
-mod told;
-mod way;
 mod wording;
 mod written;
 
-pub use written::{Astray, Written};
+pub use written::{RoundTripError, Written};
 
 use absent::{absent, not_given};
-use checks::{Bench, left_out};
+use checks::{Checker, left_out};
 use closing::{OtherSpeed, other_speeds};
+use comparison::Comparison;
 use differences::differences;
+use edits::edits;
+use listing::Listing;
 use rebuild::rebuild;
-use scene::Scene;
 use steps::Step;
-use told::Told;
 use vcutc_backend_api::ir::{Cell, OpId};
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_backend_api::readback::{Judge, Place, ProgramFile, Reader, Sources};
+use vcutc_backend_api::readback::{Comparator, Place, ProgramFile, Reader, Sources};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{FileId, SourceMap};
 use vcutc_job::CheckedJob;
 use vcutc_job::PlannedJob;
 use vcutc_motion::solve::{Reached, rig};
-use way::way;
 
 /// A job's program as it is written now, and who can read it.
 #[derive(Clone, Copy)]
@@ -98,7 +98,7 @@ const STATEMENTS_MORE: usize = 100_000;
 /// A fresh program, read and ready to be compared with others.
 pub struct Reference<'a> {
     fresh: Fresh<'a>,
-    told: Told<'a>,
+    listing: Listing<'a>,
     /// For every statement the op that it says.
     owners: Vec<Option<OpId>>,
 }
@@ -107,9 +107,13 @@ impl<'a> Reference<'a> {
     /// Reads the fresh program.
     #[must_use]
     pub fn new(fresh: Fresh<'a>) -> Self {
-        let told = read(fresh, &fresh.written.files, usize::MAX);
-        let owners = told.owners(fresh.places, fresh.program.program());
-        Self { fresh, told, owners }
+        let listing = read(fresh, &fresh.written.files, usize::MAX);
+        let owners = listing.owners(fresh.places, fresh.program.program());
+        Self {
+            fresh,
+            listing,
+            owners,
+        }
     }
 
     /// Holds the files of a program against the fresh one. `shown` are the names of the files as people see them; the files
@@ -131,14 +135,14 @@ impl<'a> Reference<'a> {
             };
         }
         let is = self.read(given);
-        let scene = self.scene(&is, &ids);
-        let way = way(&scene);
-        let found = differences(&scene, &way);
+        let comparison = self.comparison(&is, &ids);
+        let edits = edits(&comparison);
+        let found = differences(&comparison, &edits);
         let count = found.count();
         let mut lines = self.lines(&is, count, given);
         let mut diagnostics = found.diagnostics;
         if count > 0 {
-            match self.checked(&scene, &way.steps) {
+            match self.checked(&comparison, &edits.steps) {
                 Checked::Sound(others) => {
                     lines.extend(closing::lines(self.fresh.program.program().purpose, &others));
                 }
@@ -153,19 +157,19 @@ impl<'a> Reference<'a> {
     #[must_use]
     pub fn differences(&self, given: &[ProgramFile]) -> usize {
         let is = self.read(given);
-        let scene = self.scene(&is, &[]);
-        differences(&scene, &way(&scene)).count()
+        let comparison = self.comparison(&is, &[]);
+        differences(&comparison, &edits(&comparison)).count()
     }
 
-    fn read<'f>(&self, files: &'f [ProgramFile]) -> Told<'f>
+    fn read<'f>(&self, files: &'f [ProgramFile]) -> Listing<'f>
     where
         'a: 'f,
     {
-        let most = self.told.statements.len() * STATEMENTS_TIMES + STATEMENTS_MORE;
+        let most = self.listing.statements.len() * STATEMENTS_TIMES + STATEMENTS_MORE;
         read(self.fresh, files, most)
     }
 
-    fn scene<'s>(&'s self, given: &'s Told<'s>, sources: &'s [FileId]) -> Scene<'s> {
+    fn comparison<'s>(&'s self, given: &'s Listing<'s>, sources: &'s [FileId]) -> Comparison<'s> {
         let Fresh {
             job,
             program,
@@ -173,23 +177,23 @@ impl<'a> Reference<'a> {
             reader,
             ..
         } = self.fresh;
-        let grain = reader.grain(&written.options);
-        Scene {
+        let resolution = reader.resolution(&written.options);
+        Comparison {
             job,
-            judge: Judge::new(program, reader, grain),
-            grain,
-            fresh: &self.told,
+            comparator: Comparator::new(program, reader, resolution),
+            resolution,
+            fresh: &self.listing,
             owners: &self.owners,
             given,
             sources,
         }
     }
 
-    fn lines(&self, is: &Told<'_>, differences: usize, given: &[ProgramFile]) -> Vec<String> {
+    fn lines(&self, is: &Listing<'_>, differences: usize, given: &[ProgramFile]) -> Vec<String> {
         let read = format!(
             "{} statements read; the compiler writes {}",
             is.statements.len() + is.beyond,
-            self.told.statements.len()
+            self.listing.statements.len()
         );
         let result = match differences {
             0 if is_byte_for_byte(&self.fresh.written.files, given) => {
@@ -203,23 +207,23 @@ impl<'a> Reference<'a> {
     }
 
     /// What was found of what a program that differs would do.
-    fn checked(&self, scene: &Scene<'_>, steps: &[Step]) -> Checked {
+    fn checked(&self, comparison: &Comparison<'_>, steps: &[Step]) -> Checked {
         let Some(machine) = &self.fresh.job.machine else {
             return Checked::NotMade;
         };
         let rig = rig(&machine.model, self.fresh.cell);
-        let rebuilt = match rebuild(scene, steps, &rig) {
+        let rebuilt = match rebuild(comparison, steps, &rig) {
             Ok(rebuilt) => rebuilt,
-            Err(obstacle) => return Checked::Wrong(vec![left_out(scene, obstacle)]),
+            Err(obstacle) => return Checked::Wrong(vec![left_out(comparison, obstacle)]),
         };
-        let others = other_speeds(&rebuilt, self.fresh.program.program(), scene.grain);
-        let bench = Bench {
-            scene,
+        let others = other_speeds(&rebuilt, self.fresh.program.program(), comparison.resolution);
+        let checker = Checker {
+            comparison,
             plan: self.fresh.plan,
             model: &machine.model,
             reader: self.fresh.reader,
         };
-        let wrong = bench.findings(rebuilt);
+        let wrong = checker.findings(rebuilt);
         if wrong.is_empty() {
             Checked::Sound(others)
         } else {
@@ -251,13 +255,13 @@ fn in_order(written: &[ProgramFile], given: &[ProgramFile]) -> Vec<usize> {
     order
 }
 
-fn read<'f>(fresh: Fresh<'f>, files: &'f [ProgramFile], most: usize) -> Told<'f> {
+fn read<'f>(fresh: Fresh<'f>, files: &'f [ProgramFile], most: usize) -> Listing<'f> {
     let sources = Sources {
         files,
         cell: fresh.cell,
         options: &fresh.written.options,
     };
-    Told::read(fresh.reader, sources, most)
+    Listing::read(fresh.reader, sources, most)
 }
 
 fn is_byte_for_byte(fresh: &[ProgramFile], given: &[ProgramFile]) -> bool {

@@ -4,15 +4,17 @@
 //! of op that they act like: a straight move along y through the stock with the blade held still is a cut, one that only
 //! turns the blade is a turn, any other goes through the air, and must prove that it does.
 
+use super::comparison::Comparison;
 use super::meaning::says_the_same;
-use super::scene::{Scene, moments};
 use super::steps::Step;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::{
     Action, AxisKind, AxisValues, Cell, FeedId, Flank, Op, OpId, OrientationId, Program, RateId, Ready, Site,
     Switch,
 };
-use vcutc_backend_api::readback::{Deed, FrameRole, Held, Mismatch, Moment, Pace, Says, Target, rotary_way};
+use vcutc_backend_api::readback::{
+    Command, Effect, FrameRole, Held, Mismatch, Moment, Pace, Target, rotary_way,
+};
 use vcutc_backend_api::state::{Generator, State, TipPose};
 use vcutc_backend_api::swivel::Apart;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Speed};
@@ -49,13 +51,17 @@ const MOST_KINDS: usize = 4096;
 ///
 /// # Errors
 /// The first statement that stands in the way.
-pub(super) fn rebuild(scene: &Scene<'_>, steps: &[Step], rig: &Rig<'_>) -> Result<Rebuilt, Obstacle> {
-    let fresh = scene.judge.reachable().program();
+pub(super) fn rebuild(
+    comparison: &Comparison<'_>,
+    steps: &[Step],
+    rig: &Rig<'_>,
+) -> Result<Rebuilt, Obstacle> {
+    let fresh = comparison.program();
     let mut differs = None;
     let mut builder = Builder {
-        scene,
+        comparison,
         rig,
-        moments: moments(fresh),
+        moments: comparison.moments(),
         program: Program {
             ops: Vec::with_capacity(fresh.ops.len()),
             ..fresh.clone()
@@ -84,9 +90,13 @@ pub(super) fn rebuild(scene: &Scene<'_>, steps: &[Step], rig: &Rig<'_>) -> Resul
             }
             Step::Changed { fresh, given } => {
                 let done = builder.statement(Some((fresh, Order::Kept)), given);
-                let should = scene.fresh.statements.get(fresh).map(|should| &should.says);
+                let should = comparison
+                    .fresh
+                    .statements
+                    .get(fresh)
+                    .map(|should| &should.effect);
                 done.map_err(|obstacle| match (obstacle, should) {
-                    (Obstacle::NotUnderstood(given), Some(Says::Frame(..) | Says::Setting)) => {
+                    (Obstacle::NotUnderstood(given), Some(Effect::Frame(..) | Effect::Setting)) => {
                         Obstacle::Depends(given)
                     }
                     (obstacle, _) => obstacle,
@@ -113,7 +123,7 @@ enum Order {
 }
 
 struct Builder<'b> {
-    scene: &'b Scene<'b>,
+    comparison: &'b Comparison<'b>,
     rig: &'b Rig<'b>,
     /// The moments before the ops of the fresh program.
     moments: Vec<Moment>,
@@ -126,7 +136,7 @@ struct Builder<'b> {
     site: Site,
 }
 
-/// The op in whose place a deed stands, and what differs.
+/// The op in whose place a command stands, and what differs.
 #[derive(Clone)]
 struct Partner {
     moment: Moment,
@@ -142,79 +152,76 @@ impl Partner {
 
 impl Builder<'_> {
     fn statement(&mut self, partner: Option<(usize, Order)>, given: usize) -> Result<(), Obstacle> {
-        let Some(is) = self.scene.given.statements.get(given) else {
+        let Some(is) = self.comparison.given.effect(given) else {
             return Ok(());
         };
-        let should = partner.and_then(|(fresh, _)| self.scene.fresh.statements.get(fresh));
-        let reads_as_it_should = should.is_some_and(|should| says_the_same(&should.says, &is.says));
-        match &is.says {
-            Says::Setting | Says::PartBegins => Ok(()),
-            Says::Frame(role, setting) => {
+        let should = partner.and_then(|(fresh, _)| self.comparison.fresh.effect(fresh));
+        let reads_as_it_should = should.is_some_and(|should| says_the_same(should, is));
+        match is {
+            Effect::Setting | Effect::PartBegins => Ok(()),
+            Effect::Frame(role, setting) => {
                 let cell = self.program.cell.as_ref();
                 let job = cell.map(|cell| match role {
                     FrameRole::Tool => cell.tool,
                     FrameRole::Base => cell.base,
                 });
-                if job.is_some_and(|job| self.scene.judge.is_frame(setting, &job)) {
+                if job.is_some_and(|job| self.comparison.comparator.is_frame(setting, &job)) {
                     Ok(())
                 } else {
                     Err(Obstacle::OtherFrame(given))
                 }
             }
-            Says::Deed(deed) => {
-                let owner = partner.and_then(|(fresh, _)| self.scene.owners.get(fresh).copied().flatten());
+            Effect::Command(command) => {
+                let owner = partner.and_then(|(fresh, _)| self.comparison.owner(fresh));
                 let order = partner.map_or(Order::Lost, |(_, order)| order);
                 // A restatement, or a point on the way of an op.
                 if owner.is_none() && reads_as_it_should && order == Order::Kept {
                     return Ok(());
                 }
-                let partner = owner.and_then(|id| self.partner(id, deed));
-                self.deed(deed, partner, given)
+                let partner = owner.and_then(|id| self.partner(id, command));
+                self.command(command, partner, given)
             }
-            Says::Unknown | Says::Unreadable { .. } => Err(Obstacle::NotUnderstood(given)),
+            Effect::Unknown | Effect::Unreadable { .. } => Err(Obstacle::NotUnderstood(given)),
         }
     }
 
     /// What a part restates is no op.
     fn of_part(&mut self, given: usize) -> Result<(), Obstacle> {
-        match self.scene.given.statements.get(given).map(|is| &is.says) {
-            Some(Says::Deed(_)) => Ok(()),
-            Some(
-                Says::Frame(..) | Says::Setting | Says::PartBegins | Says::Unknown | Says::Unreadable { .. },
-            )
-            | None => self.statement(None, given),
+        match self.comparison.given.effect(given) {
+            Some(Effect::Command(_)) => Ok(()),
+            _ => self.statement(None, given),
         }
     }
 
-    fn partner(&self, id: OpId, deed: &Deed) -> Option<Partner> {
-        let op = *self.scene.judge.reachable().program().op(id)?;
+    fn partner(&self, id: OpId, command: &Command) -> Option<Partner> {
+        let op = *self.comparison.program().op(id)?;
         let moment = *self.moments.get(id.0 as usize)?;
-        let differs = self.scene.judge.mismatches(moment, deed);
+        let differs = self.comparison.comparator.mismatches(moment, command);
         Some(Partner { moment, op, differs })
     }
 
-    fn deed(&mut self, deed: &Deed, partner: Option<Partner>, given: usize) -> Result<(), Obstacle> {
+    fn command(&mut self, command: &Command, partner: Option<Partner>, given: usize) -> Result<(), Obstacle> {
         let (id, site) = match &partner {
             Some(partner) => (Some(partner.moment.op), partner.op.site),
             None => (None, self.site),
         };
         // One that does another kind of thing is no model for what it does.
         let partner = partner.filter(|partner| !partner.differs_in(|found| matches!(found, Mismatch::Kind)));
-        let action = match deed {
-            Deed::Axes(axes) => Some(self.axes(axes, partner.as_ref(), given)?),
-            Deed::AxesToPose(target) => {
+        let action = match command {
+            Command::Axes(axes) => Some(self.axes(axes, partner.as_ref(), given)?),
+            Command::AxesToPose(target) => {
                 let TipPose { tip, orientation } = self.pose(target, partner.as_ref(), given)?;
                 Some(Action::AxisTravel { to: tip, orientation })
             }
-            Deed::Straight { to, pace, .. } => {
+            Command::Straight { to, pace, .. } => {
                 let pose = self.pose(to, partner.as_ref(), given)?;
                 let speeds = self.speeds(pose, to, *pace, partner.as_ref(), given)?;
                 self.note_axes(to);
                 Some(self.straight(pose, speeds, partner.as_ref()))
             }
-            Deed::Switch { output, state } => self.switch(*output, *state),
-            Deed::AwaitInput(input) => self.await_input(*input),
-            Deed::Wait(time) => self.wait(*time, partner.as_ref()),
+            Command::Switch { output, state } => self.switch(*output, *state),
+            Command::AwaitInput(input) => self.await_input(*input),
+            Command::Wait(time) => self.wait(*time, partner.as_ref()),
         };
         if let Some(action) = action {
             self.site = site;
@@ -257,10 +264,15 @@ impl Builder<'_> {
     }
 
     fn is_home(&self, axes: &AxisValues) -> bool {
-        let ops = &self.scene.judge.reachable().program().ops;
+        let ops = &self.comparison.program().ops;
         let home = ops.iter().position(|op| op.action == Action::Home);
         let home = home.and_then(|home| self.moments.get(home));
-        home.is_some_and(|home| self.scene.judge.mismatches(*home, &Deed::Axes(*axes)).is_empty())
+        home.is_some_and(|home| {
+            self.comparison
+                .comparator
+                .mismatches(*home, &Command::Axes(*axes))
+                .is_empty()
+        })
     }
 
     /// The pose of a target: exact where it is that of its partner within what is printed.
@@ -297,35 +309,25 @@ impl Builder<'_> {
 
     /// The entry of the table that is this orientation within what is printed, or a new one.
     fn orientation(&mut self, orientation: Orientation, given: usize) -> Result<OrientationId, Obstacle> {
-        let grain = self.scene.grain.attitude.to_rad() + SAME_ATTITUDE;
-        let known = &mut self.program.orientations;
-        let found = known
-            .iter()
-            .position(|known| known.angle_to(orientation).to_rad() <= grain);
-        let index = match found {
-            Some(index) => index,
-            None if known.len() < MOST_KINDS => {
-                known.push(orientation);
-                known.len() - 1
-            }
-            None => return Err(Obstacle::TooManyKinds(given)),
-        };
-        u32::try_from(index)
-            .map(OrientationId)
-            .map_err(|_| Obstacle::TooManyKinds(given))
+        let resolution = self.comparison.resolution.attitude.to_rad() + SAME_ATTITUDE;
+        let is_known = |known: &Orientation| known.angle_to(orientation).to_rad() <= resolution;
+        number(&mut self.program.orientations, orientation, is_known)
+            .map(|number| OrientationId(u32::from(number)))
+            .ok_or(Obstacle::TooManyKinds(given))
     }
 
     fn feed(&mut self, feed: Speed, given: usize) -> Result<FeedId, Obstacle> {
-        let grain = self.scene.grain.speed.to_mm_per_s() + SAME_SPEED;
-        let is_known = |known: &Speed| (known.to_mm_per_s() - feed.to_mm_per_s()).abs() <= grain;
+        let resolution = self.comparison.resolution.speed.to_mm_per_s() + SAME_SPEED;
+        let is_known = |known: &Speed| (known.to_mm_per_s() - feed.to_mm_per_s()).abs() <= resolution;
         number(&mut self.program.feeds, feed, is_known)
             .map(FeedId)
             .ok_or(Obstacle::TooManyKinds(given))
     }
 
     fn rate(&mut self, rate: AngularSpeed, given: usize) -> Result<RateId, Obstacle> {
-        let grain = self.scene.grain.rate.to_rad_per_s() + SAME_SPEED;
-        let is_known = |known: &AngularSpeed| (known.to_rad_per_s() - rate.to_rad_per_s()).abs() <= grain;
+        let resolution = self.comparison.resolution.rate.to_rad_per_s() + SAME_SPEED;
+        let is_known =
+            |known: &AngularSpeed| (known.to_rad_per_s() - rate.to_rad_per_s()).abs() <= resolution;
         number(&mut self.program.rates, rate, is_known)
             .map(RateId)
             .ok_or(Obstacle::TooManyKinds(given))
@@ -518,7 +520,7 @@ impl Builder<'_> {
         let cell = self.program.cell.as_ref()?;
         let is_enough = match cell.ready {
             Ready::Input(_) => false,
-            Ready::After(least) => time + self.scene.grain.time >= least,
+            Ready::After(least) => time + self.comparison.resolution.time >= least,
         };
         if is_enough && self.is_starting() {
             return Some(Action::AwaitReady);

@@ -2,39 +2,40 @@
 //! options.
 //!
 //! Every part sets everything up again and restates where the machine stands, and numbers may be written otherwise in it
-//! (RAPID's quaternions begin anew with either sign). Deeds are therefore paired by what they say, and what belongs to a
+//! (RAPID's quaternions begin anew with either sign). Commands are therefore paired by what they say, and what belongs to a
 //! part's head or end alone is left aside: it says nothing new.
 
+use super::comparison::Comparison;
+use super::listing::{Listing, Numbering};
 use super::meaning::meaning;
-use super::scene::{Scene, moments};
 use super::steps::{Step, steps_between};
-use super::told::{Names, Told};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::ir::OpId;
-use vcutc_backend_api::readback::{Deed, Says, essence};
+use vcutc_backend_api::readback::{Command, Effect, normalized};
 use vcutc_diff::align::{Pair, common};
 
 /// Whether parts begin elsewhere, judged by what texts of the two programs have in common.
-pub(super) fn is_split_otherwise(scene: &Scene<'_>, pairs: &[Pair]) -> bool {
-    let begins = |told: &Told<'_>, index: usize| {
-        let statement = told.statements.get(index);
-        statement.is_some_and(|statement| statement.says == Says::PartBegins)
+pub(super) fn is_split_otherwise(comparison: &Comparison<'_>, pairs: &[Pair]) -> bool {
+    let begins = |listing: &Listing<'_>, index: usize| listing.effect(index) == Some(&Effect::PartBegins);
+    let all = |listing: &Listing<'_>| {
+        (0..listing.statements.len())
+            .filter(|&at| begins(listing, at))
+            .count()
     };
-    let all = |told: &Told<'_>| (0..told.statements.len()).filter(|&at| begins(told, at)).count();
     let paired = pairs
         .iter()
-        .filter(|&&(fresh, given)| begins(scene.fresh, fresh) && begins(scene.given, given))
+        .filter(|&&(fresh, given)| begins(comparison.fresh, fresh) && begins(comparison.given, given))
         .count();
-    all(scene.fresh) != paired || all(scene.given) != paired
+    all(comparison.fresh) != paired || all(comparison.given) != paired
 }
 
 /// The steps between two programs that are split in different ways.
-pub(super) fn steps(scene: &Scene<'_>) -> Vec<Step> {
-    let mut names = Names::default();
-    let keys = [scene.fresh, scene.given].map(|told| keys(told, &mut names));
+pub(super) fn steps(comparison: &Comparison<'_>) -> Vec<Step> {
+    let mut names = Numbering::default();
+    let keys = [comparison.fresh, comparison.given].map(|listing| keys(listing, &mut names));
     let [fresh_keys, given_keys] = &keys;
     let pairs = common(fresh_keys, given_keys);
-    let aside = Aside::of(scene, &keys, &pairs);
+    let aside = Aside::of(comparison, &keys, &pairs);
     let [in_fresh, in_given] = [&aside.fresh, &aside.given].map(|aside| {
         let kept = aside
             .iter()
@@ -48,10 +49,10 @@ pub(super) fn steps(scene: &Scene<'_>) -> Vec<Step> {
             .filter_map(|&place| all.get(place).copied())
             .collect()
     };
-    let mut names = Names::default();
+    let mut names = Numbering::default();
     let skeletons = [
-        scene.fresh.skeletons(&mut names),
-        scene.given.skeletons(&mut names),
+        comparison.fresh.skeletons(&mut names),
+        comparison.given.skeletons(&mut names),
     ];
     let [fresh_kinds, given_kinds] = &skeletons;
     let between = steps_between(
@@ -71,16 +72,13 @@ pub(super) fn steps(scene: &Scene<'_>) -> Vec<Step> {
     steps
 }
 
-/// Deeds by what they say, other statements by their texts, in which names of the program's files are all the same.
-fn keys(told: &Told<'_>, names: &mut Names) -> Vec<u32> {
-    let key = |index: usize| match told.statements.get(index).map(|statement| &statement.says) {
-        Some(Says::Deed(deed)) => meaning(deed),
-        Some(
-            Says::Frame(..) | Says::Setting | Says::PartBegins | Says::Unknown | Says::Unreadable { .. },
-        )
-        | None => format!("text {}", essence(told.text(index))),
+/// Commands by what they say, other statements by their texts, in which names of the program's files are all the same.
+fn keys(listing: &Listing<'_>, names: &mut Numbering) -> Vec<u32> {
+    let key = |index: usize| match listing.effect(index).and_then(Effect::command) {
+        Some(command) => meaning(command),
+        None => format!("text {}", normalized(listing.text(index))),
     };
-    (0..told.statements.len())
+    (0..listing.statements.len())
         .map(|index| names.number(key(index)))
         .collect()
 }
@@ -99,20 +97,20 @@ struct Aside {
 }
 
 impl Aside {
-    fn of(scene: &Scene<'_>, keys: &[Vec<u32>; 2], pairs: &[Pair]) -> Self {
+    fn of(comparison: &Comparison<'_>, keys: &[Vec<u32>; 2], pairs: &[Pair]) -> Self {
         let [fresh_keys, given_keys] = keys;
         let fresh_known: BTreeSet<u32> = fresh_keys.iter().copied().collect();
         let given_known: BTreeSet<u32> = given_keys.iter().copied().collect();
         let to_fresh: BTreeMap<usize, usize> = pairs.iter().map(|&(fresh, given)| (given, fresh)).collect();
         let paired: BTreeSet<usize> = pairs.iter().map(|&(fresh, _)| fresh).collect();
-        let restated = restated(scene, &to_fresh);
-        let of_part = |told: &Told<'_>, index: usize, known: bool, restates: bool| {
-            let is_of_part = match told.statements.get(index).map(|statement| &statement.says) {
-                Some(Says::PartBegins) => true,
-                Some(Says::Setting) => known || names_file(told, index),
-                Some(Says::Frame(..)) => known,
-                Some(Says::Deed(_)) => restates,
-                Some(Says::Unknown | Says::Unreadable { .. }) | None => false,
+        let restated = restated(comparison, &to_fresh);
+        let of_part = |listing: &Listing<'_>, index: usize, known: bool, restates: bool| {
+            let is_of_part = match listing.effect(index) {
+                Some(Effect::PartBegins) => true,
+                Some(Effect::Setting) => known || names_file(listing, index),
+                Some(Effect::Frame(..)) => known,
+                Some(Effect::Command(_)) => restates,
+                Some(Effect::Unknown | Effect::Unreadable { .. }) | None => false,
             };
             if is_of_part { Part::Frame } else { Part::Content }
         };
@@ -121,10 +119,10 @@ impl Aside {
                 return Part::Content;
             }
             of_part(
-                scene.fresh,
+                comparison.fresh,
                 index,
                 given_known.contains(key),
-                is_restatement_of_ours(scene, index),
+                is_restatement_of_ours(comparison, index),
             )
         });
         let given = given_keys.iter().enumerate().map(|(index, key)| {
@@ -132,7 +130,7 @@ impl Aside {
                 return Part::Content;
             }
             of_part(
-                scene.given,
+                comparison.given,
                 index,
                 fresh_known.contains(key),
                 restated.contains(&index),
@@ -145,62 +143,48 @@ impl Aside {
     }
 }
 
-/// Whether a deed of the fresh program says no op and no point on the way of one.
-fn is_restatement_of_ours(scene: &Scene<'_>, fresh: usize) -> bool {
-    let is_owned = scene.owners.get(fresh).copied().flatten().is_some();
-    let says = scene.fresh.statements.get(fresh).map(|statement| &statement.says);
-    let restates = match says {
-        Some(Says::Deed(deed)) => match deed {
-            Deed::Straight { .. } => false,
-            Deed::Axes(_)
-            | Deed::AxesToPose(_)
-            | Deed::Switch { .. }
-            | Deed::AwaitInput(_)
-            | Deed::Wait(_) => true,
-        },
-        Some(
-            Says::Frame(..) | Says::Setting | Says::PartBegins | Says::Unknown | Says::Unreadable { .. },
-        )
-        | None => false,
-    };
-    restates && !is_owned
+/// Whether a command of the fresh program says no op and no point on the way of one.
+fn is_restatement_of_ours(comparison: &Comparison<'_>, fresh: usize) -> bool {
+    let command = comparison.fresh.effect(fresh).and_then(Effect::command);
+    let restates = command.is_some_and(|command| !matches!(command, Command::Straight { .. }));
+    restates && comparison.owner(fresh).is_none()
 }
 
-/// The deeds of the given program that restate, at the head of a part, what holds there.
-fn restated(scene: &Scene<'_>, to_fresh: &BTreeMap<usize, usize>) -> BTreeSet<usize> {
-    let moments = moments(scene.judge.reachable().program());
+/// The commands of the given program that restate, at the head of a part, what holds there.
+fn restated(comparison: &Comparison<'_>, to_fresh: &BTreeMap<usize, usize>) -> BTreeSet<usize> {
+    let moments = comparison.moments();
     let mut found = BTreeSet::new();
     let mut next = OpId(0);
     let mut at_head = false;
-    for (given, statement) in scene.given.statements.iter().enumerate() {
-        match &statement.says {
-            Says::PartBegins => at_head = true,
-            Says::Deed(deed) => {
+    for (given, statement) in comparison.given.statements.iter().enumerate() {
+        match &statement.effect {
+            Effect::PartBegins => at_head = true,
+            Effect::Command(command) => {
                 let partner = to_fresh.get(&given);
-                let owner = partner.and_then(|&fresh| scene.owners.get(fresh).copied().flatten());
+                let owner = partner.and_then(|&fresh| comparison.owner(fresh));
                 if let Some(op) = owner {
                     next = OpId(op.0.saturating_add(1));
                     at_head = false;
                 } else if at_head && let Some(moment) = moments.get(next.0 as usize) {
-                    if scene.judge.restates(*moment, deed) {
+                    if comparison.comparator.restates(*moment, command) {
                         found.insert(given);
                     } else {
                         at_head = false;
                     }
                 }
             }
-            Says::Frame(..) | Says::Setting | Says::Unknown | Says::Unreadable { .. } => {}
+            Effect::Frame(..) | Effect::Setting | Effect::Unknown | Effect::Unreadable { .. } => {}
         }
     }
     found
 }
 
 /// Whether a statement names a file of its program, as its beginning, its end and calls of it do.
-fn names_file(told: &Told<'_>, index: usize) -> bool {
-    let text = told.text(index).to_ascii_uppercase();
+fn names_file(listing: &Listing<'_>, index: usize) -> bool {
+    let text = listing.text(index).to_ascii_uppercase();
     let is_of_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let mut words = text.split(|c| !is_of_word(c));
-    let stems: Vec<_> = told
+    let stems: Vec<_> = listing
         .files
         .iter()
         .map(|file| {

@@ -86,10 +86,10 @@ impl Step {
 }
 
 /// The steps between two sequences of statements, by names of their texts and of their kinds.
-pub(super) fn steps_between(essences: &[Vec<u32>; 2], skeletons: &[Vec<u32>; 2]) -> Vec<Step> {
-    let [fresh, given] = essences;
+pub(super) fn steps_between(normalized_texts: &[Vec<u32>; 2], skeletons: &[Vec<u32>; 2]) -> Vec<Step> {
+    let [fresh, given] = normalized_texts;
     let pairs = common(fresh, given);
-    let moved = moved(essences, &pairs);
+    let moved = moved(normalized_texts, &pairs);
     let mut steps: Vec<Step> = pairs
         .iter()
         .map(|&(fresh, given)| Step::Same { fresh, given })
@@ -118,15 +118,15 @@ struct Moved {
 }
 
 /// Pairs off what is left over on both sides and reads the same, in order.
-fn moved(essences: &[Vec<u32>; 2], pairs: &[Pair]) -> Moved {
-    let [fresh, given] = essences;
+fn moved(normalized_texts: &[Vec<u32>; 2], pairs: &[Pair]) -> Moved {
+    let [fresh, given] = normalized_texts;
     let mut left: BTreeMap<u32, VecDeque<usize>> = BTreeMap::new();
-    for (index, &essence) in left_over(fresh, pairs.iter().map(|pair| pair.0)) {
-        left.entry(essence).or_default().push_back(index);
+    for (index, &normalized) in left_over(fresh, pairs.iter().map(|pair| pair.0)) {
+        left.entry(normalized).or_default().push_back(index);
     }
     let mut moved = Moved::default();
-    for (given, essence) in left_over(given, pairs.iter().map(|pair| pair.1)) {
-        if let Some(fresh) = left.get_mut(essence).and_then(VecDeque::pop_front) {
+    for (given, normalized) in left_over(given, pairs.iter().map(|pair| pair.1)) {
+        if let Some(fresh) = left.get_mut(normalized).and_then(VecDeque::pop_front) {
             moved.from.insert(fresh, given);
             moved.to.insert(given, fresh);
         }
@@ -269,9 +269,9 @@ mod tests {
             fresh in prop::collection::vec((0_u32..5, 0_u32..3), 0..40),
             given in prop::collection::vec((0_u32..5, 0_u32..3), 0..40),
         ) {
-            let essences = [&fresh, &given].map(|side| side.iter().map(|(kind, n)| kind * 10 + n).collect::<Vec<_>>());
+            let normalized_texts = [&fresh, &given].map(|side| side.iter().map(|(kind, n)| kind * 10 + n).collect::<Vec<_>>());
             let kinds = [&fresh, &given].map(|side| side.iter().map(|(kind, _)| *kind).collect::<Vec<_>>());
-            let steps = steps_between(&essences, &kinds);
+            let steps = steps_between(&normalized_texts, &kinds);
             let mut seen = (vec![0; fresh.len()], vec![0; given.len()]);
             for step in steps {
                 match step {

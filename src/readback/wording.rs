@@ -2,7 +2,9 @@
 
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Cell, Flank, OpId, Program, Site, Switch};
-use vcutc_backend_api::readback::{Deed, DepartureKind, FrameRole, Mismatch, Pace, Says, Stance};
+use vcutc_backend_api::readback::{
+    Command, Configuration, DivergenceKind, Effect, FrameRole, Mismatch, Pace,
+};
 use vcutc_diagnostics::number::show;
 use vcutc_motion::describe::{site_words, value_words};
 
@@ -33,47 +35,47 @@ pub(super) fn op_words(program: &Program, op: OpId) -> String {
     }
 }
 
-/// What a deed does, in a few words.
-pub(super) fn deed_words(deed: &Deed) -> String {
-    match deed {
-        Deed::Axes(_) => "an axis move".to_owned(),
-        Deed::AxesToPose(target) => {
+/// What a command does, in a few words.
+pub(super) fn command_words(command: &Command) -> String {
+    match command {
+        Command::Axes(_) => "an axis move".to_owned(),
+        Command::AxesToPose(target) => {
             format!("an axis move that brings the tip to {}", point(target.tip))
         }
-        Deed::Straight { to, .. } => format!("a straight move of the tip to {}", point(to.tip)),
-        Deed::Switch { output, state } => format!("output {output} is switched {}", switch(*state)),
-        Deed::AwaitInput(input) => format!("the program waits for input {input}"),
-        Deed::Wait(time) => format!("the program waits for {} s", show(time.to_s())),
+        Command::Straight { to, .. } => format!("a straight move of the tip to {}", point(to.tip)),
+        Command::Switch { output, state } => format!("output {output} is switched {}", switch(*state)),
+        Command::AwaitInput(input) => format!("the program waits for input {input}"),
+        Command::Wait(time) => format!("the program waits for {} s", show(time.to_s())),
     }
 }
 
-/// What a statement is, where it is no deed.
-pub(super) const fn kind_words(says: &Says) -> &'static str {
-    match says {
-        Says::Deed(_) => "a motion, a switch or a wait",
-        Says::Frame(FrameRole::Tool, _) => "the tool frame",
-        Says::Frame(FrameRole::Base, _) => "the base frame",
-        Says::Setting => "a setting",
-        Says::PartBegins => "the beginning of a part",
-        Says::Unknown | Says::Unreadable { .. } => "an unknown statement",
+/// What a statement is, where it is no command.
+pub(super) const fn kind_words(effect: &Effect) -> &'static str {
+    match effect {
+        Effect::Command(_) => "a motion, a switch or a wait",
+        Effect::Frame(FrameRole::Tool, _) => "the tool frame",
+        Effect::Frame(FrameRole::Base, _) => "the base frame",
+        Effect::Setting => "a setting",
+        Effect::PartBegins => "the beginning of a part",
+        Effect::Unknown | Effect::Unreadable { .. } => "an unknown statement",
     }
 }
 
 /// Why a fresh program was not read back as it should be, a line each.
-pub(crate) fn departure_words(what: &DepartureKind, cell: Option<&Cell>) -> Vec<String> {
+pub(crate) fn divergence_words(what: &DivergenceKind, cell: Option<&Cell>) -> Vec<String> {
     let one = |text: &str| vec![text.to_owned()];
     match what {
-        DepartureKind::Differs(found) => found
+        DivergenceKind::Differs(found) => found
             .iter()
             .map(|mismatch| mismatch_words(mismatch, cell))
             .collect(),
-        DepartureKind::Ends => one("the program ends here"),
-        DepartureKind::More => one("something is done after the last op"),
-        DepartureKind::Frame(FrameRole::Tool) => one("the tool frame has another value"),
-        DepartureKind::Frame(FrameRole::Base) => one("the base frame has another value"),
-        DepartureKind::NoFrame(FrameRole::Tool) => one("the tool frame is not set before the first motion"),
-        DepartureKind::NoFrame(FrameRole::Base) => one("the base frame is not set before the first motion"),
-        DepartureKind::NotUnderstood => one("the statement is unknown"),
+        DivergenceKind::Ends => one("the program ends here"),
+        DivergenceKind::More => one("something is done after the last op"),
+        DivergenceKind::Frame(FrameRole::Tool) => one("the tool frame has another value"),
+        DivergenceKind::Frame(FrameRole::Base) => one("the base frame has another value"),
+        DivergenceKind::NoFrame(FrameRole::Tool) => one("the tool frame is not set before the first motion"),
+        DivergenceKind::NoFrame(FrameRole::Base) => one("the base frame is not set before the first motion"),
+        DivergenceKind::NotUnderstood => one("the statement is unknown"),
     }
 }
 
@@ -86,10 +88,10 @@ pub(super) fn mismatch_words(mismatch: &Mismatch, cell: Option<&Cell>) -> String
             "the blade has another orientation, turned by {} deg",
             fine(by.to_deg())
         ),
-        Mismatch::Stance { is, should } => format!(
+        Mismatch::Configuration { is, should } => format!(
             "the arm configuration is different: {}, the job needs {}",
-            stance(is, should),
-            stance(should, is)
+            configuration(is, should),
+            configuration(should, is)
         ),
         Mismatch::Axis { axis, is, should } => match cell.and_then(|cell| cell.axes.get(axis)) {
             Some(axis) => {
@@ -181,13 +183,13 @@ fn point(tip: Point3) -> String {
     format!("x {} mm, y {} mm, z {} mm", show(tip.x), show(tip.y), show(tip.z))
 }
 
-/// The numbers of a stance, as many as it or the other one uses.
-fn stance(stance: Option<Stance>, other: Option<Stance>) -> String {
-    let Some(Stance(numbers)) = stance else {
+/// The numbers of a configuration, as many as it or the other one uses.
+fn configuration(configuration: Option<Configuration>, other: Option<Configuration>) -> String {
+    let Some(Configuration(numbers)) = configuration else {
         return "no configuration".to_owned();
     };
-    let used = |Stance(numbers): Stance| numbers.iter().rposition(|&number| number != 0);
-    let last = stance
+    let used = |Configuration(numbers): Configuration| numbers.iter().rposition(|&number| number != 0);
+    let last = configuration
         .and_then(used)
         .max(other.and_then(used))
         .unwrap_or_default();
@@ -202,9 +204,9 @@ const fn switch(state: Switch) -> &'static str {
     }
 }
 
-/// The speed that a statement's deed has, where deeds of the same text may have another.
-pub(super) fn pace_words(deed: &Deed) -> Option<String> {
-    let Deed::Straight { pace, .. } = deed else {
+/// The speed that a statement's command has, where commands of the same text may have another.
+pub(super) fn pace_words(command: &Command) -> Option<String> {
+    let Command::Straight { pace, .. } = command else {
         return None;
     };
     match *pace {

@@ -1,13 +1,13 @@
 //! A program as a backend wrote it, read back at once.
 
-use super::told::text_at;
-use super::wording::{departure_words, op_words};
+use super::listing::text_at;
+use super::wording::{divergence_words, op_words};
 use core::ops::Range;
 use vcutc_backend_api::backend::{Backend, Options};
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::ir::{OpId, Program};
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_backend_api::readback::{Judge, Place, ProgramFile, Retrace, Sources, program_files};
+use vcutc_backend_api::readback::{Comparator, Place, ProgramFile, Replay, Sources, program_files};
 
 /// A program as it was written.
 #[derive(Clone, Debug)]
@@ -23,7 +23,7 @@ pub struct Written {
 
 /// What a program that was read back differently says: the op in question, and what is wrong, a line each.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Astray(pub Vec<String>);
+pub struct RoundTripError(pub Vec<String>);
 
 impl Written {
     /// Reads what a backend wrote and follows it op by op.
@@ -35,7 +35,7 @@ impl Written {
         backend: &dyn Backend,
         options: Options,
         bundle: Bundle,
-    ) -> Result<Self, Astray> {
+    ) -> Result<Self, RoundTripError> {
         let files = program_files(&bundle);
         let places = places(program, backend, &options, &files)?;
         Ok(Self {
@@ -66,27 +66,27 @@ fn places(
     backend: &dyn Backend,
     options: &Options,
     files: &[ProgramFile],
-) -> Result<Option<Vec<Place>>, Astray> {
+) -> Result<Option<Vec<Place>>, RoundTripError> {
     let (Some(reader), Some(cell)) = (backend.reader(), &program.program().cell) else {
         return Ok(None);
     };
-    let judge = Judge::new(program, reader, reader.grain(options));
-    let mut retrace = Retrace::new(judge, reader.frames());
+    let comparator = Comparator::new(program, reader, reader.resolution(options));
+    let mut replay = Replay::new(comparator, reader.frames());
     let sources = Sources { files, cell, options };
-    reader.read(sources, &mut |statement| retrace.heed(&statement));
-    match retrace.finish() {
-        Ok(retraced) => Ok(Some(retraced.places)),
-        Err(departure) => {
-            let op = departure.op.map(|op| {
+    reader.read(sources, &mut |statement| replay.take(&statement));
+    match replay.finish() {
+        Ok(places) => Ok(Some(places)),
+        Err(divergence) => {
+            let op = divergence.op.map(|op| {
                 let words = op_words(program.program(), op);
                 format!("it should say op {}, {words}", op.0)
             });
-            let line = departure.place.map(|place| {
+            let line = divergence.place.map(|place| {
                 let name = files.get(place.file as usize).map_or("", |file| &file.name);
                 format!("{name} says `{}`", text_at(files, place))
             });
-            let what = departure_words(&departure.what, Some(cell));
-            Err(Astray(op.into_iter().chain(line).chain(what).collect()))
+            let what = divergence_words(&divergence.what, Some(cell));
+            Err(RoundTripError(op.into_iter().chain(line).chain(what).collect()))
         }
     }
 }

@@ -6,7 +6,7 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 use vcutc_backend_api::ir::Program;
 use vcutc_backend_api::protocol::{Ask, Description, Emitted, PROTOCOL_VERSION, ReadBack, Request};
-use vcutc_backend_api::readback::{Deed, Says};
+use vcutc_backend_api::readback::{self, Effect};
 
 /// The only blocks of that language on the page.
 fn blocks(language: &str) -> Vec<String> {
@@ -77,7 +77,7 @@ fn the_program_of_the_page_describes_itself_and_reads_what_it_wrote() {
     let [statement] = read.statements.as_slice() else {
         panic!("{read:?}")
     };
-    let Says::Deed(Deed::Axes(axes)) = statement.says else {
+    let Effect::Command(readback::Command::Axes(axes)) = statement.effect else {
         panic!("{statement:?}")
     };
     assert_eq!(axes.0, [0.5, 0.0, 0.0, 0.0, 0.0, 0.0]);

@@ -12,7 +12,7 @@ use std::thread;
 use vcutc::driver;
 use vcutc::readback::{Fresh, Reference};
 use vcutc::registry;
-use vcutc_backend_api::readback::{ProgramFile, essence};
+use vcutc_backend_api::readback::{ProgramFile, normalized};
 
 /// Mutants of each kind and program, at most.
 const MOST_OF_A_KIND: usize = 40;
@@ -192,7 +192,7 @@ fn mutants<'f>(
     kind: Mutation,
 ) -> Vec<(Line, &'f str, Vec<ProgramFile>)> {
     let lines = lines_of_code(files, dialect);
-    let read = |text: &str| essence(dialect.code(text));
+    let read = |text: &str| normalized(dialect.code(text));
     let changed = |(at, text): (Line, &'f str), other: String| {
         (read(text) != read(&other)).then(|| (at, text, with_line(files, at, Some(&other))))
     };

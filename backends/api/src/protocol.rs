@@ -19,7 +19,7 @@ use crate::exchange::Exchange;
 use crate::ir::{Cell, MachineKind, Maker, OpId};
 use crate::motion::{Branch, Elbow, Shoulder, Wrist};
 use crate::profile::Profile;
-use crate::readback::{Frames, Grain, ProgramFile, Stance, Statement};
+use crate::readback::{Configuration, Frames, ProgramFile, Resolution, Statement};
 use crate::units::Length;
 use crate::verify::Capability;
 use serde::{Deserialize, Serialize};
@@ -179,8 +179,9 @@ pub struct Reads {
     /// Who sets tool and base.
     pub frames: Frames,
     /// How finely it prints.
-    pub grain: Grain,
-    /// A whole-number option that counts decimals: the grain is divided by ten to its power.
+    #[serde(rename = "grain")]
+    pub resolution: Resolution,
+    /// A whole-number option that counts decimals: the resolution is divided by ten to its power.
     #[serde(default)]
     pub decimals: Option<String>,
 }
@@ -275,7 +276,7 @@ pub enum Problem {
 pub struct ReadBack {
     /// Version of the protocol.
     pub protocol: u32,
-    /// The statements in the order in which they are carried out. A stance is `[shoulder, elbow, wrist, number]` as
+    /// The statements in the order in which they are carried out. A configuration is `[shoulder, elbow, wrist, number]` as
     /// [`branch_as_stance`] makes it.
     pub statements: Vec<Statement>,
 }
@@ -304,13 +305,13 @@ pub enum Message<'a> {
 ///
 /// The dialect of an outside program may say more or less than a branch; this is what its reader tells.
 #[must_use]
-pub const fn branch_as_stance(branch: Branch) -> Stance {
+pub const fn branch_as_configuration(branch: Branch) -> Configuration {
     match branch {
         Branch::Arm {
             shoulder,
             elbow,
             wrist,
-        } => Stance([
+        } => Configuration([
             match shoulder {
                 Shoulder::Front => 0,
                 Shoulder::Back => 1,
@@ -325,6 +326,6 @@ pub const fn branch_as_stance(branch: Branch) -> Stance {
             },
             0,
         ]),
-        Branch::Numbered(number) => Stance([0, 0, 0, number as i32]),
+        Branch::Numbered(number) => Configuration([0, 0, 0, number as i32]),
     }
 }

@@ -5,24 +5,24 @@
 //! statement by statement, in the order in which the controller carries them out, what the machine will do.
 //!
 //! * A [`Reader`] turns text into [`Statement`]s. It is tolerant of layout and strict about meaning: what it does not know is
-//!   [`Says::Unknown`], what it cannot read [`Says::Unreadable`]; it never guesses and never stops.
-//! * [`Judge`] says what is different between one op and one deed, with numbers.
-//! * [`Retrace`] takes a whole program's statements and finds the first that is not the next op, or a restatement of what holds
+//!   [`Effect::Unknown`], what it cannot read [`Effect::Unreadable`]; it never guesses and never stops.
+//! * [`Comparator`] says what is different between one op and one command, with numbers.
+//! * [`Replay`] takes a whole program's statements and finds the first that is not the next op, or a restatement of what holds
 //!   already at the beginning of a part.
-//! * [`essence()`] is a statement without its layout: two texts of the same essence do the same.
+//! * [`normalized()`] is a statement without its layout: two statements with the same normalized text do the same.
 
-mod coarseness;
-mod essence;
-mod judge;
-mod retrace;
+mod compare;
+mod normalize;
+mod replay;
+mod resolution;
 #[cfg(test)]
 #[cfg(feature = "testkit")]
 mod tests;
 
-pub use coarseness::COARSEST;
-pub use essence::essence;
-pub use judge::{Judge, Mismatch, Moment, rotary_way};
-pub use retrace::{Departure, DepartureKind, Retrace, Retraced};
+pub use compare::{Comparator, Mismatch, Moment, rotary_way};
+pub use normalize::normalized;
+pub use replay::{Divergence, DivergenceKind, Replay};
+pub use resolution::COARSEST;
 
 use crate::bundle::Bundle;
 use crate::geometry::{Frame, Orientation, Point3};
@@ -103,17 +103,19 @@ impl Place {
 pub struct Statement {
     /// Where it stands.
     pub place: Place,
-    /// What it says.
-    pub says: Says,
+    /// What it does.
+    #[serde(rename = "says")]
+    pub effect: Effect,
 }
 
-/// What a statement says.
+/// What a statement does.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
-pub enum Says {
+pub enum Effect {
     /// The machine does something.
-    Deed(Deed),
+    #[serde(rename = "deed")]
+    Command(Command),
     /// A frame is set, which holds for all that follows.
     Frame(FrameRole, FrameSetting),
     /// Something that is known and does nothing by itself, or that other statements have taken into account: a declaration, a
@@ -130,7 +132,18 @@ pub enum Says {
     },
 }
 
-impl Says {
+impl Effect {
+    /// What the machine does by it, if anything.
+    #[must_use]
+    pub const fn command(&self) -> Option<&Command> {
+        match self {
+            Self::Command(command) => Some(command),
+            Self::Frame(..) | Self::Setting | Self::PartBegins | Self::Unknown | Self::Unreadable { .. } => {
+                None
+            }
+        }
+    }
+
     /// That something else is expected.
     #[must_use]
     pub fn expected(what: impl Into<String>) -> Self {
@@ -165,7 +178,7 @@ pub enum FrameSetting {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
-pub enum Deed {
+pub enum Command {
     /// All axes go to these values, arriving together.
     Axes(AxisValues),
     /// All axes go to the values at a pose, arriving together.
@@ -192,6 +205,17 @@ pub enum Deed {
     Wait(Duration),
 }
 
+impl Command {
+    /// Whether it moves the machine.
+    #[must_use]
+    pub const fn is_motion(&self) -> bool {
+        match self {
+            Self::Axes(_) | Self::AxesToPose(_) | Self::Straight { .. } => true,
+            Self::Switch { .. } | Self::AwaitInput(_) | Self::Wait(_) => false,
+        }
+    }
+}
+
 /// A pose as dialects say it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -208,7 +232,7 @@ pub struct Target {
 #[serde(rename_all = "snake_case")]
 pub enum Held {
     /// By the orientation of T in W, and the way to stand where that is said.
-    Orientation(Orientation, Option<Stance>),
+    Orientation(Orientation, Option<Configuration>),
     /// By the positions of the machine's rotary axes, at their places among its axes; linear axes hold 0.
     Rotary(AxisValues),
 }
@@ -218,7 +242,7 @@ pub enum Held {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(transparent)]
-pub struct Stance(pub [i32; 4]);
+pub struct Configuration(pub [i32; 4]);
 
 /// How fast a motion goes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -263,7 +287,7 @@ pub enum End {
 /// How far what a dialect prints may be from what it was given: half a unit of the last place.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Grain {
+pub struct Resolution {
     /// Of each coordinate and of each linear axis.
     pub length: Length,
     /// Of an orientation: the largest angle by which it can be turned.
@@ -297,23 +321,23 @@ pub trait Reader: Sync {
     fn recognises(&self, file: &str) -> bool;
 
     /// How finely programs with these options are printed.
-    fn grain(&self, options: &Options) -> Grain;
+    fn resolution(&self, options: &Options) -> Resolution;
 
     /// Who sets tool and base.
     fn frames(&self) -> Frames;
 
     /// How the dialect says the way to stand on a branch with the axes there; none where it does not say it.
-    fn stance(&self, branch: Branch, axes: AxisValues) -> Option<Stance>;
+    fn configuration(&self, branch: Branch, axes: AxisValues) -> Option<Configuration>;
 
     /// Whether its programs name the waypoints of ops ([`crate::motion::Motion::waypoints`]), so that one that is missing is
     /// a difference.
-    fn says_waypoints(&self) -> bool {
+    fn states_waypoints(&self) -> bool {
         false
     }
 
     /// Tells the statements of a program in the order in which they are carried out. A statement that is carried out never
-    /// is told as [`Says::Setting`] or [`Says::Unknown`] where it stands.
+    /// is told as [`Effect::Setting`] or [`Effect::Unknown`] where it stands.
     ///
     /// Bounded in time and memory on any text.
-    fn read(&self, sources: Sources<'_>, heed: &mut dyn FnMut(Statement));
+    fn read(&self, sources: Sources<'_>, visit: &mut dyn FnMut(Statement));
 }

@@ -9,7 +9,7 @@ use crate::controller::Controller;
 use crate::options::Settings;
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::{Cell, Ready, Switch};
-use vcutc_backend_api::readback::essence;
+use vcutc_backend_api::readback::normalized;
 
 /// The blocks of an option.
 type Given<'p> = (Role, &'p [String]);
@@ -29,7 +29,7 @@ pub(crate) fn check(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<Backe
             .iter()
             .find_map(|line| unfit(line, role, settings.controller))
             .or_else(|| {
-                let line = lines.iter().find(|line| own.contains(&essence(line)))?;
+                let line = lines.iter().find(|line| own.contains(&normalized(line)))?;
                 Some(format!(
                     "`{line}` is what the program writes for an output or input of the machine; give another code"
                 ))
@@ -69,7 +69,7 @@ fn own_blocks(cell: &Cell, settings: &Settings<'_>) -> Vec<String> {
         Ready::Input(input) if codes.ready.is_empty() => own.extend(controller.await_input(input, 1)),
         Ready::Input(_) | Ready::After(_) => {}
     }
-    own.iter().flatten().map(|line| essence(line)).collect()
+    own.iter().flatten().map(|line| normalized(line)).collect()
 }
 
 /// Why a line is no block of a builder.
@@ -139,7 +139,7 @@ fn m_code(line: &str, beside: &str) -> Option<u32> {
 
 /// Whether whoever reads the program can tell two options apart. The two switches of the kinematics may share lines.
 fn is_told_apart((one, one_lines): Given<'_>, (other, other_lines): Given<'_>) -> bool {
-    let plain = |lines: &[String]| -> Vec<String> { lines.iter().map(|line| essence(line)).collect() };
+    let plain = |lines: &[String]| -> Vec<String> { lines.iter().map(|line| normalized(line)).collect() };
     let (one_lines, other_lines) = (plain(one_lines), plain(other_lines));
     if one_lines.is_empty() || other_lines.is_empty() {
         return true;

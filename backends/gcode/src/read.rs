@@ -30,7 +30,7 @@ use crate::options::Settings;
 use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::ir::AxisValues;
 use vcutc_backend_api::motion::Branch;
-use vcutc_backend_api::readback::{Frames, Grain, Reader, Sources, Stance, Statement};
+use vcutc_backend_api::readback::{Configuration, Frames, Reader, Resolution, Sources, Statement};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
 
 /// The reader of all dialects.
@@ -52,11 +52,11 @@ impl Reader for GcodeReader {
         })
     }
 
-    fn grain(&self, options: &Options) -> Grain {
+    fn resolution(&self, options: &Options) -> Resolution {
         let settings = Settings::read(options);
         let fine = settings.fine().half_unit();
         let angle = Angle::deg(settings.angles.half_unit());
-        Grain {
+        Resolution {
             // Printed in the frame of the machine, compared in that of the work: a coordinate of one may be made of all three
             // of the other.
             length: Length::mm(settings.common.lengths.half_unit() * 3.0_f64.sqrt()),
@@ -74,11 +74,11 @@ impl Reader for GcodeReader {
     }
 
     /// Rotary axes are said by their values, so nothing is left open.
-    fn stance(&self, _: Branch, _: AxisValues) -> Option<Stance> {
+    fn configuration(&self, _: Branch, _: AxisValues) -> Option<Configuration> {
         None
     }
 
-    fn read(&self, sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
-        walk::read(sources, heed);
+    fn read(&self, sources: Sources<'_>, visit: &mut dyn FnMut(Statement)) {
+        walk::read(sources, visit);
     }
 }

@@ -30,11 +30,11 @@
 
 use vcutc_backend_api::ir::AxisValues;
 use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
-use vcutc_backend_api::readback::Stance;
+use vcutc_backend_api::readback::Configuration;
 
 /// Status and turn of a pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Configuration {
+pub(crate) struct StatusAndTurn {
     /// `S`.
     pub(crate) status: u32,
     /// `T`.
@@ -44,11 +44,11 @@ pub(crate) struct Configuration {
 /// An axis that is not further below zero than this, in rad, counts as not negative: 1e-9 of a degree.
 const AT_ZERO: f64 = 2e-11;
 
-impl Configuration {
+impl StatusAndTurn {
     /// As readers compare it.
-    pub(crate) fn stance(self) -> Option<Stance> {
+    pub(crate) fn configuration(self) -> Option<Configuration> {
         let [status, turn] = [self.status, self.turn].map(i32::try_from);
-        Some(Stance([status.ok()?, turn.ok()?, 0, 0]))
+        Some(Configuration([status.ok()?, turn.ok()?, 0, 0]))
     }
 
     /// That of an arm on a branch with its axes there; none for a branch that is not of such an arm.
@@ -113,8 +113,8 @@ mod tests {
             elbow: Elbow::Forward,
             wrist: Wrist::Positive,
         };
-        let expected = Configuration { status: 2, turn: 2 };
-        assert_eq!(Configuration::of(branch, degrees(HOME)), Some(expected));
+        let expected = StatusAndTurn { status: 2, turn: 2 };
+        assert_eq!(StatusAndTurn::of(branch, degrees(HOME)), Some(expected));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! How a program is put in KRL.
 
 use crate::attitude::Attitudes;
-use crate::configuration::Configuration;
+use crate::configuration::StatusAndTurn;
 use crate::keywords::HOME;
 use crate::options::Settings;
 use crate::turns::{Rates, Turns, rounded_down};
@@ -83,8 +83,8 @@ impl Dialect for KrlDialect<'_, '_, '_> {
             JointTarget::Pose(pose) => pose,
         };
         let branch = self.source.reachable.branch_after(motion.op);
-        let Configuration { status, turn } = branch
-            .and_then(|branch| Configuration::of(branch, motion.axes))
+        let StatusAndTurn { status, turn } = branch
+            .and_then(|branch| StatusAndTurn::of(branch, motion.axes))
             .ok_or(EmitError::Internal("a pose has no status"))?;
         self.text.put(b"{X ");
         self.pose(pose)?;

@@ -10,7 +10,7 @@ use crate::syntax::{Phrase, Statement, is_same_name, statements};
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::Cell;
 use vcutc_backend_api::profile::Profile;
-use vcutc_backend_api::readback::essence;
+use vcutc_backend_api::readback::normalized;
 
 /// Longest line that every release reads.
 const LONGEST_LINE: usize = 131;
@@ -72,7 +72,7 @@ fn objection(line: &str, place: Place, generator: Option<u32>) -> Option<String>
              in `$OUT[30]=TRUE`"
         ));
     }
-    if essence(text).to_ascii_uppercase().contains(HOME) {
+    if normalized(text).to_ascii_uppercase().contains(HOME) {
         return Some(format!(
             "`{line}` names the home of the program, which is its own"
         ));
@@ -106,7 +106,7 @@ fn objection(line: &str, place: Place, generator: Option<u32>) -> Option<String>
 /// Whether a statement names the output of the generator, or outputs of which nobody can tell which they are: by a
 /// calculated number, as a range, or by a number alone.
 fn names_generator(text: &str, generator: Option<u32>) -> bool {
-    let text = essence(text).to_ascii_uppercase();
+    let text = normalized(text).to_ascii_uppercase();
     let mut outputs = text.split("$OUT").skip(1);
     let is_other = |rest: &str| {
         let rest = rest.strip_prefix("_C").unwrap_or(rest);

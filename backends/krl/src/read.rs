@@ -2,7 +2,7 @@
 //!
 //! [`syntax`] turns lines into statements with places, and [`interpreter`](crate::interpreter) carries them out: both serve any
 //! reader of KRL. What is here is strict, and goes as far as the programs of this crate do: speeds and modes are kept, and
-//! every statement is told with what it does ([`Says`](vcutc_backend_api::readback::Says)).
+//! every statement is told with what it does ([`Effect`](vcutc_backend_api::readback::Effect)).
 //!
 //! # What is understood
 //!
@@ -20,7 +20,7 @@
 //!   is a motion for which one of them was not said (the module `setup`).
 //! * Lines of the machine's profile at the head and the end of the program.
 //!
-//! Everything else is told as [`Unknown`](vcutc_backend_api::readback::Says::Unknown): nothing is guessed. Lines with `&` at
+//! Everything else is told as [`Unknown`](vcutc_backend_api::readback::Effect::Unknown): nothing is guessed. Lines with `&` at
 //! the head of a file are records of the controller's editor, which counts there how often it has saved a file; they are
 //! no statements, like comments.
 
@@ -29,7 +29,7 @@ mod profile;
 mod program;
 mod setup;
 
-use crate::configuration::Configuration;
+use crate::configuration::StatusAndTurn;
 use crate::interpreter::index;
 use crate::options::Settings;
 use crate::syntax;
@@ -37,7 +37,7 @@ use crate::turns::RATES;
 use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::ir::AxisValues;
 use vcutc_backend_api::motion::Branch;
-use vcutc_backend_api::readback::{Frames, Grain, Reader, Sources, Stance, Statement};
+use vcutc_backend_api::readback::{Configuration, Frames, Reader, Resolution, Sources, Statement};
 use vcutc_backend_api::script::TRIMMED;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
 
@@ -52,10 +52,10 @@ impl Reader for KrlReader {
             .any(|known| syntax::is_same_name(extension, known))
     }
 
-    fn grain(&self, options: &Options) -> Grain {
+    fn resolution(&self, options: &Options) -> Resolution {
         let settings = Settings::read(options);
         let angle = Angle::deg(settings.angles.half_unit());
-        Grain {
+        Resolution {
             length: Length::mm(settings.common.lengths.half_unit()),
             // A, B and C may each be off by as much, and at B = 90 deg A and C turn about the same line.
             attitude: angle * 3.0,
@@ -71,11 +71,11 @@ impl Reader for KrlReader {
         Frames::InProgram
     }
 
-    fn stance(&self, branch: Branch, axes: AxisValues) -> Option<Stance> {
-        Configuration::of(branch, axes)?.stance()
+    fn configuration(&self, branch: Branch, axes: AxisValues) -> Option<Configuration> {
+        StatusAndTurn::of(branch, axes)?.configuration()
     }
 
-    fn read(&self, sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
-        program::read(sources, heed);
+    fn read(&self, sources: Sources<'_>, visit: &mut dyn FnMut(Statement)) {
+        program::read(sources, visit);
     }
 }

@@ -15,7 +15,7 @@ const ONE: i64 = 100_000_000;
 /// By how much, in rad, the rounded rotation may be turned against the exact one: three parts are off by half a unit, and
 /// the largest, which is at least as large as each of them, by the sum of these and half a unit of its own. The distance of
 /// two quaternions is half the angle between their rotations.
-pub(crate) const GRAIN_RAD: f64 = 5e-8;
+pub(crate) const RESOLUTION_RAD: f64 = 5e-8;
 
 /// A unit quaternion rounded to [`DECIMALS`] places, scalar part first, in units of the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,7 +144,7 @@ mod tests {
             let length = (w * w + x * x + y * y + z * z).sqrt();
             prop_assert!((length - 1.0).abs() < 1.1e-8, "{}", length);
             let read = Orientation::from_quaternion(w, x, y, z).unwrap();
-            prop_assert!(read.angle_to(exact).to_rad() < GRAIN_RAD);
+            prop_assert!(read.angle_to(exact).to_rad() < RESOLUTION_RAD);
         }
 
         #[test]

@@ -19,7 +19,7 @@ mod sentence;
 pub(crate) use sentence::{Sentence, Value};
 
 use crate::options::Settings;
-use crate::orient::GRAIN_RAD;
+use crate::orient::RESOLUTION_RAD;
 use data::{View, seen_from};
 use instruction::{Instruction, Known, Machine, Modes};
 use piece::{Piece, PieceKind, pieces};
@@ -31,7 +31,9 @@ use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::ir::AxisValues;
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::profile::Profile;
-use vcutc_backend_api::readback::{Frames, Grain, Place, Reader, Says, Sources, Stance, Statement, essence};
+use vcutc_backend_api::readback::{
+    Configuration, Effect, Frames, Place, Reader, Resolution, Sources, Statement, normalized,
+};
 use vcutc_backend_api::script::TRIMMED;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
 
@@ -49,12 +51,12 @@ impl Reader for RapidReader {
         extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()))
     }
 
-    fn grain(&self, options: &Options) -> Grain {
+    fn resolution(&self, options: &Options) -> Resolution {
         let settings = Settings::read(options);
         let trimmed = TRIMMED.half_unit();
-        Grain {
+        Resolution {
             length: Length::mm(settings.common.lengths.half_unit()),
-            attitude: Angle::rad(GRAIN_RAD),
+            attitude: Angle::rad(RESOLUTION_RAD),
             axis: Angle::deg(settings.angles.half_unit()),
             speed: Speed::mm_per_s(trimmed),
             rate: AngularSpeed::deg_per_s(trimmed),
@@ -68,15 +70,15 @@ impl Reader for RapidReader {
         Frames::OnMachine
     }
 
-    fn stance(&self, branch: Branch, axes: AxisValues) -> Option<Stance> {
-        confdata(branch, &axes).map(Stance)
+    fn configuration(&self, branch: Branch, axes: AxisValues) -> Option<Configuration> {
+        confdata(branch, &axes).map(Configuration)
     }
 
-    fn says_waypoints(&self) -> bool {
+    fn states_waypoints(&self) -> bool {
         true
     }
 
-    fn read(&self, sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
+    fn read(&self, sources: Sources<'_>, visit: &mut dyn FnMut(Statement)) {
         let settings = Settings::read(sources.options);
         let machine = Machine {
             cell: sources.cell,
@@ -87,16 +89,16 @@ impl Reader for RapidReader {
             .modules
             .iter()
             .map(|module| vec![Told::Not; module.pieces.len()]);
-        let mut teller = Teller {
+        let mut interpreter = Interpreter {
             told: told.collect(),
             own: lines_of(settings.common.profile),
             machine,
             program,
-            heed,
+            visit,
         };
-        teller.known_beforehand();
-        teller.follow();
-        teller.never_carried_out();
+        interpreter.known_beforehand();
+        interpreter.follow();
+        interpreter.never_carried_out();
     }
 }
 
@@ -106,7 +108,7 @@ fn lines_of(profile: &Profile) -> BTreeSet<String> {
     lines
         .flat_map(|line| {
             let all = pieces(line).all.into_iter();
-            all.map(|piece| essence(piece.text(line))).collect::<Vec<_>>()
+            all.map(|piece| normalized(piece.text(line))).collect::<Vec<_>>()
         })
         .collect()
 }
@@ -116,14 +118,7 @@ pub(crate) fn sentences(line: &str) -> Option<Vec<Sentence>> {
     let all = pieces(line).all.into_iter();
     all.map(|piece| match piece.kind {
         PieceKind::Statement => sentence(piece.text(line)).ok(),
-        PieceKind::EndRoutine
-        | PieceKind::Broken
-        | PieceKind::Control
-        | PieceKind::OldHead
-        | PieceKind::Module
-        | PieceKind::EndModule
-        | PieceKind::Routine
-        | PieceKind::OtherRoutine => None,
+        _ => None,
     })
     .collect()
 }
@@ -142,34 +137,34 @@ struct Running {
     next: usize,
 }
 
-struct Teller<'a, 'h> {
+struct Interpreter<'a, 'h> {
     program: Program<'a>,
     machine: Machine<'a>,
     /// Which pieces were told, by module.
     told: Vec<Vec<Told>>,
     /// Statements of the machine's profile.
     own: BTreeSet<String>,
-    heed: &'h mut dyn FnMut(Statement),
+    visit: &'h mut dyn FnMut(Statement),
 }
 
-impl Teller<'_, '_> {
+impl Interpreter<'_, '_> {
     /// Tells a piece of a file.
-    fn place(&mut self, file: u32, piece: Piece, says: Says) {
+    fn place(&mut self, file: u32, piece: Piece, effect: Effect) {
         let Piece { start, end, .. } = piece;
-        (self.heed)(Statement {
+        (self.visit)(Statement {
             place: Place { file, start, end },
-            says,
+            effect,
         });
     }
 
     /// Tells a piece of a module; whether it had not been told yet.
-    fn tell(&mut self, module: usize, piece: usize, says: Says) -> bool {
+    fn tell(&mut self, module: usize, piece: usize, effect: Effect) -> bool {
         let flag = self.told.get_mut(module).and_then(|told| told.get_mut(piece));
         let is_new = flag.is_some_and(|flag| core::mem::replace(flag, Told::Already) == Told::Not);
         if is_new && let Some(of) = self.program.modules.get(module) {
             let file = of.file;
             if let Some(&stretch) = of.pieces.get(piece) {
-                self.place(file, stretch, says);
+                self.place(file, stretch, effect);
             }
         }
         is_new
@@ -178,18 +173,18 @@ impl Teller<'_, '_> {
     /// Lists, declarations, and the frames of modules.
     fn known_beforehand(&mut self) {
         for list in core::mem::take(&mut self.program.lists) {
-            for (piece, says) in list.told {
-                self.place(list.file, piece, says);
+            for (piece, effect) in list.told {
+                self.place(list.file, piece, effect);
             }
         }
         for module in 0..self.program.modules.len() {
-            let says = self
+            let effect = self
                 .program
                 .modules
                 .get_mut(module)
-                .map(|module| core::mem::take(&mut module.says));
-            for (piece, says) in says.into_iter().flatten() {
-                self.tell(module, piece, says);
+                .map(|module| core::mem::take(&mut module.effect));
+            for (piece, effect) in effect.into_iter().flatten() {
+                self.tell(module, piece, effect);
             }
         }
     }
@@ -199,7 +194,7 @@ impl Teller<'_, '_> {
         let mut modes = Modes::default();
         let mut stack = Vec::new();
         if let Some(main) = self.program.main() {
-            stack.extend(self.enter(main, Says::Setting));
+            stack.extend(self.enter(main, Effect::Setting));
         }
         while let Some(running) = stack.last_mut() {
             let Some(routine) = self.program.routines.get(running.routine) else {
@@ -213,17 +208,17 @@ impl Teller<'_, '_> {
             running.next += 1;
             if let Some(called) = self.step(module, number, place, &mut modes) {
                 modes = Modes::default();
-                stack.extend(self.enter(called, Says::PartBegins));
+                stack.extend(self.enter(called, Effect::PartBegins));
             }
         }
     }
 
     /// Tells the header of a routine; what to follow, unless it was followed before.
-    fn enter(&mut self, routine: usize, says: Says) -> Option<Running> {
+    fn enter(&mut self, routine: usize, effect: Effect) -> Option<Running> {
         let of = self.program.routines.get(routine)?;
         let (module, header) = (of.module, of.pieces.start);
         let next = header + 1;
-        self.tell(module, header, says)
+        self.tell(module, header, effect)
             .then_some(Running { routine, next })
     }
 
@@ -242,14 +237,14 @@ impl Teller<'_, '_> {
         let piece = *of.pieces.get(place)?;
         let text = piece.text(of.text);
         let mut called = None;
-        let says = match piece.kind {
-            PieceKind::EndRoutine => Says::Setting,
-            PieceKind::Broken => Says::expected("`;`"),
+        let effect = match piece.kind {
+            PieceKind::EndRoutine => Effect::Setting,
+            PieceKind::Broken => Effect::expected("`;`"),
             PieceKind::Statement => match sentence(text) {
-                Ok(Sentence::Declaration { .. }) => Says::Setting,
+                Ok(Sentence::Declaration { .. }) => Effect::Setting,
                 Ok(Sentence::Assignment { name }) => {
                     self.program.data.forget(seen_from(module, Some(routine)), &name);
-                    Says::Unknown
+                    Effect::Unknown
                 }
                 Ok(Sentence::Instruction {
                     name,
@@ -258,9 +253,9 @@ impl Teller<'_, '_> {
                 }) => match self.program.routine(&name, module) {
                     Some(other) if self.is_fresh(other) && required.is_empty() && optional.is_empty() => {
                         called = Some(other);
-                        Says::Setting
+                        Effect::Setting
                     }
-                    Some(_) => Says::Unknown,
+                    Some(_) => Effect::Unknown,
                     None => {
                         let view = View {
                             data: &self.program.data,
@@ -272,31 +267,31 @@ impl Teller<'_, '_> {
                             required: &required,
                             optional: &optional,
                         };
-                        match self.machine.says(instruction, view, modes) {
+                        match self.machine.effect(instruction, view, modes) {
                             (_, Known::No) => self.own_or_unknown(text),
-                            (says, Known::Yes) => says,
+                            (effect, Known::Yes) => effect,
                         }
                     }
                 },
-                Err(expected) => Says::Unreadable { expected },
+                Err(expected) => Effect::Unreadable { expected },
             },
             PieceKind::Control => self.own_or_unknown(text),
             PieceKind::OldHead
             | PieceKind::Module
             | PieceKind::EndModule
             | PieceKind::Routine
-            | PieceKind::OtherRoutine => Says::Unknown,
+            | PieceKind::OtherRoutine => Effect::Unknown,
         };
-        self.tell(module, place, says);
+        self.tell(module, place, effect);
         called
     }
 
     /// What the machine's profile puts into programs is known; nothing else is.
-    fn own_or_unknown(&self, text: &str) -> Says {
-        if self.own.contains(&essence(text)) {
-            Says::Setting
+    fn own_or_unknown(&self, text: &str) -> Effect {
+        if self.own.contains(&normalized(text)) {
+            Effect::Setting
         } else {
-            Says::Unknown
+            Effect::Unknown
         }
     }
 
@@ -310,11 +305,11 @@ impl Teller<'_, '_> {
                     .modules
                     .get(module)
                     .and_then(|of| of.pieces.get(piece));
-                let says = match kind.map(|piece| piece.kind) {
-                    Some(PieceKind::Broken) => Says::expected("`;`"),
-                    Some(_) | None => Says::Setting,
+                let effect = match kind.map(|piece| piece.kind) {
+                    Some(PieceKind::Broken) => Effect::expected("`;`"),
+                    Some(_) | None => Effect::Setting,
                 };
-                self.tell(module, piece, says);
+                self.tell(module, piece, effect);
             }
         }
     }

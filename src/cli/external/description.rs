@@ -3,7 +3,7 @@
 use super::fault::{fault, line};
 use vcutc_backend_api::backend::{Fault, OptionKind, OptionSpec};
 use vcutc_backend_api::protocol::{DescribedOption, Description, Driven, Reads};
-use vcutc_backend_api::readback::Grain;
+use vcutc_backend_api::readback::Resolution;
 use vcutc_backend_api::verify::Capabilities;
 
 /// Most options of a program, and most words of a choice.
@@ -138,7 +138,7 @@ fn readable(reads: &Reads, specs: &[OptionSpec]) -> Result<(), Fault> {
         return Err(fault("reads files, but names no extension of theirs"));
     }
     let Some(key) = &reads.decimals else {
-        return fine_enough(&reads.grain);
+        return fine_enough(&reads.resolution);
     };
     let decimals = specs.iter().find_map(|spec| match spec.kind {
         OptionKind::Integer { max, default, .. } if spec.key == key && max <= MOST_DECIMALS => Some(default),
@@ -149,7 +149,7 @@ fn readable(reads: &Reads, specs: &[OptionSpec]) -> Result<(), Fault> {
         | OptionKind::Choice { .. } => None,
     });
     match decimals {
-        Some(decimals) => fine_enough(&divided(&reads.grain, decimals)),
+        Some(decimals) => fine_enough(&divided(&reads.resolution, decimals)),
         None => {
             let key = line(key);
             Err(fault(format!(
@@ -159,26 +159,26 @@ fn readable(reads: &Reads, specs: &[OptionSpec]) -> Result<(), Fault> {
     }
 }
 
-/// Whether programs printed with that grain can be told from each other.
+/// Whether programs printed with that resolution can be told from each other.
 ///
 /// # Errors
 /// Which of its values is too coarse, and how large it may be.
-pub(super) fn fine_enough(grain: &Grain) -> Result<(), Fault> {
-    grain
+pub(super) fn fine_enough(resolution: &Resolution) -> Result<(), Fault> {
+    resolution
         .is_sound()
         .map_err(|allowed| fault(format!("prints too coarsely to compare anything: {allowed}")))
 }
 
-/// A grain divided by ten to some power.
-pub(super) fn divided(grain: &Grain, decimals: u32) -> Grain {
+/// A resolution divided by ten to some power.
+pub(super) fn divided(resolution: &Resolution, decimals: u32) -> Resolution {
     let by = (0..decimals).fold(1.0, |power, _| power * 10.0);
-    Grain {
-        length: grain.length / by,
-        attitude: grain.attitude / by,
-        axis: grain.axis / by,
-        speed: grain.speed / by,
-        rate: grain.rate / by,
-        per_minute: grain.per_minute / by,
-        time: grain.time / by,
+    Resolution {
+        length: resolution.length / by,
+        attitude: resolution.attitude / by,
+        axis: resolution.axis / by,
+        speed: resolution.speed / by,
+        rate: resolution.rate / by,
+        per_minute: resolution.per_minute / by,
+        time: resolution.time / by,
     }
 }

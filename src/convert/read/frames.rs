@@ -8,7 +8,7 @@ use super::Reader;
 use crate::complaints;
 use crate::milling::Way;
 use std::collections::BTreeMap;
-use vcutc_backend_api::readback::essence;
+use vcutc_backend_api::readback::normalized;
 use vcutc_backend_krl::interpreter::Context;
 use vcutc_backend_krl::syntax::{
     Component, Declaration, Field, Setting, SettingValue, Tail, Value, Variable, is_same_name,
@@ -83,11 +83,7 @@ fn of_point(fields: &[Field<'_>]) -> Said {
         let value = match &field.value {
             Value::Number(number) => number.to_string(),
             Value::Enum(word) => side(word),
-            Value::Bool(_)
-            | Value::Text(_)
-            | Value::Coordinates(_)
-            | Value::Structure(_)
-            | Value::Variable(_) => return None,
+            _ => return None,
         };
         Some((what.to_owned(), value))
     };
@@ -100,7 +96,7 @@ fn side(word: &str) -> String {
 
 /// A value as it is compared: `TOOL_DATA[3]` is the number 3, all else its text.
 fn compared(text: &str) -> String {
-    let text = essence(text).to_ascii_uppercase();
+    let text = normalized(text).to_ascii_uppercase();
     let text = text.split_once('=').map_or(text.as_str(), |(_, value)| value);
     ["TOOL_DATA[", "BASE_DATA["]
         .into_iter()
@@ -143,11 +139,7 @@ impl Reader<'_> {
             let point = match value {
                 Value::Structure(fields) => of_point(fields),
                 Value::Variable(variable) => self.frames.point(context, variable.name),
-                Value::Number(_)
-                | Value::Bool(_)
-                | Value::Enum(_)
-                | Value::Text(_)
-                | Value::Coordinates(_) => return,
+                _ => return,
             };
             for (what, value) in point {
                 put(&mut said, &what, "", value);
@@ -157,12 +149,7 @@ impl Reader<'_> {
             let part = format!("{index}{}", to.field.unwrap_or_default().to_ascii_uppercase());
             let known = match value {
                 Value::Variable(variable) => self.state.variables.get(context, variable),
-                Value::Number(_)
-                | Value::Bool(_)
-                | Value::Enum(_)
-                | Value::Text(_)
-                | Value::Coordinates(_)
-                | Value::Structure(_) => None,
+                _ => None,
             };
             let text = match known.map(|known| (known.all(Component::TIP), known.all(Component::ANGLES))) {
                 Some((Some(tip), Some(angles))) => format!("{tip:?}{angles:?}"),

@@ -1,8 +1,8 @@
 //! Programs told faithfully are followed to their end; told wrongly in one place, they are left right there.
 
 use super::{
-    Deed, Departure, DepartureKind, End, FrameRole, FrameSetting, Frames, Grain, Held, Judge, Mismatch, Pace,
-    Place, Reader, Retrace, Retraced, Says, Sources, Stance, Statement, Target,
+    Command, Comparator, Configuration, Divergence, DivergenceKind, Effect, End, FrameRole, FrameSetting,
+    Frames, Held, Mismatch, Pace, Place, Reader, Replay, Resolution, Sources, Statement, Target,
 };
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{Action, AxisValues, OpId, Program, Ready, Switch};
@@ -17,7 +17,7 @@ use proptest::prelude::*;
 /// A dialect that says everything, and prints three decimals.
 struct Plain;
 
-const GRAIN: Grain = Grain {
+const RESOLUTION: Resolution = Resolution {
     length: Length::mm(0.0005),
     attitude: Angle::rad(1e-5),
     axis: Angle::rad(1e-5),
@@ -31,17 +31,17 @@ impl Reader for Plain {
     fn recognises(&self, _file: &str) -> bool {
         true
     }
-    fn grain(&self, _options: &Options) -> Grain {
-        GRAIN
+    fn resolution(&self, _options: &Options) -> Resolution {
+        RESOLUTION
     }
     fn frames(&self) -> Frames {
         Frames::InProgram
     }
-    fn stance(&self, branch: Branch, axes: AxisValues) -> Option<Stance> {
+    fn configuration(&self, branch: Branch, axes: AxisValues) -> Option<Configuration> {
         let Branch::Arm { wrist, .. } = branch else {
             return None;
         };
-        Some(Stance([
+        Some(Configuration([
             i32::from(wrist == Wrist::Negative),
             i32::from(axes.0[3] < 0.0),
             0,
@@ -53,42 +53,42 @@ impl Reader for Plain {
 
 fn target(program: &ReachableProgram, op: OpId, tip: Point3, orientation: Orientation) -> Target {
     let axes = program.axes_after(op).unwrap();
-    let stance = Plain.stance(program.branch_after(op).unwrap(), axes);
+    let configuration = Plain.configuration(program.branch_after(op).unwrap(), axes);
     Target {
         tip,
-        held: Held::Orientation(orientation, stance),
+        held: Held::Orientation(orientation, configuration),
     }
 }
 
-/// What the ops of a program say, put as deeds.
-fn told(reachable: &ReachableProgram) -> Vec<Deed> {
+/// What the ops of a program say, put as commands.
+fn told(reachable: &ReachableProgram) -> Vec<Command> {
     let program = reachable.program();
     let cell = program.cell.as_ref().unwrap();
-    let mut deeds = Vec::new();
+    let mut commands = Vec::new();
     for segment in program.segments() {
         let target = || {
             let there = program.frame(segment.end().unwrap()).unwrap();
             target(reachable, segment.id, there.origin, there.orientation)
         };
-        deeds.push(match segment.op.action {
-            Action::Home => Deed::Axes(cell.home.unwrap()),
-            Action::AxisTravel { .. } => Deed::AxesToPose(target()),
-            Action::Ultrasonic { state } => Deed::Switch {
+        commands.push(match segment.op.action {
+            Action::Home => Command::Axes(cell.home.unwrap()),
+            Action::AxisTravel { .. } => Command::AxesToPose(target()),
+            Action::Ultrasonic { state } => Command::Switch {
                 output: cell.ultrasonic.unwrap(),
                 state,
             },
             Action::AwaitReady => match cell.ready {
-                Ready::Input(input) => Deed::AwaitInput(input),
-                Ready::After(time) => Deed::Wait(time),
+                Ready::Input(input) => Command::AwaitInput(input),
+                Ready::After(time) => Command::Wait(time),
             },
-            Action::Dwell { time } => Deed::Wait(time),
+            Action::Dwell { time } => Command::Wait(time),
             Action::Travel { .. }
             | Action::Approach { .. }
             | Action::Retract { .. }
             | Action::Cut { .. }
             | Action::Turn { .. } => {
                 let line = segment.path.line().unwrap();
-                Deed::Straight {
+                Command::Straight {
                     to: target(),
                     pace: Pace::Speeds {
                         tip: line.feed,
@@ -100,33 +100,33 @@ fn told(reachable: &ReachableProgram) -> Vec<Deed> {
             Action::ToolChange { .. } => panic!("no sample changes its tool"),
         });
     }
-    deeds
+    commands
 }
 
-fn frames(program: &Program) -> Vec<Says> {
+fn frames(program: &Program) -> Vec<Effect> {
     let cell = program.cell.as_ref().unwrap();
     let frames = [(FrameRole::Tool, cell.tool), (FrameRole::Base, cell.base)];
-    let says = frames.map(|(role, placed)| {
+    let effect = frames.map(|(role, placed)| {
         let value = FrameSetting::Value(placed.frame);
-        Says::Frame(role, placed.number.map_or(value, FrameSetting::Number))
+        Effect::Frame(role, placed.number.map_or(value, FrameSetting::Number))
     });
-    says.to_vec()
+    effect.to_vec()
 }
 
-fn retraced(reachable: &ReachableProgram, says: Vec<Says>) -> Result<Retraced, Departure> {
-    let mut retrace = Retrace::new(Judge::new(reachable, &Plain, GRAIN), Plain.frames());
-    for (start, says) in (0..).zip(says) {
+fn replayed(reachable: &ReachableProgram, effect: Vec<Effect>) -> Result<Vec<Place>, Divergence> {
+    let mut replay = Replay::new(Comparator::new(reachable, &Plain, RESOLUTION), Plain.frames());
+    for (start, effect) in (0..).zip(effect) {
         let end = start + 1;
         let place = Place { file: 0, start, end };
-        retrace.heed(&Statement { place, says });
+        replay.take(&Statement { place, effect });
     }
-    retrace.finish()
+    replay.finish()
 }
 
-/// The frames, and then deeds.
-fn whole(reachable: &ReachableProgram, deeds: impl IntoIterator<Item = Deed>) -> Vec<Says> {
-    let deeds = deeds.into_iter().map(Says::Deed);
-    frames(reachable.program()).into_iter().chain(deeds).collect()
+/// The frames, and then commands.
+fn whole(reachable: &ReachableProgram, commands: impl IntoIterator<Item = Command>) -> Vec<Effect> {
+    let commands = commands.into_iter().map(Effect::Command);
+    frames(reachable.program()).into_iter().chain(commands).collect()
 }
 
 fn sample() -> ReachableProgram {
@@ -142,10 +142,10 @@ fn sample() -> ReachableProgram {
 #[test]
 fn faithful_programs_are_followed_op_by_op() {
     for (name, program) in samples().unwrap() {
-        let deeds = told(&program);
-        let count = deeds.len();
-        let retraced = retraced(&program, whole(&program, deeds)).unwrap();
-        let starts: Vec<u32> = retraced.places.iter().map(|place| place.start).collect();
+        let commands = told(&program);
+        let count = commands.len();
+        let replayed = replayed(&program, whole(&program, commands)).unwrap();
+        let starts: Vec<u32> = replayed.iter().map(|place| place.start).collect();
         assert_eq!(starts, (2..).take(count).collect::<Vec<u32>>(), "{name}");
     }
 }
@@ -153,14 +153,14 @@ fn faithful_programs_are_followed_op_by_op() {
 #[test]
 fn a_dropped_deed_is_missed_unless_nothing_would_change() {
     let program = sample();
-    let deeds = told(&program);
-    for drop in 0..deeds.len() {
-        let mut shorter = deeds.clone();
+    let commands = told(&program);
+    for drop in 0..commands.len() {
+        let mut shorter = commands.clone();
         shorter.remove(drop);
-        let departure = retraced(&program, whole(&program, shorter)).unwrap_err();
+        let divergence = replayed(&program, whole(&program, shorter)).unwrap_err();
         assert!(
-            departure.op.is_some_and(|op| op.0 as usize >= drop),
-            "{departure:?}"
+            divergence.op.is_some_and(|op| op.0 as usize >= drop),
+            "{divergence:?}"
         );
     }
 }
@@ -168,13 +168,13 @@ fn a_dropped_deed_is_missed_unless_nothing_would_change() {
 #[test]
 fn swapped_deeds_are_noticed_unless_they_are_equal() {
     let program = sample();
-    let deeds = told(&program);
-    for first in 1..deeds.len() {
-        let mut swapped = deeds.clone();
+    let commands = told(&program);
+    for first in 1..commands.len() {
+        let mut swapped = commands.clone();
         swapped.swap(first - 1, first);
-        if swapped != deeds {
-            let departure = retraced(&program, whole(&program, swapped)).unwrap_err();
-            assert!(departure.op.unwrap().0 as usize >= first - 1);
+        if swapped != commands {
+            let divergence = replayed(&program, whole(&program, swapped)).unwrap_err();
+            assert!(divergence.op.unwrap().0 as usize >= first - 1);
         }
     }
 }
@@ -182,69 +182,69 @@ fn swapped_deeds_are_noticed_unless_they_are_equal() {
 #[test]
 fn one_deed_more_is_one_too_many() {
     let program = sample();
-    let deeds = told(&program);
-    for repeated in 0..deeds.len() {
-        let mut longer = deeds.clone();
-        longer.insert(repeated, deeds[repeated]);
-        assert!(retraced(&program, whole(&program, longer)).is_err(), "{repeated}");
+    let commands = told(&program);
+    for repeated in 0..commands.len() {
+        let mut longer = commands.clone();
+        longer.insert(repeated, commands[repeated]);
+        assert!(replayed(&program, whole(&program, longer)).is_err(), "{repeated}");
     }
-    let after = deeds.iter().copied().chain([deeds[0]]);
-    let departure = retraced(&program, whole(&program, after)).unwrap_err();
-    assert_eq!((departure.op, departure.what), (None, DepartureKind::More));
+    let after = commands.iter().copied().chain([commands[0]]);
+    let divergence = replayed(&program, whole(&program, after)).unwrap_err();
+    assert_eq!((divergence.op, divergence.what), (None, DivergenceKind::More));
 }
 
 /// At the head of a part the state of the machine may be said once more, and nothing else.
 #[test]
 fn parts_restate_what_holds() {
     let program = sample();
-    let deeds = told(&program);
+    let commands = told(&program);
     let ops = &program.program().ops;
     let retracted = |op: &crate::ir::Op| matches!(op.action, Action::Retract { .. });
     let cut = ops.iter().position(retracted).unwrap() + 1;
-    let (before, after) = deeds.split_at(cut);
+    let (before, after) = commands.split_at(cut);
     let pose = {
         let last = program.program().segments().nth(cut - 1).unwrap();
         let there = program.program().frame(last.end().unwrap()).unwrap();
-        Deed::AxesToPose(target(&program, last.id, there.origin, there.orientation))
+        Command::AxesToPose(target(&program, last.id, there.origin, there.orientation))
     };
     let cell = program.program().cell.as_ref().unwrap();
-    let on = Deed::Switch {
+    let on = Command::Switch {
         output: cell.ultrasonic.unwrap(),
         state: Switch::On,
     };
-    let off = Deed::Switch {
+    let off = Command::Switch {
         output: cell.ultrasonic.unwrap(),
         state: Switch::Off,
     };
     let Ready::After(time) = cell.ready else { panic!() };
-    let with = |part: Option<Says>, restated: &[Deed]| {
-        let mut says = whole(&program, before.iter().copied());
+    let with = |part: Option<Effect>, restated: &[Command]| {
+        let mut effect = whole(&program, before.iter().copied());
         let begins = part.is_some();
-        says.extend(part);
+        effect.extend(part);
         if begins {
-            says.extend(frames(program.program()));
+            effect.extend(frames(program.program()));
         }
-        says.extend(restated.iter().chain(after).copied().map(Says::Deed));
-        retraced(&program, says).is_ok()
+        effect.extend(restated.iter().chain(after).copied().map(Effect::Command));
+        replayed(&program, effect).is_ok()
     };
-    let begins = || Some(Says::PartBegins);
+    let begins = || Some(Effect::PartBegins);
     assert!(with(begins(), &[]));
-    assert!(with(begins(), &[pose, on, Deed::Wait(time)]));
+    assert!(with(begins(), &[pose, on, Command::Wait(time)]));
     assert!(!with(None, &[pose]));
     assert!(!with(begins(), &[off]));
-    assert!(!with(begins(), &[Deed::Wait(time * 2.0)]));
-    assert!(!with(begins(), &[deeds[1]]));
+    assert!(!with(begins(), &[Command::Wait(time * 2.0)]));
+    assert!(!with(begins(), &[commands[1]]));
 }
 
 #[test]
 fn frames_come_first_and_have_their_values() {
     let program = sample();
-    let deeds: Vec<Says> = told(&program).into_iter().map(Says::Deed).collect();
+    let commands: Vec<Effect> = told(&program).into_iter().map(Effect::Command).collect();
     let frames = frames(program.program());
-    let kind = |says: Vec<Says>| retraced(&program, says).map_err(|departure| departure.what);
-    let without_base = frames.iter().take(1).chain(&deeds).cloned().collect();
-    assert_eq!(kind(without_base), Err(DepartureKind::NoFrame(FrameRole::Base)));
-    let Says::Frame(_, tool) = frames[0].clone() else {
+    let kind = |effect: Vec<Effect>| replayed(&program, effect).map_err(|divergence| divergence.what);
+    let without_base = frames.iter().take(1).chain(&commands).cloned().collect();
+    assert_eq!(kind(without_base), Err(DivergenceKind::NoFrame(FrameRole::Base)));
+    let Effect::Frame(_, tool) = frames[0].clone() else {
         panic!()
     };
     let moved = match tool {
@@ -255,30 +255,30 @@ fn frames_come_first_and_have_their_values() {
         FrameSetting::Number(_) => panic!(),
     };
     for setting in [moved, FrameSetting::Number(1)] {
-        let says = [Says::Frame(FrameRole::Tool, setting)];
-        let says = says
+        let effect = [Effect::Frame(FrameRole::Tool, setting)];
+        let effect = effect
             .into_iter()
             .chain(frames.clone())
-            .chain(deeds.clone())
+            .chain(commands.clone())
             .collect();
-        assert_eq!(kind(says), Err(DepartureKind::Frame(FrameRole::Tool)));
+        assert_eq!(kind(effect), Err(DivergenceKind::Frame(FrameRole::Tool)));
     }
 }
 
 #[test]
 fn what_is_not_understood_is_never_passed_over() {
     let program = sample();
-    for says in [
-        Says::Unknown,
-        Says::Unreadable {
+    for effect in [
+        Effect::Unknown,
+        Effect::Unreadable {
             expected: "a number".to_owned(),
         },
     ] {
         let mut all = whole(&program, told(&program));
-        all.insert(7, says);
-        let departure = retraced(&program, all).unwrap_err();
-        assert_eq!(departure.what, DepartureKind::NotUnderstood);
-        assert_eq!(departure.place.unwrap().start, 7);
+        all.insert(7, effect);
+        let divergence = replayed(&program, all).unwrap_err();
+        assert_eq!(divergence.what, DivergenceKind::NotUnderstood);
+        assert_eq!(divergence.place.unwrap().start, 7);
     }
 }
 
@@ -317,26 +317,26 @@ fn waypoints_are_passed_in_their_order() {
         ..program.motion().clone()
     };
     let program = ReachableProgram::assemble(program.verified().clone(), motion, &blade_in_work).unwrap();
-    let deeds = told(&program);
-    let Deed::Straight { pace, .. } = deeds[turn] else {
+    let commands = told(&program);
+    let Command::Straight { pace, .. } = commands[turn] else {
         panic!()
     };
-    let step = |waypoint: &Waypoint| Deed::Straight {
+    let step = |waypoint: &Waypoint| Command::Straight {
         to: Target {
             tip: waypoint.frame.origin,
             held: Held::Orientation(
                 waypoint.frame.orientation,
-                Plain.stance(program.branch_after(op).unwrap(), waypoint.axes),
+                Plain.configuration(program.branch_after(op).unwrap(), waypoint.axes),
             ),
         },
         pace,
         end: End::Exact,
     };
-    let steps: Vec<Deed> = program.motion().waypoints.iter().map(step).collect();
-    let with = |steps: &[Deed]| {
-        let mut deeds = deeds.clone();
-        deeds.splice(turn..turn, steps.iter().copied());
-        retraced(&program, whole(&program, deeds)).is_ok()
+    let steps: Vec<Command> = program.motion().waypoints.iter().map(step).collect();
+    let with = |steps: &[Command]| {
+        let mut commands = commands.clone();
+        commands.splice(turn..turn, steps.iter().copied());
+        replayed(&program, whole(&program, commands)).is_ok()
     };
     assert!(with(&steps));
     assert!(with(&[]));
@@ -344,8 +344,8 @@ fn waypoints_are_passed_in_their_order() {
     assert!(!with(&[steps[0], steps[0]]));
 }
 
-/// Each number of a deed that the op says.
-fn nudged(deed: Deed, which: usize, by: f64) -> Option<Deed> {
+/// Each number of a command that the op says.
+fn nudged(command: Command, which: usize, by: f64) -> Option<Command> {
     let tip = |target: Target| {
         let mut target = target;
         let coordinate = match which {
@@ -354,35 +354,35 @@ fn nudged(deed: Deed, which: usize, by: f64) -> Option<Deed> {
             2 => &mut target.tip.z,
             _ => return None,
         };
-        *coordinate += by * GRAIN.length.to_mm();
+        *coordinate += by * RESOLUTION.length.to_mm();
         Some(target)
     };
-    match deed {
-        Deed::Axes(mut values) => {
-            *values.0.get_mut(which)? += by * GRAIN.axis.to_rad();
-            Some(Deed::Axes(values))
+    match command {
+        Command::Axes(mut values) => {
+            *values.0.get_mut(which)? += by * RESOLUTION.axis.to_rad();
+            Some(Command::Axes(values))
         }
-        Deed::AxesToPose(target) => tip(target).map(Deed::AxesToPose),
-        Deed::Straight { to, pace, end } => match (which, pace) {
-            (0..=2, _) => tip(to).map(|to| Deed::Straight { to, pace, end }),
+        Command::AxesToPose(target) => tip(target).map(Command::AxesToPose),
+        Command::Straight { to, pace, end } => match (which, pace) {
+            (0..=2, _) => tip(to).map(|to| Command::Straight { to, pace, end }),
             (
                 3,
                 Pace::Speeds {
                     tip: Some(speed),
                     turn,
                 },
-            ) => Some(Deed::Straight {
+            ) => Some(Command::Straight {
                 to,
                 pace: Pace::Speeds {
-                    tip: Some(speed + GRAIN.speed * by),
+                    tip: Some(speed + RESOLUTION.speed * by),
                     turn,
                 },
                 end,
             }),
             _ => None,
         },
-        Deed::Wait(time) => (which == 0).then(|| Deed::Wait(time + GRAIN.time * by)),
-        Deed::Switch { .. } | Deed::AwaitInput(_) => None,
+        Command::Wait(time) => (which == 0).then(|| Command::Wait(time + RESOLUTION.time * by)),
+        Command::Switch { .. } | Command::AwaitInput(_) => None,
     }
 }
 
@@ -396,18 +396,18 @@ proptest! {
         beyond in prop_oneof![-9.0..-1.1_f64, 1.1..9.0_f64],
     ) {
         let program = sample();
-        let mut deeds = told(&program);
-        let place = place.index(deeds.len());
-        let deed = deeds[place];
-        if let Some(near) = nudged(deed, which, within) {
-            deeds[place] = near;
-            prop_assert!(retraced(&program, whole(&program, deeds.clone())).is_ok());
+        let mut commands = told(&program);
+        let place = place.index(commands.len());
+        let command = commands[place];
+        if let Some(near) = nudged(command, which, within) {
+            commands[place] = near;
+            prop_assert!(replayed(&program, whole(&program, commands.clone())).is_ok());
         }
-        if let Some(far) = nudged(deed, which, beyond) {
-            deeds[place] = far;
-            let departure = retraced(&program, whole(&program, deeds)).unwrap_err();
-            prop_assert_eq!(departure.op.unwrap().0 as usize, place);
-            let DepartureKind::Differs(found) = departure.what else { panic!() };
+        if let Some(far) = nudged(command, which, beyond) {
+            commands[place] = far;
+            let divergence = replayed(&program, whole(&program, commands)).unwrap_err();
+            prop_assert_eq!(divergence.op.unwrap().0 as usize, place);
+            let DivergenceKind::Differs(found) = divergence.what else { panic!() };
             prop_assert!(found.iter().all(|mismatch| *mismatch != Mismatch::Kind));
         }
     }
@@ -420,14 +420,14 @@ proptest! {
         off in prop_oneof![-9.0..-0.1_f64, 2.1..9.0_f64],
     ) {
         let program = sample();
-        let deeds = told(&program);
-        let turning = |(place, deed): (usize, &Deed)| match deed {
-            Deed::Straight { to, pace: Pace::Speeds { tip, turn: Some(rate) }, end } => Some((place, *to, *tip, *rate, *end)),
+        let commands = told(&program);
+        let turning = |(place, command): (usize, &Command)| match command {
+            Command::Straight { to, pace: Pace::Speeds { tip, turn: Some(rate) }, end } => Some((place, *to, *tip, *rate, *end)),
             _ => None,
         };
         // Travels that keep the blade as it is have a rate, too, and it does not matter.
         let is_turn = |place: &usize| matches!(program.program().ops[*place].action, Action::Turn { .. });
-        let turns: Vec<_> = deeds
+        let turns: Vec<_> = commands
             .iter()
             .enumerate()
             .filter(|(place, _)| is_turn(place))
@@ -435,10 +435,10 @@ proptest! {
             .collect();
         let (place, to, tip, rate, end) = turns[place.index(turns.len())];
         let at = |by: f64| {
-            let mut deeds = deeds.clone();
-            let turn = Some(rate - GRAIN.rate * by);
-            deeds[place] = Deed::Straight { to, pace: Pace::Speeds { tip, turn }, end };
-            retraced(&program, whole(&program, deeds))
+            let mut commands = commands.clone();
+            let turn = Some(rate - RESOLUTION.rate * by);
+            commands[place] = Command::Straight { to, pace: Pace::Speeds { tip, turn }, end };
+            replayed(&program, whole(&program, commands))
         };
         prop_assert!(at(below).is_ok());
         prop_assert_eq!(at(off).unwrap_err().op.unwrap().0 as usize, place);

@@ -5,7 +5,7 @@ use crate::backend::{Backend, BackendIssue, EmitError, OptionKind, OptionSpec, O
 use crate::bundle::{Bundle, Sink, SinkError};
 use crate::ir::{Action, Op, Site};
 use crate::motion::ReachableProgram;
-use crate::readback::{Judge, Retrace, Sources, program_files};
+use crate::readback::{Comparator, Replay, Sources, program_files};
 use crate::verify::{Capability, verify};
 use std::collections::BTreeSet;
 
@@ -121,19 +121,21 @@ fn read_back(
         cell,
         options,
     };
-    let mut retrace = Retrace::new(
-        Judge::new(program, reader, reader.grain(options)),
+    let mut replay = Replay::new(
+        Comparator::new(program, reader, reader.resolution(options)),
         reader.frames(),
     );
-    reader.read(sources, &mut |statement| retrace.heed(&statement));
-    match retrace.finish() {
+    reader.read(sources, &mut |statement| replay.take(&statement));
+    match replay.finish() {
         Ok(_) => Ok(()),
-        Err(departure) => {
-            let text = departure.place.and_then(|place| {
+        Err(divergence) => {
+            let text = divergence.place.and_then(|place| {
                 let file = files.get(place.file as usize)?;
                 file.text.get(place.start as usize..place.end as usize)
             });
-            Err(format!("read back as another program: {departure:?} at {text:?}"))
+            Err(format!(
+                "read back as another program: {divergence:?} at {text:?}"
+            ))
         }
     }
 }

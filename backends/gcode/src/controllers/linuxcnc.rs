@@ -21,7 +21,7 @@ use crate::statement::{
     Act, Block, Cursor, Cycle, Flow, Mode, Order, Parsed, ReadError, Routine, Scope, Style, block, expected,
 };
 use vcutc_backend_api::ir::Switch;
-use vcutc_backend_api::readback::{End, essence};
+use vcutc_backend_api::readback::{End, normalized};
 use vcutc_backend_api::script::{Layout, trimmed_text};
 use vcutc_backend_api::units::Length;
 
@@ -201,7 +201,7 @@ fn o_word(code: &str) -> Parsed<Order<'_>> {
     };
     cursor.must(b'>')?;
     if let Some(number) = name.strip_prefix(READY).and_then(|number| number.parse().ok()) {
-        let rest = essence(cursor.rest());
+        let rest = normalized(cursor.rest());
         return match rest.as_str() {
             "DO" => Ok(Order::modes(vec![Mode::Cycle(Cycle::Loop(number))])),
             "WHILE[#5399 LT 0]" => Ok(Order::act(Act::LoopEnds(number))),

@@ -6,7 +6,7 @@
 use crate::codes::Role;
 use crate::controller::Codes;
 use crate::statement::{Code, Style};
-use vcutc_backend_api::readback::essence;
+use vcutc_backend_api::readback::normalized;
 
 /// What a statement is to the blocks of the job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +34,7 @@ impl Given {
     /// Those of a job.
     pub(super) fn new(codes: Codes<'_>, style: Style) -> Self {
         let blocks = codes.all().into_iter().filter_map(|(role, lines)| {
-            let lines = essences(lines, style);
+            let lines = normalized_texts(lines, style);
             let read = 0;
             (!lines.is_empty()).then_some(GivenBlock { role, lines, read })
         });
@@ -44,17 +44,17 @@ impl Given {
     }
 
     /// Takes the next statement.
-    pub(super) fn heed(&mut self, code: &str) -> Found {
+    pub(super) fn visit(&mut self, code: &str) -> Found {
         if !self.may_be(code) {
             for block in &mut self.blocks {
                 block.read = 0;
             }
             return Found::Nothing;
         }
-        let essence = essence(code);
+        let normalized = normalized(code);
         let mut found = Found::Nothing;
         for block in &mut self.blocks {
-            found = match (block.heed(&essence), found) {
+            found = match (block.visit(&normalized), found) {
                 (Found::Nothing, found) | (Found::Part(_), found @ Found::Whole(_)) => found,
                 (one, Found::Nothing | Found::Part(_)) => one,
                 // Of two that end here the longer one is meant, and it was read first or is read now.
@@ -73,8 +73,8 @@ impl Given {
 }
 
 impl GivenBlock {
-    fn heed(&mut self, essence: &str) -> Found {
-        let is_line = |at: usize| self.lines.get(at).is_some_and(|line| line == essence);
+    fn visit(&mut self, normalized: &str) -> Found {
+        let is_line = |at: usize| self.lines.get(at).is_some_and(|line| line == normalized);
         self.read = if is_line(self.read) {
             self.read + 1
         } else {
@@ -92,9 +92,9 @@ impl GivenBlock {
 }
 
 /// The statements among some lines, without layout.
-pub(super) fn essences(lines: &[String], style: Style) -> Vec<String> {
+pub(super) fn normalized_texts(lines: &[String], style: Style) -> Vec<String> {
     let codes = lines.iter().filter_map(|line| match style.code(line, 0) {
-        Code::Is(_, code) => Some(essence(code)),
+        Code::Is(_, code) => Some(normalized(code)),
         Code::None | Code::Broken(..) | Code::Active(_) => None,
     });
     codes.collect()
@@ -133,7 +133,7 @@ mod tests {
             ("M050", Found::Whole(Role::On)),
             ("M51", Found::Nothing),
         ] {
-            assert_eq!(given.heed(code), found, "{code}");
+            assert_eq!(given.visit(code), found, "{code}");
         }
     }
 }

@@ -16,7 +16,7 @@ use crate::statement::{
 };
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{AxisKind, AxisValues, MOST_AXES, Ready, Switch};
-use vcutc_backend_api::readback::{Deed, End, FrameRole, FrameSetting, Held, Pace, Says, Target};
+use vcutc_backend_api::readback::{Command, Effect, End, FrameRole, FrameSetting, Held, Pace, Target};
 use vcutc_backend_api::units::{AngularSpeed, Speed};
 
 /// Number of the work offset when the job gives none.
@@ -112,7 +112,7 @@ impl<'a> Control<'a> {
     }
 
     /// What a block does. One that says where things go on does nothing else, and is none of the control's.
-    pub(super) fn carry_out(&mut self, order: &Order<'_>) -> Parsed<Says> {
+    pub(super) fn carry_out(&mut self, order: &Order<'_>) -> Parsed<Effect> {
         let cycle = self.cycle.take();
         if cycle == Some(Cycle::WorkOffset) && !matches!(order.act, Some(Act::CycleWork(_))) {
             return expected("`Q339=` after `CYCL DEF 247 DATUM SETTING ~`");
@@ -120,7 +120,7 @@ impl<'a> Control<'a> {
         if let Some(missing) = missing(cycle, order.act) {
             return expected(missing);
         }
-        let says = self.modes(&order.modes)?;
+        let effect = self.modes(&order.modes)?;
         if let Some(motion) = order.motion {
             self.motion = Some(motion);
         }
@@ -132,12 +132,12 @@ impl<'a> Control<'a> {
             if order.modes.iter().any(|mode| matches!(mode, Mode::Tcp(_))) {
                 return expected("the switch of tool-centre-point control in a block of its own");
             }
-            let deed = match order.coordinates {
+            let command = match order.coordinates {
                 Coordinates::Work => self.straight(order)?,
                 Coordinates::Machine => self.all_axes(order)?,
             };
             self.reading = Reading::Ahead;
-            return Ok(Says::Deed(deed));
+            return Ok(Effect::Command(command));
         }
         if order.coordinates == Coordinates::Machine || order.exact_once == Once::Yes {
             return expected("coordinates");
@@ -147,23 +147,23 @@ impl<'a> Control<'a> {
         }
         match order.act {
             Some(act) => self.act(act, order.behind_stop, cycle),
-            None => Ok(says),
+            None => Ok(effect),
         }
     }
 
     /// Sets modes; what is told if they are all that a block has.
-    fn modes(&mut self, modes: &[Mode]) -> Parsed<Says> {
-        let mut says = Says::Setting;
+    fn modes(&mut self, modes: &[Mode]) -> Parsed<Effect> {
+        let mut effect = Effect::Setting;
         let mut error = None;
         for &mode in modes {
             self.set(mode);
             match self.judged(mode) {
-                Ok(Says::Setting) => {}
-                Ok(other) => says = other,
+                Ok(Effect::Setting) => {}
+                Ok(other) => effect = other,
                 Err(wrong) => error = Some(wrong),
             }
         }
-        error.map_or(Ok(says), Err)
+        error.map_or(Ok(effect), Err)
     }
 
     fn set(&mut self, mode: Mode) {
@@ -211,14 +211,14 @@ impl<'a> Control<'a> {
     }
 
     /// Whether a mode is one that programs of this crate have.
-    fn judged(&self, mode: Mode) -> Parsed<Says> {
+    fn judged(&self, mode: Mode) -> Parsed<Effect> {
         let cell = self.context.cell;
         match mode {
             Mode::Convention(_)
             | Mode::Feed(Some(_))
             | Mode::Stop(Some(_))
             | Mode::Tcp(_)
-            | Mode::Cycle(_) => Ok(Says::Setting),
+            | Mode::Cycle(_) => Ok(Effect::Setting),
             Mode::Not(convention) => match self
                 .facts()
                 .conventions
@@ -237,7 +237,7 @@ impl<'a> Control<'a> {
                 ),
                 None => format!("`{}`", self.facts().exact_word),
             }),
-            Mode::Tool(None | Some(0)) => Ok(Says::Setting),
+            Mode::Tool(None | Some(0)) => Ok(Effect::Setting),
             Mode::Tool(Some(is)) => frame(FrameRole::Tool, is, cell.tool.number, self.tool()),
             Mode::Work(is) => frame(FrameRole::Base, is, cell.base.number, FIRST_OFFSET),
         }
@@ -253,22 +253,19 @@ impl<'a> Control<'a> {
         number.unwrap_or(self.context.settings.tool_number)
     }
 
-    /// What both kinds of motion depend on.
-    fn conventions(&self) -> Parsed<()> {
-        let missing = self
-            .facts()
-            .conventions
-            .iter()
-            .find(|(convention, _)| !self.modes.has(*convention));
-        match missing {
+    /// What a kind of motion depends on.
+    fn conventions(&self, needs: impl Fn(Convention) -> bool) -> Parsed<()> {
+        let mut conventions = self.facts().conventions.iter();
+        let is_missing = |convention| needs(convention) && !self.modes.has(convention);
+        match conventions.find(|(convention, _)| is_missing(*convention)) {
             Some((_, words)) => expected(format!("`{words}` before a motion")),
             None => Ok(()),
         }
     }
 
     /// A motion of the tip.
-    fn straight(&mut self, order: &Order<'_>) -> Parsed<Deed> {
-        self.conventions()?;
+    fn straight(&mut self, order: &Order<'_>) -> Parsed<Command> {
+        self.conventions(|_| true)?;
         if self.modes.tcp != Some(Tcp::On) {
             return expected("tool-centre-point control on, or coordinates of the machine");
         }
@@ -306,12 +303,12 @@ impl<'a> Control<'a> {
             tip,
             held: Held::Rotary(rotary),
         };
-        Ok(Deed::Straight { to, pace, end })
+        Ok(Command::Straight { to, pace, end })
     }
 
     /// A motion of all axes.
-    fn all_axes(&mut self, order: &Order<'_>) -> Parsed<Deed> {
-        self.conventions_of_axes()?;
+    fn all_axes(&mut self, order: &Order<'_>) -> Parsed<Command> {
+        self.conventions(is_of_axes)?;
         if self.modes.tcp != Some(Tcp::Off) {
             return expected("tool-centre-point control off before coordinates of the machine");
         }
@@ -358,23 +355,7 @@ impl<'a> Control<'a> {
         let mut axes = AxisValues([0.0; MOST_AXES]);
         self.values(&mut axes, AxisKind::Linear)?;
         self.values(&mut axes, AxisKind::Rotary)?;
-        Ok(Deed::Axes(axes))
-    }
-
-    /// Coordinates of the machine need no conventions of the tip.
-    fn conventions_of_axes(&self) -> Parsed<()> {
-        let needed = |convention: Convention| match convention {
-            Convention::Absolute | Convention::Millimetres | Convention::AsWritten => true,
-            Convention::ByAxes | Convention::MachineAngles | Convention::FeedOfTip => false,
-        };
-        let missing = self.facts().conventions.iter();
-        let missing = missing
-            .filter(|(convention, _)| needed(*convention))
-            .find(|(convention, _)| !self.modes.has(*convention));
-        match missing {
-            Some((_, words)) => expected(format!("`{words}` before a motion")),
-            None => Ok(()),
-        }
+        Ok(Command::Axes(axes))
     }
 
     /// Takes over the coordinates of a motion of the tip.
@@ -447,31 +428,31 @@ impl<'a> Control<'a> {
             .any(|way| way > unit * 1.5)
     }
 
-    fn act(&mut self, act: Act, behind_stop: Once, cycle: Option<Cycle>) -> Parsed<Says> {
+    fn act(&mut self, act: Act, behind_stop: Once, cycle: Option<Cycle>) -> Parsed<Effect> {
         if behind_stop == Once::Yes && self.reading == Reading::Ahead {
             return expected("`STOPRE` before an output");
         }
         let cell = self.context.cell;
-        let deed = match act {
-            Act::Switch(output, state) => Deed::Switch { output, state },
+        let command = match act {
+            Act::Switch(output, state) => Command::Switch { output, state },
             Act::Generator(state) => match cell.ultrasonic {
-                Some(output) => Deed::Switch { output, state },
+                Some(output) => Command::Switch { output, state },
                 None => return Err(ReadError::Unknown),
             },
-            Act::Await(input) => Deed::AwaitInput(input),
+            Act::Await(input) => Command::AwaitInput(input),
             Act::AwaitReady => match cell.ready {
-                Ready::Input(input) => Deed::AwaitInput(input),
+                Ready::Input(input) => Command::AwaitInput(input),
                 Ready::After(_) => return Err(ReadError::Unknown),
             },
-            Act::Wait(time) => Deed::Wait(time),
+            Act::Wait(time) => Command::Wait(time),
             Act::CycleWait(time) => match cycle {
-                Some(Cycle::Dwell) => Deed::Wait(time),
+                Some(Cycle::Dwell) => Command::Wait(time),
                 Some(_) | None => return expected("`CYCL DEF 9.0 DWELL TIME` before"),
             },
             Act::LoopWait(input) => match cycle {
                 Some(Cycle::Loop(number)) => {
                     self.cycle = Some(Cycle::Waited(number, input));
-                    return Ok(Says::Setting);
+                    return Ok(Effect::Setting);
                 }
                 Some(_) | None => {
                     return expected(
@@ -480,7 +461,7 @@ impl<'a> Control<'a> {
                 }
             },
             Act::LoopEnds(number) => match cycle {
-                Some(Cycle::Waited(begun, input)) if begun == number => Deed::AwaitInput(input),
+                Some(Cycle::Waited(begun, input)) if begun == number => Command::AwaitInput(input),
                 Some(_) | None => return expected("the end of a loop that has begun"),
             },
             Act::CycleWork(number) => match cycle {
@@ -489,10 +470,10 @@ impl<'a> Control<'a> {
             },
             Act::StopReading => {
                 self.reading = Reading::Stopped;
-                return Ok(Says::Setting);
+                return Ok(Effect::Setting);
             }
         };
-        Ok(Says::Deed(deed))
+        Ok(Effect::Command(command))
     }
 }
 
@@ -507,6 +488,14 @@ const fn missing(cycle: Option<Cycle>, act: Option<Act>) -> Option<&'static str>
     }
 }
 
+/// Whether coordinates of the machine need a convention; the others are about the tip.
+const fn is_of_axes(convention: Convention) -> bool {
+    match convention {
+        Convention::Absolute | Convention::Millimetres | Convention::AsWritten => true,
+        Convention::ByAxes | Convention::MachineAngles | Convention::FeedOfTip => false,
+    }
+}
+
 /// The place of a letter among the coordinates of the tip.
 const fn tip_place(letter: u8) -> Option<usize> {
     match letter {
@@ -518,10 +507,10 @@ const fn tip_place(letter: u8) -> Option<usize> {
 }
 
 /// A number of a tool or work offset: that of the machine if it has one, or else the one that programs then have.
-fn frame(role: FrameRole, is: u32, given: Option<u32>, otherwise: u32) -> Parsed<Says> {
+fn frame(role: FrameRole, is: u32, given: Option<u32>, otherwise: u32) -> Parsed<Effect> {
     match given {
-        Some(_) => Ok(Says::Frame(role, FrameSetting::Number(is))),
-        None if is == otherwise => Ok(Says::Setting),
+        Some(_) => Ok(Effect::Frame(role, FrameSetting::Number(is))),
+        None if is == otherwise => Ok(Effect::Setting),
         None => expected(match role {
             FrameRole::Tool => format!("tool {otherwise}"),
             FrameRole::Base => format!("work offset {otherwise}"),

@@ -1,9 +1,9 @@
 //! Lines of the machine's profile, which stand in the main program as they are and are not understood.
 
-use super::codes::essences;
+use super::codes::normalized_texts;
 use crate::options::Settings;
 use crate::statement::Style;
-use vcutc_backend_api::readback::essence;
+use vcutc_backend_api::readback::normalized;
 
 /// Those that are still to come.
 pub(super) struct OfProfile {
@@ -26,8 +26,8 @@ pub(super) enum Stage {
 impl OfProfile {
     pub(super) fn new(settings: &Settings<'_>, style: Style) -> Self {
         Self {
-            header: essences(&settings.common.profile.header, style),
-            footer: essences(&settings.common.profile.footer, style),
+            header: normalized_texts(&settings.common.profile.header, style),
+            footer: normalized_texts(&settings.common.profile.footer, style),
             stage: Stage::Head,
         }
     }
@@ -35,7 +35,7 @@ impl OfProfile {
     /// Whether a statement of the main program is one of them; then it is used up.
     pub(super) fn takes(&mut self, code: &str) -> bool {
         let take = |lines: &mut Vec<String>| {
-            let is = lines.iter().position(|line| *line == essence(code));
+            let is = lines.iter().position(|line| *line == normalized(code));
             is.map(|at| lines.remove(at)).is_some()
         };
         if self.stage == Stage::Head && take(&mut self.header) {

@@ -10,10 +10,10 @@ use crate::codes::Role;
 use crate::controller::Heads;
 use crate::options::Settings;
 use crate::statement::{Flow, Order, Parsed, ReadError, Routine, expected};
-use vcutc_backend_api::readback::{Deed, Place, Says, Sources, Statement};
+use vcutc_backend_api::readback::{Command, Effect, Place, Sources, Statement};
 
 /// Tells all statements of a program.
-pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
+pub(super) fn read(sources: Sources<'_>, visit: &mut dyn FnMut(Statement)) {
     let settings = Settings::read(sources.options);
     // Without words every coordinate is unknown, which is what it is.
     let words = axes::words(sources.cell, settings.spindle_letter).unwrap_or_default();
@@ -28,7 +28,7 @@ pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
         .collect();
     let directory = Directory::new(&scripts);
     let main = scripts::main(&scripts, &directory, context);
-    let mut walk = Walk {
+    let mut interpreter = Interpreter {
         context,
         control: Control::new(context),
         given: Given::new(settings.codes, settings.facts().style),
@@ -36,16 +36,16 @@ pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
         scripts,
         directory,
         stack: Vec::new(),
-        heed,
+        visit,
     };
     if let Some(main) = main {
-        walk.enter(main);
+        interpreter.enter(main);
     }
-    walk.follow();
-    walk.never_called();
+    interpreter.follow();
+    interpreter.never_called();
 }
 
-struct Walk<'t, 'h> {
+struct Interpreter<'t, 'h> {
     context: Context<'t>,
     control: Control<'t>,
     given: Given,
@@ -54,7 +54,7 @@ struct Walk<'t, 'h> {
     directory: Directory<'t>,
     /// The files that are being carried out, the main program first.
     stack: Vec<usize>,
-    heed: &'h mut dyn FnMut(Statement),
+    visit: &'h mut dyn FnMut(Statement),
 }
 
 /// How things go on behind a statement.
@@ -66,9 +66,9 @@ enum Onward {
     Over,
 }
 
-impl<'t> Walk<'t, '_> {
-    fn tell(&mut self, place: Place, says: Says) {
-        (self.heed)(Statement { place, says });
+impl<'t> Interpreter<'t, '_> {
+    fn tell(&mut self, place: Place, effect: Effect) {
+        (self.visit)(Statement { place, effect });
     }
 
     fn enter(&mut self, script: usize) {
@@ -89,8 +89,8 @@ impl<'t> Walk<'t, '_> {
                 self.ends_too_soon(place);
                 continue;
             };
-            let (says, onward) = self.statement(script, &line);
-            self.tell(line.place, says);
+            let (effect, onward) = self.statement(script, &line);
+            self.tell(line.place, effect);
             match onward {
                 Onward::Next => {}
                 Onward::Enter(part) => self.enter(part),
@@ -108,7 +108,7 @@ impl<'t> Walk<'t, '_> {
     fn ends_too_soon(&mut self, place: Place) {
         let [of_main, of_part] = self.context.settings.facts().endings;
         let missing = if self.stack.len() > 1 { of_part } else { of_main };
-        self.tell(place, Says::expected(format!("`{missing}` at the end")));
+        self.tell(place, Effect::expected(format!("`{missing}` at the end")));
         self.stack.pop();
     }
 
@@ -131,7 +131,7 @@ impl<'t> Walk<'t, '_> {
                 )
                 | None => false,
             };
-            self.tell(line.place, if is_end { Says::Setting } else { Says::Unknown });
+            self.tell(line.place, if is_end { Effect::Setting } else { Effect::Unknown });
         }
     }
 
@@ -152,14 +152,14 @@ impl<'t> Walk<'t, '_> {
             if self.scripts.get(script).is_some_and(|script| script.entered) {
                 continue;
             }
-            let mut says = Says::Unknown;
+            let mut effect = Effect::Unknown;
             while let Some(line) = self.next_of(script) {
-                self.tell(line.place, core::mem::replace(&mut says, Says::Setting));
+                self.tell(line.place, core::mem::replace(&mut effect, Effect::Setting));
             }
         }
     }
 
-    fn statement(&mut self, script: usize, line: &Line<'t>) -> (Says, Onward) {
+    fn statement(&mut self, script: usize, line: &Line<'t>) -> (Effect, Onward) {
         let longest = self.context.settings.facts().longest_line;
         let understood = match &line.code {
             Err(error) => Err(error.clone()),
@@ -167,46 +167,51 @@ impl<'t> Walk<'t, '_> {
             Ok(code) => self.understood(script, line.place, code),
         };
         let is_main = self.stack.len() == 1;
-        let is_setting = matches!(&understood, Ok((Says::Setting, _)));
+        let is_setting = matches!(&understood, Ok((Effect::Setting, _)));
+        let is_motion = understood
+            .as_ref()
+            .is_ok_and(|(effect, _)| effect.command().is_some_and(Command::is_motion));
         let taken = match &line.code {
-            Ok(code) if is_main && !is_setting && !is_motion(&understood) => self.profile.takes(code),
+            Ok(code) if is_main && !is_setting && !is_motion => self.profile.takes(code),
             Ok(_) | Err(_) => false,
         };
         if taken {
-            return (Says::Setting, Onward::Next);
+            return (Effect::Setting, Onward::Next);
         }
         match understood {
-            Ok((says, onward)) => (self.in_its_stage(says), onward),
+            Ok((effect, onward)) => (self.in_its_stage(effect), onward),
             Err(error) => {
                 self.control.forget();
-                let says = match error {
-                    ReadError::Unknown => Says::Unknown,
-                    ReadError::Expected(expected) => Says::expected(expected),
+                let effect = match error {
+                    ReadError::Unknown => Effect::Unknown,
+                    ReadError::Expected(expected) => Effect::expected(expected),
                 };
-                (says, Onward::Next)
+                (effect, Onward::Next)
             }
         }
     }
 
     /// Nothing is done behind the lines at the end.
-    fn in_its_stage(&mut self, says: Says) -> Says {
-        match (&says, self.profile.stage) {
-            (Says::Deed(_) | Says::PartBegins, Stage::Foot) => Says::expected("the end of the program"),
-            (Says::Deed(_) | Says::PartBegins, Stage::Head | Stage::Body) => {
-                self.profile.stage = Stage::Body;
-                says
+    fn in_its_stage(&mut self, effect: Effect) -> Effect {
+        match (&effect, self.profile.stage) {
+            (Effect::Command(_) | Effect::PartBegins, Stage::Foot) => {
+                Effect::expected("the end of the program")
             }
-            (Says::Setting | Says::Frame(..) | Says::Unknown | Says::Unreadable { .. }, _) => says,
+            (Effect::Command(_) | Effect::PartBegins, Stage::Head | Stage::Body) => {
+                self.profile.stage = Stage::Body;
+                effect
+            }
+            (Effect::Setting | Effect::Frame(..) | Effect::Unknown | Effect::Unreadable { .. }, _) => effect,
         }
     }
 
-    fn understood(&mut self, script: usize, place: Place, code: &'t str) -> Parsed<(Says, Onward)> {
-        let order = match self.given.heed(code) {
+    fn understood(&mut self, script: usize, place: Place, code: &'t str) -> Parsed<(Effect, Onward)> {
+        let order = match self.given.visit(code) {
             Found::Part(Role::TcpOn | Role::TcpOff) => {
                 self.control.switch_tcp(None);
-                return Ok((Says::Setting, Onward::Next));
+                return Ok((Effect::Setting, Onward::Next));
             }
-            Found::Part(Role::On | Role::Off | Role::Ready) => return Ok((Says::Setting, Onward::Next)),
+            Found::Part(Role::On | Role::Off | Role::Ready) => return Ok((Effect::Setting, Onward::Next)),
             Found::Whole(role) => given(role),
             Found::Nothing => self
                 .context
@@ -220,7 +225,7 @@ impl<'t> Walk<'t, '_> {
             script.begun |= !is_tape;
             before
         });
-        let says = self.control.carry_out(&order)?;
+        let effect = self.control.carry_out(&order)?;
         let is_main = self.stack.len() == 1;
         let needs_head = match self.context.settings.facts().heads {
             Heads::None => false,
@@ -236,7 +241,7 @@ impl<'t> Walk<'t, '_> {
             }
         }
         match order.flow {
-            None => Ok((says, Onward::Next)),
+            None => Ok((effect, Onward::Next)),
             Some(flow) => self.flow(script, flow, begun.unwrap_or(true), &order),
         }
     }
@@ -247,18 +252,18 @@ impl<'t> Walk<'t, '_> {
         flow: Flow<'_>,
         begun: bool,
         order: &Order<'_>,
-    ) -> Parsed<(Says, Onward)> {
+    ) -> Parsed<(Effect, Onward)> {
         let is_main = self.stack.len() == 1;
         let is_own = |routine: Routine<'_>| self.is_own(script, routine);
         if order.feed.is_some() {
             return expected("nothing else in the block");
         }
         match flow {
-            Flow::Tape if !begun => Ok((Says::Setting, Onward::Next)),
+            Flow::Tape if !begun => Ok((Effect::Setting, Onward::Next)),
             Flow::Tape => expected("the end of the program before `%`"),
-            Flow::Head(routine) if !begun && is_own(routine) => Ok((Says::Setting, Onward::Next)),
+            Flow::Head(routine) if !begun && is_own(routine) => Ok((Effect::Setting, Onward::Next)),
             Flow::PartHead(routine) if !begun && is_own(routine) && !is_main => {
-                Ok((Says::Setting, Onward::Next))
+                Ok((Effect::Setting, Onward::Next))
             }
             Flow::Head(_) | Flow::PartHead(_) => expected("the name of the file, at its beginning"),
             Flow::Call(routine) => {
@@ -267,30 +272,20 @@ impl<'t> Walk<'t, '_> {
                 match to {
                     Some(to) => {
                         self.control.restart();
-                        Ok((Says::PartBegins, Onward::Enter(to)))
+                        Ok((Effect::PartBegins, Onward::Enter(to)))
                     }
                     None => Err(ReadError::Expected(
                         self.context.settings.controller.callable(routine),
                     )),
                 }
             }
-            Flow::Return if !is_main => Ok((Says::Setting, Onward::Leave)),
-            Flow::ReturnFrom(routine) if !is_main && is_own(routine) => Ok((Says::Setting, Onward::Leave)),
+            Flow::Return if !is_main => Ok((Effect::Setting, Onward::Leave)),
+            Flow::ReturnFrom(routine) if !is_main && is_own(routine) => Ok((Effect::Setting, Onward::Leave)),
             Flow::Return | Flow::ReturnFrom(_) => Err(ReadError::Unknown),
             Flow::Close(routine) if !is_own(routine) => expected("the name of the file"),
-            Flow::Close(_) if is_main => Ok((Says::Setting, Onward::Over)),
-            Flow::Close(_) => Ok((Says::Setting, Onward::Leave)),
-            Flow::End => Ok((Says::Setting, Onward::Over)),
+            Flow::Close(_) if is_main => Ok((Effect::Setting, Onward::Over)),
+            Flow::Close(_) => Ok((Effect::Setting, Onward::Leave)),
+            Flow::End => Ok((Effect::Setting, Onward::Over)),
         }
-    }
-}
-
-fn is_motion(understood: &Parsed<(Says, Onward)>) -> bool {
-    match understood {
-        Ok((Says::Deed(deed), _)) => match deed {
-            Deed::Axes(_) | Deed::AxesToPose(_) | Deed::Straight { .. } => true,
-            Deed::Switch { .. } | Deed::AwaitInput(_) | Deed::Wait(_) => false,
-        },
-        Ok(_) | Err(_) => false,
     }
 }

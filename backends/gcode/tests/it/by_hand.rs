@@ -1,11 +1,11 @@
 //! Programs as people write and edit them: another layout is the same program, and another meaning never is.
 
-use crate::read_back::retraced;
+use crate::read_back::replayed;
 use crate::support::{DIALECTS, Given, emit, needed, options, reachable, recipe, rounds};
 use vcutc_backend_api::backend::OptionValue;
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_backend_api::readback::{Departure, DepartureKind, ProgramFile, Retraced, program_files};
+use vcutc_backend_api::readback::{Divergence, DivergenceKind, Place, ProgramFile, program_files};
 use vcutc_backend_api::testkit::{CellRecipe, Recipe, five_axis_samples};
 use vcutc_backend_api::units::{Duration, Length};
 
@@ -21,12 +21,12 @@ pub(crate) fn one_cut() -> ReachableProgram {
     reachable(recipe.program())
 }
 
-fn read(dialect: &'static str, name: &str, text: &str) -> Result<Retraced, Departure> {
+fn read(dialect: &'static str, name: &str, text: &str) -> Result<Vec<Place>, Divergence> {
     let files = [ProgramFile {
         name: name.to_owned(),
         text: text.to_owned(),
     }];
-    retraced(&one_cut(), &files, &options(&needed(dialect))).0
+    replayed(&one_cut(), &files, &options(&needed(dialect))).0
 }
 
 #[test]
@@ -53,7 +53,7 @@ fn linuxcnc_in_small_letters_without_blanks_and_words_that_stay() {
            m30\n\
            %\n";
     assert_eq!(
-        read("linuxcnc", "rib_12.ngc", &text).map(|found| found.places.len()),
+        read("linuxcnc", "rib_12.ngc", &text).map(|found| found.len()),
         Ok(13)
     );
 }
@@ -67,7 +67,7 @@ fn fanuc_with_numbers_and_shorter_words() {
         N130G93\r\nN140B34.16A30.F61.052\r\nN150G94X3.82Y-15.858F12000\r\nN160Z60.F30000\r\n\
         N170M51\r\nN180G49\r\nN190G53G0X0.Y0.Z900.B0.A0.\r\nN200M2\r\n%";
     assert_eq!(
-        read("fanuc", "anything.nc", text).map(|found| found.places.len()),
+        read("fanuc", "anything.nc", text).map(|found| found.len()),
         Ok(13)
     );
 }
@@ -84,7 +84,7 @@ fn sinumerik_with_equals_signs_and_small_letters() {
         g93\nb34.16 a30 f61.052133\ng94 x3.82 y-15.858 f12000\nz60 f30000\n\
         stopre\n$A_OUT[12]=0\ntrafoof\ng93\nsupa x0 y0 z900 a0 b0 f5.470745 d0\nm2\n";
     assert_eq!(
-        read("sinumerik", "RIB_12.MPF", text).map(|found| found.places.len()),
+        read("sinumerik", "RIB_12.MPF", text).map(|found| found.len()),
         Ok(13)
     );
 }
@@ -102,7 +102,7 @@ fn heidenhain_with_words_that_stay() {
         18 FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS\n19 L X+3.82 Y-15.858 F12000\n20 L Z+60 F30000\n\
         21 M51 ; off\n22 FUNCTION RESET TCPM\n23 L X+0 Y+0 Z+900 B+0 A+0 F3273.088 M91\n24 END PGM RIB_12 MM\n";
     assert_eq!(
-        read("heidenhain", "RIB_12.H", text).map(|found| found.places.len()),
+        read("heidenhain", "RIB_12.H", text).map(|found| found.len()),
         Ok(13)
     );
 }
@@ -112,19 +112,19 @@ pub(crate) fn departs(
     dialect: &'static str,
     more: &[Given],
     edit: impl Fn(&str) -> String,
-) -> (String, DepartureKind) {
+) -> (String, DivergenceKind) {
     let program = one_cut();
     let mut files = program_files(&emit(&program, dialect, more));
     files[0].text = edit(&files[0].text);
     let mut given = needed(dialect);
     given.extend_from_slice(more);
-    let departure = match retraced(&program, &files, &options(&given)).0 {
-        Err(departure) => departure,
+    let divergence = match replayed(&program, &files, &options(&given)).0 {
+        Err(divergence) => divergence,
         Ok(_) => panic!("{dialect} passes:\n{}", files[0].text),
     };
-    let place = departure.place;
+    let place = divergence.place;
     let text = place.map(|place| files[0].text[place.start as usize..place.end as usize].to_owned());
-    (text.unwrap_or_default(), departure.what)
+    (text.unwrap_or_default(), divergence.what)
 }
 
 /// Each block stands before the first cut, and is where the program departs, or the cut is.
@@ -412,11 +412,11 @@ fn tools_and_work_offsets_are_those_of_the_machine() {
     ] {
         let options = options(&needed(dialect));
         let mut files = program_files(&emit(program, dialect, &[]));
-        assert!(retraced(program, &files, &options).0.is_ok(), "{dialect}");
+        assert!(replayed(program, &files, &options).0.is_ok(), "{dialect}");
         assert!(files[0].text.contains(said), "{dialect} {said}");
         files[0].text = files[0].text.replacen(said, other, 1);
         assert!(
-            retraced(program, &files, &options).0.is_err(),
+            replayed(program, &files, &options).0.is_err(),
             "{dialect} {other}"
         );
     }
@@ -446,7 +446,7 @@ fn moves_of_all_axes_keep_to_the_home_speed() {
             assert!(text.contains(said), "{dialect} {said}\n{text}");
             text.replacen(said, other, 1)
         });
-        assert_eq!(what, DepartureKind::NotUnderstood, "{dialect} {other}");
+        assert_eq!(what, DivergenceKind::NotUnderstood, "{dialect} {other}");
     }
 }
 
@@ -459,7 +459,7 @@ fn rounding_is_that_of_the_job_or_not_understood() {
         ("sinumerik", "G641 ADIS=2.0", "G641 ADIS=20"),
     ] {
         let (text, what) = departs(dialect, &two, |text| text.replacen(said, other, 1));
-        assert_eq!((text.as_str(), what), (other, DepartureKind::NotUnderstood));
+        assert_eq!((text.as_str(), what), (other, DivergenceKind::NotUnderstood));
     }
     for dialect in DIALECTS.into_iter().filter(|dialect| rounds(dialect)) {
         // Rounding that is not ended before the blade enters.
@@ -469,7 +469,7 @@ fn rounding_is_that_of_the_job_or_not_understood() {
                 .iter()
                 .fold(text.to_owned(), |text, exact| text.replacen(exact, "\nG1", 1))
         });
-        assert!(matches!(what, DepartureKind::Differs(_)), "{dialect} {what:?}");
+        assert!(matches!(what, DivergenceKind::Differs(_)), "{dialect} {what:?}");
     }
 }
 
@@ -498,7 +498,7 @@ fn heidenhain_activates_the_preset_of_the_base() {
     let read = |edit: &dyn Fn(&str) -> String| {
         let mut files = files.clone();
         files[1].text = edit(&files[1].text);
-        retraced(&program, &files, &options).0
+        replayed(&program, &files, &options).0
     };
     assert_eq!(read(&str::to_owned).map(|_| ()), Ok(()));
     for (from, to) in [

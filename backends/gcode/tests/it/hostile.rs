@@ -1,11 +1,11 @@
 //! Whatever stands in a file, reading it ends, tells every line at most once, and says what it does not understand.
 
-use crate::read_back::retraced;
+use crate::read_back::replayed;
 use crate::support::{DIALECTS, emit, needed, options, reachable, recipe};
 use proptest::prelude::*;
 use vcutc_backend_api::backend::OptionValue;
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_backend_api::readback::{ProgramFile, Says, program_files};
+use vcutc_backend_api::readback::{Effect, ProgramFile, program_files};
 use vcutc_backend_api::testkit::Recipe;
 
 fn sample() -> ReachableProgram {
@@ -82,7 +82,7 @@ fn scraps() -> impl Strategy<Value = String> {
 }
 
 fn is_bounded(program: &ReachableProgram, dialect: &'static str, files: &[ProgramFile]) {
-    let (_, statements) = retraced(program, files, &options(&needed(dialect)));
+    let (_, statements) = replayed(program, files, &options(&needed(dialect)));
     let lines: usize = files
         .iter()
         .map(|file| file.text.split(['\n', '\r']).count())
@@ -95,7 +95,7 @@ fn is_bounded(program: &ReachableProgram, dialect: &'static str, files: &[Progra
             .text
             .get(place.start as usize..place.end as usize);
         assert!(text.is_some(), "{dialect} {statement:?}");
-        if let Says::Unreadable { expected } = &statement.says {
+        if let Effect::Unreadable { expected } = &statement.effect {
             assert!(!expected.is_empty());
         }
     }
@@ -177,11 +177,11 @@ fn circles_of_parts_end() {
         ),
     ] {
         is_bounded(&program, dialect, &files);
-        let (result, statements) = retraced(&program, &files, &options(&needed(dialect)));
+        let (result, statements) = replayed(&program, &files, &options(&needed(dialect)));
         assert!(result.is_err(), "{dialect}");
         let calls = statements
             .iter()
-            .filter(|statement| statement.says == Says::PartBegins);
+            .filter(|statement| statement.effect == Effect::PartBegins);
         assert_eq!(calls.count(), 1, "{dialect}");
     }
 }

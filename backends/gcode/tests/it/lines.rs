@@ -1,10 +1,10 @@
 //! Where lines, blocks and files begin and end, as controls see it.
 
 use crate::by_hand::{departs, one_cut};
-use crate::read_back::retraced;
+use crate::read_back::replayed;
 use crate::support::{DIALECTS, emit, needed, options, reachable, recipe};
 use vcutc_backend_api::backend::OptionValue;
-use vcutc_backend_api::readback::{ProgramFile, Says, program_files};
+use vcutc_backend_api::readback::{Effect, ProgramFile, program_files};
 
 #[test]
 fn line_ends_of_every_system_and_ends_of_blocks() {
@@ -13,10 +13,10 @@ fn line_ends_of_every_system_and_ends_of_blocks() {
         let mut files = program_files(&emit(&program, dialect, &[]));
         let end = if dialect == "fanuc" { " ;\r\n" } else { "\r\n" };
         files[0].text = files[0].text.replace('\n', end);
-        let found = retraced(&program, &files, &options(&needed(dialect))).0;
+        let found = replayed(&program, &files, &options(&needed(dialect))).0;
         assert!(found.is_ok(), "{dialect}: {found:?}");
         files[0].text = files[0].text.replace("\r\n", "\r");
-        let found = retraced(&program, &files, &options(&needed(dialect))).0;
+        let found = replayed(&program, &files, &options(&needed(dialect))).0;
         assert!(found.is_err(), "{dialect}");
     }
 }
@@ -43,11 +43,13 @@ fn files_of_linuxcnc_s_parts_have_small_letters() {
         let mut files = program_files(&emit(&program, "linuxcnc", &parts));
         assert!(files.len() > 2);
         files.iter_mut().for_each(edit);
-        let (result, statements) = retraced(&program, &files, &options(&needed("linuxcnc")));
-        let missing = statements.into_iter().find_map(|statement| match statement.says {
-            Says::Unreadable { expected } => Some(expected),
-            _ => None,
-        });
+        let (result, statements) = replayed(&program, &files, &options(&needed("linuxcnc")));
+        let missing = statements
+            .into_iter()
+            .find_map(|statement| match statement.effect {
+                Effect::Unreadable { expected } => Some(expected),
+                _ => None,
+            });
         (result.is_ok(), missing.unwrap_or_default())
     };
     let in_capitals = |file: &mut ProgramFile| {

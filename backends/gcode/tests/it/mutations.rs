@@ -1,14 +1,14 @@
 //! Programs with one character or one line changed: none passes for what it was.
 //!
-//! A mutant is caught when its deeds are not those of the program, or when its statements have another essence, which is
+//! A mutant is caught when its commands are not those of the program, or when its statements have another normalized text, which is
 //! what `vcutc verify` tells as an edit without effect. What is neither must be a change of layout, comments or block numbers,
 //! by a way of comparing texts that shares no code with the reader.
 
-use crate::read_back::retraced;
+use crate::read_back::replayed;
 use crate::support::{DIALECTS, emit, needed, options, rounds};
 use vcutc_backend_api::backend::{OptionValue, Options};
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_backend_api::readback::{ProgramFile, essence, program_files};
+use vcutc_backend_api::readback::{ProgramFile, normalized, program_files};
 use vcutc_backend_api::testkit::five_axis_samples;
 use vcutc_backend_api::units::Length;
 
@@ -17,7 +17,7 @@ use vcutc_backend_api::units::Length;
 struct Tally {
     /// Another program.
     departed: usize,
-    /// The same deeds, said in another way.
+    /// The same commands, said in another way.
     edited: usize,
     /// Layout, comments, block numbers.
     layout: usize,
@@ -29,7 +29,7 @@ struct Written<'p> {
     program: &'p ReachableProgram,
     options: Options,
     files: Vec<ProgramFile>,
-    essences: Vec<String>,
+    normalized_texts: Vec<String>,
     plain: Vec<String>,
 }
 
@@ -43,15 +43,15 @@ impl<'p> Written<'p> {
         let mut given = needed(dialect);
         given.extend(more);
         let options = options(&given);
-        let (result, statements) = retraced(program, &files, &options);
+        let (result, statements) = replayed(program, &files, &options);
         assert!(result.is_ok(), "{dialect}");
         let texts = statements
             .iter()
-            .map(|statement| essence(text(&files, statement.place)));
+            .map(|statement| normalized(text(&files, statement.place)));
         Self {
             dialect,
             program,
-            essences: texts.collect(),
+            normalized_texts: texts.collect(),
             plain: plain(&files, dialect),
             files,
             options,
@@ -59,15 +59,15 @@ impl<'p> Written<'p> {
     }
 
     /// Reads a mutant of one of the files.
-    fn judge(&mut self, file: usize, mutant: String, tally: &mut Tally) {
+    fn comparator(&mut self, file: usize, mutant: String, tally: &mut Tally) {
         let kept = std::mem::replace(&mut self.files[file].text, mutant);
-        let (result, statements) = retraced(self.program, &self.files, &self.options);
-        let essences = statements
+        let (result, statements) = replayed(self.program, &self.files, &self.options);
+        let normalized_texts = statements
             .iter()
-            .map(|statement| essence(text(&self.files, statement.place)));
+            .map(|statement| normalized(text(&self.files, statement.place)));
         if result.is_err() {
             tally.departed += 1;
-        } else if !essences.eq(self.essences.iter().cloned()) {
+        } else if !normalized_texts.eq(self.normalized_texts.iter().cloned()) {
             tally.edited += 1;
         } else {
             let now = plain(&self.files, self.dialect);
@@ -150,13 +150,17 @@ fn one_character_more_less_or_other_is_told() {
             for file in 0..written.files.len() {
                 let original = written.files[file].text.clone();
                 // All places of short programs, some of long ones, which say the same again and again.
-                let step = if written.essences.len() < 60 { 1 } else { 29 };
+                let step = if written.normalized_texts.len() < 60 {
+                    1
+                } else {
+                    29
+                };
                 for at in (number % step..original.len()).step_by(step) {
                     let replacement = REPLACEMENTS[(at + at / 9) % REPLACEMENTS.len()];
                     for end in [at, at + 1] {
                         let mutant = format!("{}{replacement}{}", &original[..at], &original[end..]);
                         if mutant != original {
-                            written.judge(file, mutant, &mut tally);
+                            written.comparator(file, mutant, &mut tally);
                         }
                     }
                 }
@@ -175,7 +179,7 @@ fn a_line_dropped_doubled_or_swapped_is_told() {
             for file in 0..written.files.len() {
                 let original = written.files[file].text.clone();
                 let lines: Vec<&str> = original.lines().collect();
-                let step = if written.essences.len() < 60 { 1 } else { 5 };
+                let step = if written.normalized_texts.len() < 60 { 1 } else { 5 };
                 for at in (number % step..lines.len()).step_by(step) {
                     let mut dropped = lines.clone();
                     dropped.remove(at);
@@ -184,7 +188,7 @@ fn a_line_dropped_doubled_or_swapped_is_told() {
                     let mut swapped = lines.clone();
                     swapped.swap(at, (at + 1).min(lines.len() - 1));
                     for mutant in [dropped, doubled, swapped] {
-                        written.judge(file, mutant.join("\n"), &mut tally);
+                        written.comparator(file, mutant.join("\n"), &mut tally);
                     }
                 }
             }

@@ -8,34 +8,34 @@ use vcutc_backend_api::ir::{Edges, Ready};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::profile::{LineNumbers, Profile};
 use vcutc_backend_api::readback::{
-    Departure, Judge, ProgramFile, Retrace, Retraced, Sources, Statement, program_files,
+    Comparator, Divergence, Place, ProgramFile, Replay, Sources, Statement, program_files,
 };
 use vcutc_backend_api::testkit::{Crossing, Passes, Recipe};
 use vcutc_backend_api::units::{Angle, Duration, Length, Speed};
 use vcutc_backend_gcode::Gcode;
 
 /// Follows a program through files.
-pub(crate) fn retraced(
+pub(crate) fn replayed(
     program: &ReachableProgram,
     files: &[ProgramFile],
     options: &Options,
-) -> (Result<Retraced, Departure>, Vec<Statement>) {
+) -> (Result<Vec<Place>, Divergence>, Vec<Statement>) {
     let reader = Gcode.reader().unwrap();
     let sources = Sources {
         files,
         cell: program.program().cell.as_ref().unwrap(),
         options,
     };
-    let mut retrace = Retrace::new(
-        Judge::new(program, reader, reader.grain(options)),
+    let mut replay = Replay::new(
+        Comparator::new(program, reader, reader.resolution(options)),
         reader.frames(),
     );
     let mut statements = Vec::new();
     reader.read(sources, &mut |statement| {
-        retrace.heed(&statement);
+        replay.take(&statement);
         statements.push(statement);
     });
-    (retrace.finish(), statements)
+    (replay.finish(), statements)
 }
 
 /// Every statement is told once, in place, and every op is found in the order of the program.
@@ -45,14 +45,14 @@ fn is_read_back(program: &ReachableProgram, dialect: &'static str, more: &[Given
     given.extend_from_slice(more);
     let options = options(&given).with_profile(profile.clone());
     let files = program_files(&bundle);
-    let (result, statements) = retraced(program, &files, &options);
+    let (result, statements) = replayed(program, &files, &options);
     let places = match result {
-        Ok(Retraced { places }) => places,
-        Err(departure) => {
-            let place = departure.place;
+        Ok(places) => places,
+        Err(divergence) => {
+            let place = divergence.place;
             let text =
                 place.map(|place| &files[place.file as usize].text[place.start as usize..place.end as usize]);
-            panic!("{dialect}: {departure:?} at {text:?}");
+            panic!("{dialect}: {divergence:?} at {text:?}");
         }
     };
     assert_eq!(places.len(), program.program().ops.len());

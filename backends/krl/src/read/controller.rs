@@ -1,7 +1,7 @@
 //! What single instructions do.
 
 use super::setup::{Need, Setup, Wanted};
-use crate::configuration::Configuration;
+use crate::configuration::StatusAndTurn;
 use crate::interpreter::position::{Position, orientation};
 use crate::interpreter::variables::Outcome;
 use crate::interpreter::{Context, State};
@@ -11,7 +11,9 @@ use crate::syntax::{
 };
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::{AxisValues, Switch};
-use vcutc_backend_api::readback::{Deed, End, FrameRole, FrameSetting, Held, Says, Stance, Target as Goal};
+use vcutc_backend_api::readback::{
+    Command, Configuration, Effect, End, FrameRole, FrameSetting, Held, Target as Goal,
+};
 use vcutc_backend_api::units::Duration;
 
 /// The state that instructions change.
@@ -25,7 +27,7 @@ pub(super) struct Controller<'a> {
     oldest: usize,
 }
 
-/// Why a motion is not told as a deed.
+/// Why a motion is not told as a command.
 enum MotionError {
     Unknown,
     Expected(&'static str),
@@ -33,11 +35,11 @@ enum MotionError {
 
 const INCOMPLETE: MotionError = MotionError::Expected("all components, where no target before it has them");
 
-impl From<MotionError> for Says {
+impl From<MotionError> for Effect {
     fn from(error: MotionError) -> Self {
         match error {
             MotionError::Unknown => Self::Unknown,
-            MotionError::Expected(what) => Says::expected(what),
+            MotionError::Expected(what) => Effect::expected(what),
         }
     }
 }
@@ -60,10 +62,10 @@ impl<'a> Controller<'a> {
     }
 
     /// What an instruction does.
-    pub(super) fn carry_out(&mut self, context: Context<'_>, phrase: &Phrase<'_>) -> Says {
+    pub(super) fn carry_out(&mut self, context: Context<'_>, phrase: &Phrase<'_>) -> Effect {
         match phrase {
             Phrase::Motion(motion) => match self.motion(context, motion) {
-                Ok(deed) => Says::Deed(deed),
+                Ok(command) => Effect::Command(command),
                 Err(error) => {
                     // Nobody knows where it leads, so nobody knows what later targets leave out.
                     self.state.position = Position::default();
@@ -72,32 +74,34 @@ impl<'a> Controller<'a> {
             },
             Phrase::Assignment { to, value } => self.assign(context, to, value),
             Phrase::Bas { command, value } => self.bas(command, *value),
-            Phrase::WaitSec(seconds) if *seconds >= 0.0 => Says::Deed(Deed::Wait(Duration::s(*seconds))),
-            Phrase::WaitSec(_) => Says::expected("a time that is not negative"),
+            Phrase::WaitSec(seconds) if *seconds >= 0.0 => {
+                Effect::Command(Command::Wait(Duration::s(*seconds)))
+            }
+            Phrase::WaitSec(_) => Effect::expected("a time that is not negative"),
             Phrase::WaitFor(variable) => match variable.index_in("$IN") {
-                Some(input) => Says::Deed(Deed::AwaitInput(input)),
-                None => Says::Unknown,
+                Some(input) => Effect::Command(Command::AwaitInput(input)),
+                None => Effect::Unknown,
             },
             Phrase::Arc(_) => {
                 self.state.position = Position::default();
-                Says::Unknown
+                Effect::Unknown
             }
-            Phrase::Halt | Phrase::Other(_) | Phrase::Call { .. } => Says::Unknown,
-            Phrase::Unreadable { expected } => Says::expected(*expected),
+            Phrase::Halt | Phrase::Other(_) | Phrase::Call { .. } => Effect::Unknown,
+            Phrase::Unreadable { expected } => Effect::expected(*expected),
             Phrase::Mark(_)
             | Phrase::Def { .. }
             | Phrase::End
             | Phrase::DefDat { .. }
             | Phrase::EndDat
             | Phrase::Ext { .. }
-            | Phrase::Declaration(_) => Says::expected("an instruction, or `END`"),
+            | Phrase::Declaration(_) => Effect::expected("an instruction, or `END`"),
         }
     }
 
-    fn bas(&mut self, command: &str, value: Option<f64>) -> Says {
+    fn bas(&mut self, command: &str, value: Option<f64>) -> Effect {
         let frame = |role| match value.and_then(whole) {
-            Some(number) => Says::Frame(role, FrameSetting::Number(number)),
-            None => Says::Unknown,
+            Some(number) => Effect::Frame(role, FrameSetting::Number(number)),
+            None => Effect::Unknown,
         };
         if is_same_name(command, "TOOL") {
             frame(FrameRole::Tool)
@@ -106,21 +110,17 @@ impl<'a> Controller<'a> {
         } else if is_same_name(command, "VEL_PTP") {
             self.setup.axis_speed(value, self.wanted)
         } else {
-            Says::Unknown
+            Effect::Unknown
         }
     }
 
-    fn assign(&mut self, context: Context<'_>, to: &Variable<'_>, value: &Value<'_>) -> Says {
+    fn assign(&mut self, context: Context<'_>, to: &Variable<'_>, value: &Value<'_>) -> Effect {
         if let Some(output) = to.index_in("$OUT") {
             return match value {
                 Value::Bool(true) => switch(output, Switch::On),
                 Value::Bool(false) => switch(output, Switch::Off),
-                Value::Variable(_) => Says::Unknown,
-                Value::Number(_)
-                | Value::Enum(_)
-                | Value::Text(_)
-                | Value::Coordinates(_)
-                | Value::Structure(_) => Says::expected("`TRUE` or `FALSE`"),
+                Value::Variable(_) => Effect::Unknown,
+                _ => Effect::expected("`TRUE` or `FALSE`"),
             };
         }
         if to.is("$TOOL") {
@@ -129,36 +129,36 @@ impl<'a> Controller<'a> {
         if to.is("$BASE") {
             return self.frame(context, FrameRole::Base, "BASE_DATA", value);
         }
-        if let Some(says) = self.setup.assign(to, value, self.wanted) {
-            return says;
+        if let Some(effect) = self.setup.assign(to, value, self.wanted) {
+            return effect;
         }
         match self.state.variables.assign(context, to, value) {
-            Outcome::Known => Says::Setting,
-            Outcome::Unknown => Says::Unknown,
+            Outcome::Known => Effect::Setting,
+            Outcome::Unknown => Effect::Unknown,
         }
     }
 
-    fn frame(&mut self, context: Context<'_>, role: FrameRole, table: &str, value: &Value<'_>) -> Says {
+    fn frame(&mut self, context: Context<'_>, role: FrameRole, table: &str, value: &Value<'_>) -> Effect {
         if let Value::Variable(variable) = value
             && let Some(number) = variable.index_in(table)
         {
-            return Says::Frame(role, FrameSetting::Number(number));
+            return Effect::Frame(role, FrameSetting::Number(number));
         }
         let value = self.state.variables.value(context, value);
         let values = value.and_then(|value| value.all(Component::TIP).zip(value.all(Component::ANGLES)));
         match values {
-            Some(([x, y, z], angles)) => Says::Frame(
+            Some(([x, y, z], angles)) => Effect::Frame(
                 role,
                 FrameSetting::Value(Frame {
                     origin: Point3::new(x, y, z),
                     orientation: orientation(angles),
                 }),
             ),
-            None => Says::Unknown,
+            None => Effect::Unknown,
         }
     }
 
-    fn motion(&mut self, context: Context<'_>, motion: &Motion<'_>) -> Result<Deed, MotionError> {
+    fn motion(&mut self, context: Context<'_>, motion: &Motion<'_>) -> Result<Command, MotionError> {
         let target = &self
             .state
             .coordinates(context, &motion.target)
@@ -185,26 +185,30 @@ impl<'a> Controller<'a> {
             return Err(MotionError::Expected(missing));
         }
         match need {
-            Need::Axes if target.has_any(&Component::AXES) => self.axes(target).map(Deed::Axes),
+            Need::Axes if target.has_any(&Component::AXES) => self.axes(target).map(Command::Axes),
             Need::Axes => {
-                let stance = match (target.get(Component::S), target.get(Component::T)) {
+                let configuration = match (target.get(Component::S), target.get(Component::T)) {
                     (Some(status), Some(turn)) => whole(status)
                         .zip(whole(turn))
-                        .and_then(|(status, turn)| Configuration { status, turn }.stance()),
+                        .and_then(|(status, turn)| StatusAndTurn { status, turn }.configuration()),
                     (_, _) => None,
                 };
-                self.goal(target, stance).map(Deed::AxesToPose)
+                self.goal(target, configuration).map(Command::AxesToPose)
             }
             Need::Straight | Need::Rounded => {
                 // The controller takes S and T from where the motion begins.
                 let to = self.goal(target, None)?;
                 let pace = self.setup.pace();
-                Ok(Deed::Straight { to, pace, end })
+                Ok(Command::Straight { to, pace, end })
             }
         }
     }
 
-    fn goal(&mut self, target: &Coordinates, stance: Option<Stance>) -> Result<Goal, MotionError> {
+    fn goal(
+        &mut self,
+        target: &Coordinates,
+        configuration: Option<Configuration>,
+    ) -> Result<Goal, MotionError> {
         if target.has_any(&Component::AXES) {
             return Err(MotionError::Expected("a pose: X, Y, Z, A, B, C"));
         }
@@ -215,7 +219,7 @@ impl<'a> Controller<'a> {
         self.state.position = after;
         Ok(Goal {
             tip: Point3::new(x, y, z),
-            held: Held::Orientation(self.orientation(angles), stance),
+            held: Held::Orientation(self.orientation(angles), configuration),
         })
     }
 
@@ -243,8 +247,8 @@ impl<'a> Controller<'a> {
     }
 }
 
-const fn switch(output: u32, state: Switch) -> Says {
-    Says::Deed(Deed::Switch { output, state })
+const fn switch(output: u32, state: Switch) -> Effect {
+    Effect::Command(Command::Switch { output, state })
 }
 
 /// A number that counts something.

@@ -1,12 +1,12 @@
 //! The lines of a machine's profile, which stand in the program as they are and are not understood.
 
 use crate::syntax::{Phrase, Span, statements};
-use vcutc_backend_api::readback::essence;
+use vcutc_backend_api::readback::normalized;
 
 /// What the statements among some lines are, without layout.
-fn essences(lines: &[String]) -> Vec<String> {
+fn normalized_texts(lines: &[String]) -> Vec<String> {
     let statements = lines.iter().filter_map(|line| statements(line).next());
-    statements.map(|statement| essence(statement.text)).collect()
+    statements.map(|statement| normalized(statement.text)).collect()
 }
 
 /// The lines at the head of the main routine, of which the first still to come is known.
@@ -19,7 +19,7 @@ pub(super) struct Header {
 impl Header {
     pub(super) fn new(lines: &[String]) -> Self {
         Self {
-            lines: essences(lines),
+            lines: normalized_texts(lines),
             next: 0,
         }
     }
@@ -29,7 +29,7 @@ impl Header {
         let is_next = self
             .lines
             .get(self.next)
-            .is_some_and(|line| *line == essence(code));
+            .is_some_and(|line| *line == normalized(code));
         if is_next {
             self.next += 1;
         }
@@ -40,7 +40,7 @@ impl Header {
 /// Where the lines at the end of a routine begin: in front of its `END`, all of them in order. None when they are not
 /// there, or when there are none.
 pub(super) fn footer(text: &str, routine: Span, lines: &[String]) -> Option<usize> {
-    let lines = essences(lines);
+    let lines = normalized_texts(lines);
     if lines.is_empty() {
         return None;
     }
@@ -59,7 +59,7 @@ pub(super) fn footer(text: &str, routine: Span, lines: &[String]) -> Option<usiz
                 return None;
             }
             ended = true;
-        } else if expected.next().is_none_or(|line| *line != essence(last.text)) {
+        } else if expected.next().is_none_or(|line| *line != normalized(last.text)) {
             return None;
         } else if expected.len() == 0 {
             return Some(start);

@@ -8,18 +8,18 @@ use crate::interpreter::variables::Outcome;
 use crate::interpreter::{BreaksOff, Context, Execution, Line};
 use crate::options::Settings;
 use crate::syntax::{Phrase, Span, Statement as Syntax, Statements, is_same_name};
-use vcutc_backend_api::readback::{Place, Says, Sources, Statement};
+use vcutc_backend_api::readback::{Effect, Place, Sources, Statement};
 
 /// Tells all statements of a program.
-pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
+pub(super) fn read(sources: Sources<'_>, visit: &mut dyn FnMut(Statement)) {
     let settings = Settings::read(sources.options);
     let mut files = sources.files.iter();
     if let Some(file) = files.position(|file| u32::try_from(file.text.len()).is_err()) {
         return tell(
-            heed,
+            visit,
             file,
             END_OF_NOTHING,
-            Says::expected("a file of less than 4 GiB"),
+            Effect::expected("a file of less than 4 GiB"),
         );
     }
     let mut execution = Execution::of(sources.files);
@@ -38,7 +38,7 @@ pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
             cell: sources.cell,
             settings: &settings,
         }),
-        heed,
+        visit,
         header: Header::new(&profile.header),
         footer: last_lines,
         stages: Vec::new(),
@@ -50,7 +50,7 @@ pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
         match line.phrase {
             // Records of the editor stand in front of the first routine.
             Phrase::Mark(_) if gap == 0 => {}
-            _ => reading.tell(file, line.span, Says::expected("`DEF` of a routine")),
+            _ => reading.tell(file, line.span, Effect::expected("`DEF` of a routine")),
         }
     }
     if let Some(main) = main {
@@ -62,15 +62,15 @@ pub(super) fn read(sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
 
 const END_OF_NOTHING: Span = Span { start: 0, end: 0 };
 
-fn tell(heed: &mut dyn FnMut(Statement), file: usize, span: Span, says: Says) {
+fn tell(visit: &mut dyn FnMut(Statement), file: usize, span: Span, effect: Effect) {
     let place = Place::of(file, span.start..span.end);
-    heed(Statement { place, says });
+    visit(Statement { place, effect });
 }
 
 /// A program that is read.
 struct Reading<'a, 'h> {
     controller: Controller<'a>,
-    heed: &'h mut dyn FnMut(Statement),
+    visit: &'h mut dyn FnMut(Statement),
     /// The lines of the profile at the head of the main routine.
     header: Header,
     /// Where those at its end begin.
@@ -102,13 +102,13 @@ enum Next {
 }
 
 impl Reading<'_, '_> {
-    fn tell(&mut self, file: usize, span: Span, says: Says) {
-        tell(self.heed, file, span, says);
+    fn tell(&mut self, file: usize, span: Span, effect: Effect) {
+        tell(self.visit, file, span, effect);
     }
 
     /// Tells what is missing where a text ends.
     fn missing(&mut self, file: usize, end: usize, what: &str) {
-        self.tell(file, Span { start: end, end }, Says::expected(what));
+        self.tell(file, Span { start: end, end }, Effect::expected(what));
     }
 
     /// A data list: its variables are there before anything is carried out.
@@ -117,30 +117,30 @@ impl Reading<'_, '_> {
         let end = lines.end();
         for line in lines {
             let variables = &mut self.controller.state.variables;
-            let says = match (part, &line.phrase) {
+            let effect = match (part, &line.phrase) {
                 (Part::Before, Phrase::Mark(_)) => continue,
                 (Part::Before, Phrase::DefDat { name, .. }) => {
                     part = Part::Inside;
                     named_as_file(name, context.module)
                 }
-                (Part::Before, _) => Says::expected("`DEFDAT` with the name of the file"),
+                (Part::Before, _) => Effect::expected("`DEFDAT` with the name of the file"),
                 (Part::Inside, Phrase::EndDat) => {
                     part = Part::After;
-                    Says::Setting
+                    Effect::Setting
                 }
-                (Part::Inside, Phrase::Ext { .. }) => Says::Setting,
+                (Part::Inside, Phrase::Ext { .. }) => Effect::Setting,
                 (Part::Inside, Phrase::Declaration(declaration)) => {
                     said(variables.declare(context, declaration))
                 }
                 (Part::Inside, Phrase::Assignment { to, value }) => {
                     said(variables.assign(context, to, value))
                 }
-                (Part::Inside, Phrase::Other(_)) => Says::Unknown,
-                (Part::Inside, Phrase::Unreadable { expected }) => Says::expected(*expected),
-                (Part::Inside, _) => Says::expected("a declaration, or `ENDDAT`"),
-                (Part::After, _) => Says::expected("nothing after `ENDDAT`"),
+                (Part::Inside, Phrase::Other(_)) => Effect::Unknown,
+                (Part::Inside, Phrase::Unreadable { expected }) => Effect::expected(*expected),
+                (Part::Inside, _) => Effect::expected("a declaration, or `ENDDAT`"),
+                (Part::After, _) => Effect::expected("nothing after `ENDDAT`"),
             };
-            self.tell(file, line.span, says);
+            self.tell(file, line.span, effect);
         }
         if part == Part::Inside {
             self.missing(file, end, "`ENDDAT`");
@@ -163,8 +163,8 @@ impl Reading<'_, '_> {
                     continue;
                 }
             };
-            let (says, next) = self.step(execution, &line);
-            self.tell(line.file, line.statement.span, says);
+            let (effect, next) = self.step(execution, &line);
+            self.tell(line.file, line.statement.span, effect);
             match next {
                 Next::GoOn => {}
                 Next::Enter(routine) => self.enter(execution, routine),
@@ -177,30 +177,30 @@ impl Reading<'_, '_> {
     }
 
     /// Carries out a line of a routine.
-    fn step(&mut self, execution: &Execution<'_>, line: &Line<'_>) -> (Says, Next) {
+    fn step(&mut self, execution: &Execution<'_>, line: &Line<'_>) -> (Effect, Next) {
         let stage = self.stages.last().copied().unwrap_or(Stage::Instructions);
         if self.is_of_profile(stage, &line.statement) {
-            return (Says::Setting, Next::GoOn);
+            return (Effect::Setting, Next::GoOn);
         }
         let mut after = Stage::Instructions;
-        let says = match (stage, &line.statement.phrase) {
+        let effect = match (stage, &line.statement.phrase) {
             (Stage::Head, Phrase::Def { name, .. }) => {
                 after = Stage::Declarations;
                 match line.rank {
                     Rank::First => named_as_file(name, line.context.module),
-                    Rank::Further => Says::Setting,
+                    Rank::Further => Effect::Setting,
                 }
             }
             (Stage::Declarations, Phrase::Ext { .. }) => {
                 after = stage;
-                Says::Setting
+                Effect::Setting
             }
             (Stage::Declarations, Phrase::Declaration(declaration)) => {
                 after = stage;
                 said(self.controller.state.variables.declare(line.context, declaration))
             }
             (Stage::Instructions, Phrase::Ext { .. } | Phrase::Declaration(_)) => {
-                Says::expected("declarations in front of the first instruction")
+                Effect::expected("declarations in front of the first instruction")
             }
             (
                 Stage::Declarations,
@@ -210,22 +210,22 @@ impl Reading<'_, '_> {
                 },
             ) if is_same_name(command, "INITMOV") => {
                 self.controller.begin();
-                Says::PartBegins
+                Effect::PartBegins
             }
-            (_, Phrase::End) => return (Says::Setting, Next::Return),
+            (_, Phrase::End) => return (Effect::Setting, Next::Return),
             (_, Phrase::Call { name, arguments }) => {
                 self.set_stage(after);
                 let routine = execution.find(line.file, name);
                 let routine = routine.filter(|&routine| !execution.has_entered(routine));
                 return match routine.filter(|_| arguments.is_empty()) {
-                    Some(routine) => (Says::Setting, Next::Enter(routine)),
-                    None => (Says::Unknown, Next::GoOn),
+                    Some(routine) => (Effect::Setting, Next::Enter(routine)),
+                    None => (Effect::Unknown, Next::GoOn),
                 };
             }
             (_, phrase) => self.controller.carry_out(line.context, phrase),
         };
         self.set_stage(after);
-        (says, Next::GoOn)
+        (effect, Next::GoOn)
     }
 
     fn set_stage(&mut self, after: Stage) {
@@ -246,29 +246,29 @@ impl Reading<'_, '_> {
     fn never_called(&mut self, execution: &Execution<'_>) {
         for (file, lines) in execution.never_called() {
             for (place, line) in lines.enumerate() {
-                let says = match line.phrase {
-                    Phrase::Unreadable { expected } => Says::expected(expected),
-                    _ if place == 0 => Says::Unknown,
-                    _ => Says::Setting,
+                let effect = match line.phrase {
+                    Phrase::Unreadable { expected } => Effect::expected(expected),
+                    _ if place == 0 => Effect::Unknown,
+                    _ => Effect::Setting,
                 };
-                self.tell(file, line.span, says);
+                self.tell(file, line.span, effect);
             }
         }
     }
 }
 
-fn said(outcome: Outcome) -> Says {
+fn said(outcome: Outcome) -> Effect {
     match outcome {
-        Outcome::Known => Says::Setting,
-        Outcome::Unknown => Says::Unknown,
+        Outcome::Known => Effect::Setting,
+        Outcome::Unknown => Effect::Unknown,
     }
 }
 
 /// A controller knows a module by the name of its file, and takes no other name inside.
-fn named_as_file(name: &str, module: &str) -> Says {
+fn named_as_file(name: &str, module: &str) -> Effect {
     if is_same_name(name, module) {
-        Says::Setting
+        Effect::Setting
     } else {
-        Says::expected(format!("`{module}`, the name of the file"))
+        Effect::expected(format!("`{module}`, the name of the file"))
     }
 }

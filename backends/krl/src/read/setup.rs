@@ -9,7 +9,7 @@ use crate::options::Settings;
 use crate::syntax::{Component, Coordinates, Field, Value, Variable, is_same_name};
 use vcutc_backend_api::ir::{Cell, Load, Registered};
 use vcutc_backend_api::number::FixedDecimal;
-use vcutc_backend_api::readback::{Pace, Says};
+use vcutc_backend_api::readback::{Effect, Pace};
 use vcutc_backend_api::script::TRIMMED;
 use vcutc_backend_api::units::{AngularSpeed, Speed};
 
@@ -125,18 +125,18 @@ impl Setup {
         }
     }
 
-    fn note(&mut self, said: Said, is_as_it_should: bool) -> Says {
+    fn note(&mut self, said: Said, is_as_it_should: bool) -> Effect {
         if is_as_it_should {
             self.said |= said.bit();
-            Says::Setting
+            Effect::Setting
         } else {
             self.said &= !said.bit();
-            Says::Unknown
+            Effect::Unknown
         }
     }
 
     /// `BAS (#VEL_PTP,n )`.
-    pub(super) fn axis_speed(&mut self, percent: Option<f64>, wanted: Wanted<'_>) -> Says {
+    pub(super) fn axis_speed(&mut self, percent: Option<f64>, wanted: Wanted<'_>) -> Effect {
         let should = f64::from(wanted.settings.home_speed);
         self.note(Said::AxisSpeed, percent == Some(should))
     }
@@ -147,8 +147,8 @@ impl Setup {
         to: &Variable<'_>,
         value: &Value<'_>,
         wanted: Wanted<'_>,
-    ) -> Option<Says> {
-        let says = if let Some(velocities) = velocities(to, value) {
+    ) -> Option<Effect> {
+        let effect = if let Some(velocities) = velocities(to, value) {
             self.speeds(velocities)
         } else if to.is("$IPO_MODE") {
             self.note(Said::IpoMode, is_word(value, "BASE"))
@@ -167,24 +167,24 @@ impl Setup {
         } else {
             return None;
         };
-        Some(says)
+        Some(effect)
     }
 
     /// Takes speeds that a controller takes for some.
-    fn speeds(&mut self, velocities: impl Iterator<Item = (Option<Velocity>, Option<f64>)>) -> Says {
+    fn speeds(&mut self, velocities: impl Iterator<Item = (Option<Velocity>, Option<f64>)>) -> Effect {
         for (velocity, value) in velocities {
             let value = value.filter(|value| *value > 0.0);
             match velocity {
                 Some(Velocity::Path) => self.tip = value.map(Speed::m_per_s),
                 Some(Velocity::Swivel) => self.swivel = value.map(AngularSpeed::deg_per_s),
                 Some(Velocity::Twist) => self.twist = value.map(AngularSpeed::deg_per_s),
-                None => return Says::Unknown,
+                None => return Effect::Unknown,
             }
             if value.is_none() {
-                return Says::Unknown;
+                return Effect::Unknown;
             }
         }
-        Says::Setting
+        Effect::Setting
     }
 }
 

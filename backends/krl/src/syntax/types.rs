@@ -197,12 +197,7 @@ impl Value<'_> {
     pub const fn number(&self) -> Option<f64> {
         match self {
             Self::Number(number) => Some(*number),
-            Self::Bool(_)
-            | Self::Enum(_)
-            | Self::Text(_)
-            | Self::Coordinates(_)
-            | Self::Structure(_)
-            | Self::Variable(_) => None,
+            _ => None,
         }
     }
 }

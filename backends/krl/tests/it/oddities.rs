@@ -1,11 +1,11 @@
 //! Programs as other people and other software write them.
 
-use crate::read_back::{retraced, text, told};
+use crate::read_back::{replayed, text, told};
 use crate::support::{options, reachable};
 use proptest::prelude::*;
 use vcutc_backend_api::backend::{OptionValue, Options};
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_backend_api::readback::{DepartureKind, ProgramFile, Says, decoded};
+use vcutc_backend_api::readback::{DivergenceKind, Effect, ProgramFile, decoded};
 use vcutc_backend_api::testkit::Recipe;
 use vcutc_backend_api::units::Length;
 
@@ -52,24 +52,24 @@ fn a_program_written_by_hand_is_the_same_program() {
         "the file lost its bytes"
     );
     let told = told(&files, &program, &options);
-    if let Err(departure) = retraced(&told, &program, &options) {
-        let at = departure.place.map(|place| {
+    if let Err(divergence) = replayed(&told, &program, &options) {
+        let at = divergence.place.map(|place| {
             let statement = told.iter().find(|statement| statement.place == place);
             text(&files, statement.unwrap())
         });
-        panic!("{departure:?} at {at:?}");
+        panic!("{divergence:?} at {at:?}");
     }
 }
 
 /// The program by hand with a line put before its first `$OUT`, and how that line is told.
-fn with_line(line: &str) -> (Says, bool) {
+fn with_line(line: &str) -> (Effect, bool) {
     let (program, options) = two_cuts();
     let mut files = by_hand();
     files[1].text = files[1].text.replacen("$out [", &format!("{line}\r\n$out ["), 1);
     let told = told(&files, &program, &options);
     let statement = told.iter().find(|statement| text(&files, statement) == line);
-    let is_followed = retraced(&told, &program, &options).is_ok();
-    (statement.unwrap().says.clone(), is_followed)
+    let is_followed = replayed(&told, &program, &options).is_ok();
+    (statement.unwrap().effect.clone(), is_followed)
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn what_is_krl_but_not_understood_is_said_to_be_so() {
         "ODD_SETUP( )",
         "PULSE($OUT[3],TRUE,0.5)",
     ] {
-        assert_eq!(with_line(line), (Says::Unknown, false), "{line}");
+        assert_eq!(with_line(line), (Effect::Unknown, false), "{line}");
     }
 }
 
@@ -169,7 +169,11 @@ fn what_is_no_krl_is_told_with_what_was_expected() {
         ("\u{fc}ber", "a statement of KRL"),
     ] {
         let expected = expected.to_owned();
-        assert_eq!(with_line(line), (Says::Unreadable { expected }, false), "{line}");
+        assert_eq!(
+            with_line(line),
+            (Effect::Unreadable { expected }, false),
+            "{line}"
+        );
     }
 }
 
@@ -200,13 +204,13 @@ fn what_was_not_said_is_missing() {
         let mut files = by_hand();
         changed(&mut files[0], line, "");
         let told = told(&files, &program, &options);
-        let first = told.iter().find_map(|statement| match &statement.says {
-            Says::Unreadable { expected } => Some(expected.as_str()),
+        let first = told.iter().find_map(|statement| match &statement.effect {
+            Effect::Unreadable { expected } => Some(expected.as_str()),
             _ => None,
         });
         assert_eq!(first, Some(missing));
-        let departure = retraced(&told, &program, &options).unwrap_err();
-        assert_eq!(departure.what, DepartureKind::NotUnderstood);
+        let divergence = replayed(&told, &program, &options).unwrap_err();
+        assert_eq!(divergence.what, DivergenceKind::NotUnderstood);
     }
 }
 
@@ -216,10 +220,10 @@ fn rates_of_swivel_and_twist_must_be_those_of_the_turn() {
     let mut files = by_hand();
     changed(&mut files[0], "$VEL.ORI2=77.4968", "$VEL.ORI2=90");
     let told = told(&files, &program, &options);
-    let departure = retraced(&told, &program, &options).unwrap_err();
+    let divergence = replayed(&told, &program, &options).unwrap_err();
     assert!(
-        matches!(departure.what, DepartureKind::Differs(_)),
-        "{departure:?}"
+        matches!(divergence.what, DivergenceKind::Differs(_)),
+        "{divergence:?}"
     );
 }
 
@@ -229,9 +233,9 @@ fn complaints(file: usize, change: impl Fn(&mut ProgramFile)) -> Vec<(String, St
     let mut files = by_hand();
     change(&mut files[file]);
     let told = told(&files, &program, &options);
-    assert!(retraced(&told, &program, &options).is_err());
-    let complaints = told.iter().filter_map(|statement| match &statement.says {
-        Says::Unreadable { expected } => Some((text(&files, statement).to_owned(), expected.clone())),
+    assert!(replayed(&told, &program, &options).is_err());
+    let complaints = told.iter().filter_map(|statement| match &statement.effect {
+        Effect::Unreadable { expected } => Some((text(&files, statement).to_owned(), expected.clone())),
         _ => None,
     });
     complaints.collect()
@@ -276,17 +280,17 @@ fn a_routine_that_nobody_calls_is_not_understood() {
         .iter()
         .rev()
         .take(3)
-        .map(|statement| (text(&files, statement), &statement.says))
+        .map(|statement| (text(&files, statement), &statement.effect))
         .collect();
     assert_eq!(
         spare,
         [
-            ("END", &Says::Setting),
-            ("HALT", &Says::Setting),
-            ("DEF spare( )", &Says::Unknown),
+            ("END", &Effect::Setting),
+            ("HALT", &Effect::Setting),
+            ("DEF spare( )", &Effect::Unknown),
         ]
     );
-    assert!(retraced(&told, &program, &options).is_err());
+    assert!(replayed(&told, &program, &options).is_err());
 }
 
 /// A variable of a routine hides that of its module, and one of the module that of all.
@@ -300,7 +304,7 @@ fn the_nearest_variable_counts() {
         "DECL GLOBAL E6POS XP_BACK={X 0}\nDECL GLOBAL E6AXIS XVC_HOME={A1 5}\nENDDAT",
     );
     let told = told(&files, &program, &options);
-    assert!(retraced(&told, &program, &options).is_ok());
+    assert!(replayed(&told, &program, &options).is_ok());
 }
 
 /// Something like KRL: lines of words, signs and numbers in any order.

@@ -8,7 +8,7 @@ use vcutc_backend_api::ir::Cell;
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::readback::{
-    Departure, Judge, ProgramFile, Reader, Retrace, Retraced, Says, Sources, Statement, essence,
+    Comparator, Divergence, Effect, Place, ProgramFile, Reader, Replay, Sources, Statement, normalized,
     program_files,
 };
 use vcutc_backend_api::testkit::{Recipe, samples};
@@ -32,20 +32,20 @@ pub(crate) fn told(files: &[ProgramFile], program: &ReachableProgram, options: &
     told
 }
 
-pub(crate) fn retraced(
+pub(crate) fn replayed(
     told: &[Statement],
     program: &ReachableProgram,
     options: &Options,
-) -> Result<Retraced, Departure> {
+) -> Result<Vec<Place>, Divergence> {
     let reader = Krl.reader().unwrap();
-    let mut retrace = Retrace::new(
-        Judge::new(program, reader, reader.grain(options)),
+    let mut replay = Replay::new(
+        Comparator::new(program, reader, reader.resolution(options)),
         reader.frames(),
     );
     for statement in told {
-        retrace.heed(statement);
+        replay.take(statement);
     }
-    retrace.finish()
+    replay.finish()
 }
 
 pub(crate) fn text<'f>(files: &'f [ProgramFile], statement: &Statement) -> &'f str {
@@ -53,9 +53,9 @@ pub(crate) fn text<'f>(files: &'f [ProgramFile], statement: &Statement) -> &'f s
     &files[place.file as usize].text[place.start as usize..place.end as usize]
 }
 
-fn essences(files: &[ProgramFile], told: &[Statement]) -> Vec<String> {
+fn normalized_texts(files: &[ProgramFile], told: &[Statement]) -> Vec<String> {
     told.iter()
-        .map(|statement| essence(text(files, statement)))
+        .map(|statement| normalized(text(files, statement)))
         .collect()
 }
 
@@ -79,9 +79,9 @@ proptest! {
         let files = program_files(&emit(&program, &values));
         let options = options(&values);
         let told = told(&files, &program, &options);
-        let retraced = retraced(&told, &program, &options);
-        prop_assert!(retraced.is_ok(), "{:?}", retraced);
-        prop_assert_eq!(retraced.unwrap().places.len(), program.program().ops.len());
+        let replayed = replayed(&told, &program, &options);
+        prop_assert!(replayed.is_ok(), "{:?}", replayed);
+        prop_assert_eq!(replayed.unwrap().len(), program.program().ops.len());
     }
 
     /// Held against a list of the lines that are no comments, made without the reader.
@@ -116,8 +116,8 @@ proptest! {
         });
         let files = emitted(&program, &options);
         let told = told(&files, &program, &options);
-        let retraced = retraced(&told, &program, &options);
-        prop_assert!(retraced.is_ok(), "{:?}", retraced);
+        let replayed = replayed(&told, &program, &options);
+        prop_assert!(replayed.is_ok(), "{:?}", replayed);
     }
 }
 
@@ -144,8 +144,8 @@ fn a_line_of_the_profile_elsewhere_is_told_as_what_it_does() {
     let moved = files[0].text.replace("$OUT[5]=TRUE\r\n", "");
     files[0].text = moved.replacen("PTP XVC_HOME\r\n", "$OUT[5]=TRUE\r\nPTP XVC_HOME\r\n", 1);
     let told = told(&files, &program, &options);
-    let departure = retraced(&told, &program, &options).unwrap_err();
-    let place = departure.place.unwrap();
+    let divergence = replayed(&told, &program, &options).unwrap_err();
+    let place = divergence.place.unwrap();
     assert_eq!(
         &files[place.file as usize].text[place.start as usize..place.end as usize],
         "$OUT[5]=TRUE"
@@ -167,7 +167,7 @@ struct Original<'p> {
     program: &'p ReachableProgram,
     options: Options,
     files: Vec<ProgramFile>,
-    essences: Vec<String>,
+    normalized_texts: Vec<String>,
 }
 
 /// What became of changed programs.
@@ -186,10 +186,10 @@ impl<'p> Original<'p> {
         let options = options(values);
         let files = emitted(program, &options);
         let told = told(&files, program, &options);
-        assert_eq!(retraced(&told, program, &options).map(|_| ()), Ok(()));
+        assert_eq!(replayed(&told, program, &options).map(|_| ()), Ok(()));
         Self {
             program,
-            essences: essences(&files, &told),
+            normalized_texts: normalized_texts(&files, &told),
             options,
             files,
         }
@@ -199,9 +199,9 @@ impl<'p> Original<'p> {
         let mut files = self.files.clone();
         files[file].text = text;
         let told = told(&files, self.program, &self.options);
-        if retraced(&told, self.program, &self.options).is_err() {
+        if replayed(&told, self.program, &self.options).is_err() {
             count.departed += 1;
-        } else if essences(&files, &told) != self.essences {
+        } else if normalized_texts(&files, &told) != self.normalized_texts {
             count.other_statement += 1;
         } else {
             let meaning = |files: &[ProgramFile]| tokens(&files[file].text);
@@ -332,7 +332,7 @@ fn all_that_is_written_is_understood() {
         let options = options(&everything());
         let files = emitted(program, &options);
         for statement in told(&files, program, &options) {
-            let is_understood = !matches!(statement.says, Says::Unknown | Says::Unreadable { .. });
+            let is_understood = !matches!(statement.effect, Effect::Unknown | Effect::Unreadable { .. });
             assert!(is_understood, "{name}: {}", text(&files, &statement));
         }
     }

@@ -8,7 +8,7 @@ use super::data::{Datum, SpeedData, View, Zone};
 use super::sentence::{Optional, Value};
 use crate::options::{READY_SIGNAL, Settings, ULTRASONIC_SIGNAL};
 use vcutc_backend_api::ir::{Cell, Ready, Switch};
-use vcutc_backend_api::readback::{Deed, End, Held, Pace, Says, Stance, Target};
+use vcutc_backend_api::readback::{Command, Configuration, Effect, End, Held, Pace, Target};
 use vcutc_backend_api::units::{AngularSpeed, Duration, Speed};
 
 /// How far members of a zone may be from those of the job, in mm or deg: they are printed with six decimals.
@@ -55,17 +55,15 @@ pub(super) enum Known {
 
 impl Machine<'_> {
     /// What an instruction says, and whether its name is known at all. Modes that it sets are kept.
-    pub(super) fn says(
+    pub(super) fn effect(
         &self,
         instruction: Instruction<'_>,
         view: View<'_>,
         modes: &mut Modes,
-    ) -> (Says, Known) {
-        let deed = match instruction.name {
+    ) -> (Effect, Known) {
+        let command = match instruction.name {
             "MOVEL" | "MOVEJ" | "MOVEABSJ" if !modes.are_said() => None,
-            "MOVEL" => self.straight(instruction, view),
-            "MOVEJ" => self.axes_to_pose(instruction, view),
-            "MOVEABSJ" => self.axes(instruction, view),
+            "MOVEL" | "MOVEJ" | "MOVEABSJ" => self.motion(instruction, view),
             "SETDO" => self.switch(instruction),
             "WAITDI" => self.await_input(instruction),
             "WAITTIME" => wait(instruction, view),
@@ -75,42 +73,32 @@ impl Machine<'_> {
             "ACCSET" => return (full(instruction, view, 100.0), Known::Yes),
             // The largest speed as a new program has it [A-INS], or more.
             "VELSET" => return (full(instruction, view, 5000.0), Known::Yes),
-            "TPERASE" | "TPWRITE" => return (Says::Setting, Known::Yes),
-            _ => return (Says::Unknown, Known::No),
+            "TPERASE" | "TPWRITE" => return (Effect::Setting, Known::Yes),
+            _ => return (Effect::Unknown, Known::No),
         };
-        (deed.map_or(Says::Unknown, Says::Deed), Known::Yes)
+        (command.map_or(Effect::Unknown, Effect::Command), Known::Yes)
     }
 
-    fn straight(&self, instruction: Instruction<'_>, view: View<'_>) -> Option<Deed> {
+    fn motion(&self, instruction: Instruction<'_>, view: View<'_>) -> Option<Command> {
         let [target, speed, zone, tool] = instruction.required else {
             return None;
         };
         let rest = self.frames(instruction.optional, tool, view)?;
-        Some(Deed::Straight {
-            to: robtarget(target, view)?,
-            pace: pace(view.speed(speed)?, &rest, view)?,
-            end: self.end(view.zone(zone)?)?,
-        })
-    }
-
-    fn axes_to_pose(&self, instruction: Instruction<'_>, view: View<'_>) -> Option<Deed> {
-        let [target, speed, zone, tool] = instruction.required else {
-            return None;
-        };
-        let rest = self.frames(instruction.optional, tool, view)?;
-        (rest.is_empty() && self.is_axis_pace(speed, zone, view)).then_some(())?;
-        Some(Deed::AxesToPose(robtarget(target, view)?))
-    }
-
-    fn axes(&self, instruction: Instruction<'_>, view: View<'_>) -> Option<Deed> {
-        let [target, speed, zone, tool] = instruction.required else {
-            return None;
-        };
-        let rest = self.frames(instruction.optional, tool, view)?;
-        let without_offsets =
-            matches!(rest.as_slice(), [only] if only.name == "NOEOFFS" && only.value.is_none());
-        (without_offsets && self.is_axis_pace(speed, zone, view)).then_some(())?;
-        Some(Deed::Axes(view.jointtarget(target)?))
+        if instruction.name == "MOVEL" {
+            return Some(Command::Straight {
+                to: robtarget(target, view)?,
+                pace: pace(view.speed(speed)?, &rest, view)?,
+                end: self.end(view.zone(zone)?)?,
+            });
+        }
+        self.is_axis_pace(speed, zone, view).then_some(())?;
+        match (instruction.name, rest.as_slice()) {
+            ("MOVEJ", []) => robtarget(target, view).map(Command::AxesToPose),
+            ("MOVEABSJ", [only]) if only.name == "NOEOFFS" && only.value.is_none() => {
+                view.jointtarget(target).map(Command::Axes)
+            }
+            (_, _) => None,
+        }
     }
 
     /// The optional arguments besides `\WObj`, when tool and work object are those that the program declares, whose values are
@@ -169,7 +157,7 @@ impl Machine<'_> {
         }
     }
 
-    fn switch(&self, instruction: Instruction<'_>) -> Option<Deed> {
+    fn switch(&self, instruction: Instruction<'_>) -> Option<Command> {
         let ([Value::Name(signal), value], []) = (instruction.required, instruction.optional) else {
             return None;
         };
@@ -186,13 +174,13 @@ impl Machine<'_> {
             Some(name) => self.cell.ultrasonic.filter(|_| signal.eq_ignore_ascii_case(name)),
             None => numbered(signal, "DO"),
         };
-        Some(Deed::Switch {
+        Some(Command::Switch {
             output: output?,
             state,
         })
     }
 
-    fn await_input(&self, instruction: Instruction<'_>) -> Option<Deed> {
+    fn await_input(&self, instruction: Instruction<'_>) -> Option<Command> {
         let ([Value::Name(signal), value], []) = (instruction.required, instruction.optional) else {
             return None;
         };
@@ -206,7 +194,7 @@ impl Machine<'_> {
             (Some(_), Ready::After(_)) => None,
             (None, _) => numbered(signal, "DI"),
         };
-        is_high.then_some(Deed::AwaitInput(input?))
+        is_high.then_some(Command::AwaitInput(input?))
     }
 }
 
@@ -221,7 +209,7 @@ fn robtarget(value: &Value, view: View<'_>) -> Option<Target> {
     let target = view.robtarget(value)?;
     Some(Target {
         tip: target.tip,
-        held: Held::Orientation(target.held, Some(Stance(target.conf))),
+        held: Held::Orientation(target.held, Some(Configuration(target.conf))),
     })
 }
 
@@ -245,30 +233,34 @@ fn pace(speed: SpeedData, rest: &[&Optional], view: View<'_>) -> Option<Pace> {
     }
 }
 
-fn wait(instruction: Instruction<'_>, view: View<'_>) -> Option<Deed> {
+fn wait(instruction: Instruction<'_>, view: View<'_>) -> Option<Command> {
     let ([time], []) = (instruction.required, instruction.optional) else {
         return None;
     };
     let seconds = view.number(time).filter(|seconds| *seconds >= 0.0)?;
-    Some(Deed::Wait(Duration::s(seconds)))
+    Some(Command::Wait(Duration::s(seconds)))
 }
 
 /// A mode is known in the one form that programs have.
-fn mode(instruction: Instruction<'_>, wanted: &str, holds: &mut bool) -> Says {
+fn mode(instruction: Instruction<'_>, wanted: &str, holds: &mut bool) -> Effect {
     let is_wanted = matches!(
         (instruction.required, instruction.optional),
         ([], [only]) if only.name == wanted && only.value.is_none()
     );
     *holds = is_wanted;
-    if is_wanted { Says::Setting } else { Says::Unknown }
+    if is_wanted {
+        Effect::Setting
+    } else {
+        Effect::Unknown
+    }
 }
 
 /// `AccSet` and `VelSet` that take nothing away.
-fn full(instruction: Instruction<'_>, view: View<'_>, second: f64) -> Says {
+fn full(instruction: Instruction<'_>, view: View<'_>, second: f64) -> Effect {
     let ([one, other], []) = (instruction.required, instruction.optional) else {
-        return Says::Unknown;
+        return Effect::Unknown;
     };
     let is_full =
         view.number(one) == Some(100.0) && view.number(other).is_some_and(|number| number >= second);
-    if is_full { Says::Setting } else { Says::Unknown }
+    if is_full { Effect::Setting } else { Effect::Unknown }
 }

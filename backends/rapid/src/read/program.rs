@@ -9,7 +9,7 @@ use crate::keywords::MAIN;
 use core::ops::Range;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::ir::Registered;
-use vcutc_backend_api::readback::{FrameRole, FrameSetting, ProgramFile, Says};
+use vcutc_backend_api::readback::{Effect, FrameRole, FrameSetting, ProgramFile};
 use vcutc_backend_api::script::TRIMMED;
 
 /// A file with a module.
@@ -19,7 +19,7 @@ pub(super) struct Module<'t> {
     pub(super) text: &'t str,
     pub(super) pieces: Vec<Piece>,
     /// What pieces say that are known before the program runs.
-    pub(super) says: BTreeMap<usize, Says>,
+    pub(super) effect: BTreeMap<usize, Effect>,
 }
 
 /// A procedure.
@@ -38,7 +38,7 @@ pub(super) struct Routine {
 #[derive(Debug)]
 pub(super) struct List {
     pub(super) file: u32,
-    pub(super) told: Vec<(Piece, Says)>,
+    pub(super) told: Vec<(Piece, Effect)>,
 }
 
 #[derive(Debug, Default)]
@@ -81,7 +81,7 @@ impl<'t> Program<'t> {
                 file: number,
                 text: &file.text,
                 pieces: all,
-                says: BTreeMap::new(),
+                effect: BTreeMap::new(),
             };
             let stem = file
                 .name
@@ -107,20 +107,24 @@ impl<'t> Program<'t> {
         for (number, file) in (0..).zip(files).filter(|(_, file)| is_list(&file.name)) {
             let is_first = named.is_none();
             let names = named.get_or_insert_default();
-            let mut says = |entry: &Entry| match (entry.piece.kind, &entry.module) {
+            let mut effect = |entry: &Entry| match (entry.piece.kind, &entry.module) {
                 (PieceKind::Broken, _) => {
-                    Says::expected("a list of modules, `<Program> <Module>NAME.mod</Module> </Program>`")
+                    Effect::expected("a list of modules, `<Program> <Module>NAME.mod</Module> </Program>`")
                 }
-                _ if !is_first => Says::Unknown,
+                _ if !is_first => Effect::Unknown,
                 (_, Some(module)) => {
                     let name = module.to_ascii_uppercase();
                     let is_there = there.contains(&name) && names.insert(name);
-                    if is_there { Says::Setting } else { Says::Unknown }
+                    if is_there {
+                        Effect::Setting
+                    } else {
+                        Effect::Unknown
+                    }
                 }
-                (_, None) => Says::Setting,
+                (_, None) => Effect::Setting,
             };
             let told = entries(&file.text).into_iter();
-            let told = told.map(|entry| (entry.piece, says(&entry))).collect();
+            let told = told.map(|entry| (entry.piece, effect(&entry))).collect();
             self.lists.push(List { file: number, told });
         }
         named
@@ -132,21 +136,21 @@ impl<'t> Program<'t> {
         let mut header = None;
         for (place, &piece) in module.pieces.iter().enumerate() {
             let text = piece.text(module.text);
-            let (says, next) = match within {
+            let (effect, next) = match within {
                 Within::Nothing => match piece.kind {
-                    PieceKind::OldHead if place == 0 => (Some(Says::Setting), within),
+                    PieceKind::OldHead if place == 0 => (Some(Effect::Setting), within),
                     PieceKind::Module if header.is_none() => {
                         header = Some(place);
                         (Some(self.module_header(text, stem)), Within::Module)
                     }
                     _ => (
-                        Some(Says::expected("MODULE, and nothing before or after it")),
+                        Some(Effect::expected("MODULE, and nothing before or after it")),
                         within,
                     ),
                 },
                 Within::Module => self.in_module(piece.kind, text, place),
                 Within::Routine { index, start } => {
-                    let (says, ends) = self.in_routine(piece.kind, text, index);
+                    let (effect, ends) = self.in_routine(piece.kind, text, index);
                     match (ends, index.and_then(|index| self.routines.get_mut(index))) {
                         (Ends::Here, Some(routine)) => routine.pieces = start..place + 1,
                         (Ends::Here, None) | (Ends::Later, _) => {}
@@ -155,48 +159,48 @@ impl<'t> Program<'t> {
                         Ends::Here => Within::Module,
                         Ends::Later => within,
                     };
-                    (says, next)
+                    (effect, next)
                 }
             };
-            if let Some(says) = says {
-                module.says.insert(place, says);
+            if let Some(effect) = effect {
+                module.effect.insert(place, effect);
             }
             within = next;
         }
         match (within, header) {
             (Within::Nothing, Some(_)) | (_, None) => {}
             (_, Some(header)) => {
-                let missing = Says::expected("ENDMODULE at the end of this module");
-                module.says.insert(header, missing);
+                let missing = Effect::expected("ENDMODULE at the end of this module");
+                module.effect.insert(header, missing);
             }
         }
     }
 
     /// A piece between the head and the end of the module that comes next, and where the piece after it is.
-    fn in_module(&mut self, kind: PieceKind, text: &str, start: usize) -> (Option<Says>, Within) {
+    fn in_module(&mut self, kind: PieceKind, text: &str, start: usize) -> (Option<Effect>, Within) {
         let module = self.modules.len();
         match kind {
-            PieceKind::EndModule => (Some(Says::Setting), Within::Nothing),
+            PieceKind::EndModule => (Some(Effect::Setting), Within::Nothing),
             PieceKind::Routine => {
-                let (says, index) = self.routine_header(text, module);
-                (says, Within::Routine { index, start })
+                let (effect, index) = self.routine_header(text, module);
+                (effect, Within::Routine { index, start })
             }
-            PieceKind::OtherRoutine => (Some(Says::Setting), Within::Routine { index: None, start }),
+            PieceKind::OtherRoutine => (Some(Effect::Setting), Within::Routine { index: None, start }),
             PieceKind::Statement => (
                 Some(self.declaration(text, Scope::Module(module))),
                 Within::Module,
             ),
-            PieceKind::Control => (Some(Says::Unknown), Within::Module),
-            PieceKind::Broken => (Some(Says::expected("`;`")), Within::Module),
+            PieceKind::Control => (Some(Effect::Unknown), Within::Module),
+            PieceKind::Broken => (Some(Effect::expected("`;`")), Within::Module),
             PieceKind::OldHead | PieceKind::Module | PieceKind::EndRoutine => (
-                Some(Says::expected("a declaration, PROC or ENDMODULE")),
+                Some(Effect::expected("a declaration, PROC or ENDMODULE")),
                 Within::Module,
             ),
         }
     }
 
     /// A piece of a routine, and whether the routine ends with it.
-    fn in_routine(&mut self, kind: PieceKind, text: &str, routine: Option<usize>) -> (Option<Says>, Ends) {
+    fn in_routine(&mut self, kind: PieceKind, text: &str, routine: Option<usize>) -> (Option<Effect>, Ends) {
         match (kind, routine) {
             (PieceKind::EndRoutine, _) => (None, Ends::Here),
             (
@@ -206,28 +210,28 @@ impl<'t> Program<'t> {
                 | PieceKind::Routine
                 | PieceKind::OtherRoutine,
                 _,
-            ) => (Some(Says::expected("ENDPROC")), Ends::Later),
+            ) => (Some(Effect::expected("ENDPROC")), Ends::Later),
             (PieceKind::Statement, Some(routine)) => (self.local_declaration(text, routine), Ends::Later),
             (PieceKind::Statement | PieceKind::Control | PieceKind::Broken, _) => (None, Ends::Later),
         }
     }
 
     /// A module must be called like its file, and no two alike.
-    fn module_header(&mut self, text: &str, stem: &str) -> Says {
+    fn module_header(&mut self, text: &str, stem: &str) -> Effect {
         let words: Vec<&str> = text
             .split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
             .collect();
         let name = words.iter().filter(|word| !word.is_empty()).nth(1);
         let name = name.map(|name| name.to_ascii_uppercase()).unwrap_or_default();
         if name == stem.to_ascii_uppercase() && self.names.insert(name) {
-            Says::Setting
+            Effect::Setting
         } else {
-            Says::Unknown
+            Effect::Unknown
         }
     }
 
     /// A routine's header; its number, if it can be called. A routine that has a name twice is not.
-    fn routine_header(&mut self, text: &str, module: usize) -> (Option<Says>, Option<usize>) {
+    fn routine_header(&mut self, text: &str, module: usize) -> (Option<Effect>, Option<usize>) {
         let upper = text.to_ascii_uppercase();
         let (local, rest) = match upper.trim_start().strip_prefix("LOCAL") {
             Some(rest) => (true, rest),
@@ -235,7 +239,7 @@ impl<'t> Program<'t> {
         };
         let rest = rest.trim_start().strip_prefix("PROC").unwrap_or_default();
         let Some((name, parameters)) = rest.split_once('(') else {
-            return (Some(Says::expected("a name and `()`")), None);
+            return (Some(Effect::expected("a name and `()`")), None);
         };
         let name = name.trim().to_owned();
         let is_name = !name.is_empty() && name.bytes().all(|c| c.is_ascii_alphanumeric() || c == b'_');
@@ -243,7 +247,7 @@ impl<'t> Program<'t> {
             .named(&name)
             .any(|(_, other)| other.module == module || !(other.local || local));
         if !is_name || clashes {
-            return (Some(Says::Unknown), None);
+            return (Some(Effect::Unknown), None);
         }
         let number = self.routines.len();
         self.named.entry(name).or_default().push(number);
@@ -258,7 +262,7 @@ impl<'t> Program<'t> {
     }
 
     /// A declaration of a module.
-    fn declaration(&mut self, text: &str, module: Scope) -> Says {
+    fn declaration(&mut self, text: &str, module: Scope) -> Effect {
         match sentence(text) {
             Ok(Sentence::Declaration {
                 local,
@@ -270,14 +274,14 @@ impl<'t> Program<'t> {
                 self.declare(scope, &kind, name, value)
             }
             Ok(Sentence::Assignment { .. } | Sentence::Instruction { .. }) => {
-                Says::expected("a declaration or PROC")
+                Effect::expected("a declaration or PROC")
             }
-            Err(what) => Says::expected(what),
+            Err(what) => Effect::expected(what),
         }
     }
 
     /// A declaration of a routine; none when the statement is no declaration.
-    fn local_declaration(&mut self, text: &str, routine: usize) -> Option<Says> {
+    fn local_declaration(&mut self, text: &str, routine: usize) -> Option<Effect> {
         let starts = ["CONST", "VAR", "PERS"];
         let begins = |word: &&str| {
             text.get(..word.len())
@@ -294,16 +298,16 @@ impl<'t> Program<'t> {
         }
     }
 
-    fn declare(&mut self, scope: Scope, kind: &str, name: String, value: Option<Value>) -> Says {
+    fn declare(&mut self, scope: Scope, kind: &str, name: String, value: Option<Value>) -> Effect {
         let datum = match value {
             Some(value) if KINDS.contains(&kind) => Datum::Value(value),
             Some(_) | None => Datum::Unclear,
         };
         if self.data.declare(scope, &name, datum) {
-            Says::Setting
+            Effect::Setting
         } else {
             self.data.declare(scope, &name, Datum::Unclear);
-            Says::Unknown
+            Effect::Unknown
         }
     }
 
@@ -314,8 +318,8 @@ impl<'t> Program<'t> {
                 break;
             };
             let mut found = Vec::new();
-            for (&place, says) in &module.says {
-                let Some(piece) = module.pieces.get(place).filter(|_| *says == Says::Setting) else {
+            for (&place, effect) in &module.effect {
+                let Some(piece) = module.pieces.get(place).filter(|_| *effect == Effect::Setting) else {
                     continue;
                 };
                 if piece.kind != PieceKind::Statement {
@@ -337,24 +341,24 @@ impl<'t> Program<'t> {
                     let scope = if local { Scope::Module(index) } else { Scope::Task };
                     match kind.as_str() {
                         "TOOLDATA" => {
-                            let says = tool(&value, view, machine);
-                            found.push((place, scope, name, Datum::Tool, says));
+                            let effect = tool(&value, view, machine);
+                            found.push((place, scope, name, Datum::Tool, effect));
                         }
                         "WOBJDATA" => {
                             let frame = view.work_object(&value);
-                            let says =
-                                frame.map(|frame| Says::Frame(FrameRole::Base, FrameSetting::Value(frame)));
-                            found.push((place, scope, name, Datum::WorkObject, says));
+                            let effect =
+                                frame.map(|frame| Effect::Frame(FrameRole::Base, FrameSetting::Value(frame)));
+                            found.push((place, scope, name, Datum::WorkObject, effect));
                         }
                         _ => {}
                     }
                 }
             }
-            for (place, scope, name, datum, says) in found {
-                let datum = if says.is_some() { datum } else { Datum::Unclear };
+            for (place, scope, name, datum, effect) in found {
+                let datum = if effect.is_some() { datum } else { Datum::Unclear };
                 self.data.declare(scope, &name, datum);
                 if let Some(module) = self.modules.get_mut(index) {
-                    module.says.insert(place, says.unwrap_or(Says::Unknown));
+                    module.effect.insert(place, effect.unwrap_or(Effect::Unknown));
                 }
             }
         }
@@ -405,16 +409,16 @@ fn is_list(name: &str) -> bool {
 }
 
 /// The frame of a tool that carries what the job says.
-fn tool(value: &Value, view: View<'_>, machine: Machine<'_>) -> Option<Says> {
+fn tool(value: &Value, view: View<'_>, machine: Machine<'_>) -> Option<Effect> {
     let (frame, load) = view.tool(value)?;
     let Some(Registered::Value(should)) = machine.cell.load else {
         return None;
     };
     let length = machine.settings.common.lengths.half_unit();
-    let near = |is: f64, should: f64, grain: f64| (is - should).abs() <= grain * (1.0 + 1e-6);
+    let near = |is: f64, should: f64, resolution: f64| (is - should).abs() <= resolution * (1.0 + 1e-6);
     let is_load = near(load.mass.to_kg(), should.mass.to_kg(), TRIMMED.half_unit())
         && near(load.centre.x, should.centre.x, length)
         && near(load.centre.y, should.centre.y, length)
         && near(load.centre.z, should.centre.z, length);
-    is_load.then_some(Says::Frame(FrameRole::Tool, FrameSetting::Value(frame)))
+    is_load.then_some(Effect::Frame(FrameRole::Tool, FrameSetting::Value(frame)))
 }

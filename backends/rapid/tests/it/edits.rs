@@ -1,11 +1,11 @@
 //! Programs that people have edited: what means the same is taken, and what does not is told.
 
-use crate::round_trip::retraced;
+use crate::round_trip::replayed;
 use crate::support::{emit_with, one_cut, options, reachable};
 use vcutc_backend_api::backend::{OptionValue, Options};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::profile::Profile;
-use vcutc_backend_api::readback::{Departure, DepartureKind, ProgramFile, Retraced, program_files};
+use vcutc_backend_api::readback::{Divergence, DivergenceKind, Place, ProgramFile, program_files};
 use vcutc_backend_api::units::Length;
 
 fn program() -> ReachableProgram {
@@ -17,12 +17,12 @@ fn files(options: &Options) -> Vec<ProgramFile> {
 }
 
 /// The program with one text in the place of another in its main module, which must have it.
-fn edited(from: &str, to: &str) -> Result<Retraced, Departure> {
+fn edited(from: &str, to: &str) -> Result<Vec<Place>, Divergence> {
     let options = options(&[]);
     let mut files = files(&options);
     assert!(files[0].text.contains(from), "{from}");
     files[0].text = files[0].text.replacen(from, to, 1);
-    retraced(&program(), &options, &files)
+    replayed(&program(), &options, &files)
 }
 
 const MOVE: &str = "MoveL [[2.985,-16.036,";
@@ -75,7 +75,7 @@ fn a_named_target_is_that_target() {
         .text
         .replace(POINT, "pStart")
         .replacen("  CONST num", &declared, 1);
-    assert!(retraced(&program(), &options, &files).is_ok());
+    assert!(replayed(&program(), &options, &files).is_ok());
 }
 
 #[test]
@@ -94,8 +94,8 @@ fn what_is_changed_differs() {
         (SPEED, "v100,fine"),
     ] {
         match edited(from, to) {
-            Err(Departure {
-                what: DepartureKind::Differs(found),
+            Err(Divergence {
+                what: DivergenceKind::Differs(found),
                 place: Some(_),
                 op: Some(_),
             }) => assert!(!found.is_empty(), "{to}"),
@@ -111,7 +111,7 @@ fn another_frame_is_another_program() {
         ("[[1800.000", "[[1801.000"),
     ] {
         let found = edited(from, to).unwrap_err();
-        assert!(matches!(found.what, DepartureKind::Frame(_)), "{to}: {found:?}");
+        assert!(matches!(found.what, DivergenceKind::Frame(_)), "{to}: {found:?}");
     }
 }
 
@@ -157,7 +157,7 @@ fn what_is_not_known_is_not_taken_for_a_move() {
         ("ENDMODULE", ""),
     ] {
         let found = edited(from, to).expect_err(to);
-        let is_told = matches!(found.what, DepartureKind::NotUnderstood | DepartureKind::Ends);
+        let is_told = matches!(found.what, DivergenceKind::NotUnderstood | DivergenceKind::Ends);
         assert!(is_told, "{to}: {found:?}");
     }
 }
@@ -167,31 +167,31 @@ fn the_list_says_what_is_loaded() {
     let options = options(&[("lines_per_part", OptionValue::Integer(1))]);
     let program = program();
     let all = files(&options);
-    assert!(retraced(&program, &options, &all).is_ok());
+    assert!(replayed(&program, &options, &all).is_ok());
     let list = all.len() - 1;
     // Without a list everything is loaded.
-    assert!(retraced(&program, &options, &all[..list]).is_ok());
+    assert!(replayed(&program, &options, &all[..list]).is_ok());
     // A module that is not there, not in the list, or called twice.
     let mut missing = all.clone();
     missing.remove(1);
-    assert!(retraced(&program, &options, &missing).is_err());
+    assert!(replayed(&program, &options, &missing).is_err());
     let mut unlisted = all.clone();
     unlisted[list].text = unlisted[list]
         .text
         .replacen("  <Module>sample_m001.mod</Module>\r\n", "", 1);
-    assert!(retraced(&program, &options, &unlisted).is_err());
+    assert!(replayed(&program, &options, &unlisted).is_err());
     let mut twice = all.clone();
     twice[0].text = twice[0]
         .text
         .replacen("sample_part001;", "sample_part001; sample_part001;", 1);
-    assert!(retraced(&program, &options, &twice).is_err());
+    assert!(replayed(&program, &options, &twice).is_err());
     // One of an older program beside it does no harm.
     let mut older = all;
     older.push(ProgramFile {
         name: "sample_m099.mod".to_owned(),
         text: "MODULE sample_m099 PROC sample_part001() ENDPROC ENDMODULE".to_owned(),
     });
-    assert!(retraced(&program, &options, &older).is_ok());
+    assert!(replayed(&program, &options, &older).is_ok());
 }
 
 #[test]
@@ -209,7 +209,7 @@ fn lines_of_the_profile_are_known() {
     let files = files(&options);
     assert_eq!(files[0].name, "sample.modx");
     assert!(files[0].text.contains("PulseDO\\PLength:=0.2, doHorn;"));
-    assert!(retraced(&program(), &options, &files).is_ok());
+    assert!(replayed(&program(), &options, &files).is_ok());
 }
 
 /// A corner may be rounded as the job says, and by no more.
@@ -219,7 +219,7 @@ fn zones_are_those_of_the_job() {
     let program = program();
     let mut files = files(&options);
     assert!(files[0].text.contains("[FALSE,2.5,2.5,2.5,0.25,2.5,0.25]"));
-    assert!(retraced(&program, &options, &files).is_ok());
+    assert!(replayed(&program, &options, &files).is_ok());
     files[0].text = files[0].text.replacen("[FALSE,2.5,", "[FALSE,3.5,", 1);
-    assert!(retraced(&program, &options, &files).is_err());
+    assert!(replayed(&program, &options, &files).is_err());
 }

@@ -6,19 +6,21 @@ use vcutc_backend_api::backend::{Backend, OptionValue, Options};
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::ir::{AxisValues, Edges, Ready};
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_backend_api::readback::{Departure, Judge, ProgramFile, Retrace, Retraced, Sources, program_files};
+use vcutc_backend_api::readback::{
+    Comparator, Divergence, Place, ProgramFile, Replay, Sources, program_files,
+};
 use vcutc_backend_api::testkit::{CellRecipe, Crossing, Passes, Recipe};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
 use vcutc_backend_rapid::Rapid;
 
-pub(crate) fn retraced(
+pub(crate) fn replayed(
     program: &ReachableProgram,
     options: &Options,
     files: &[ProgramFile],
-) -> Result<Retraced, Departure> {
+) -> Result<Vec<Place>, Divergence> {
     let reader = Rapid.reader().unwrap();
-    let mut retrace = Retrace::new(
-        Judge::new(program, reader, reader.grain(options)),
+    let mut replay = Replay::new(
+        Comparator::new(program, reader, reader.resolution(options)),
         reader.frames(),
     );
     let sources = Sources {
@@ -26,8 +28,8 @@ pub(crate) fn retraced(
         cell: program.program().cell.as_ref().unwrap(),
         options,
     };
-    reader.read(sources, &mut |statement| retrace.heed(&statement));
-    retrace.finish()
+    reader.read(sources, &mut |statement| replay.take(&statement));
+    replay.finish()
 }
 
 fn files(bundle: &Bundle) -> Vec<ProgramFile> {
@@ -78,12 +80,12 @@ proptest! {
             ("decimals", OptionValue::Integer(decimals)),
         ]);
         let files = files(&emit_with(&program, &options));
-        let found = retraced(&program, &options, &files).map_err(|departure| {
-            let place = departure.place.unwrap_or_else(|| panic!("{departure:?}"));
+        let found = replayed(&program, &options, &files).map_err(|divergence| {
+            let place = divergence.place.unwrap_or_else(|| panic!("{divergence:?}"));
             let text = &files[place.file as usize].text[place.start as usize..place.end as usize];
-            TestCaseError::fail(format!("{departure:?} at {text}"))
+            TestCaseError::fail(format!("{divergence:?} at {text}"))
         })?;
-        prop_assert_eq!(found.places.len(), program.program().ops.len());
+        prop_assert_eq!(found.len(), program.program().ops.len());
     }
 
     /// Whatever happens to the text, it is read to its end, and every place lies in it.

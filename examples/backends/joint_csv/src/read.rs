@@ -6,7 +6,8 @@ use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{AxisValues, Switch};
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::readback::{
-    Deed, End, Frames, Grain, Held, Pace, Place, Reader, Says, Sources, Stance, Statement, Target,
+    Command, Configuration, Effect, End, Frames, Held, Pace, Place, Reader, Resolution, Sources, Statement,
+    Target,
 };
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
 
@@ -20,10 +21,10 @@ impl Reader for CsvReader {
             .is_some_and(|(_, extension)| extension.eq_ignore_ascii_case(EXTENSION))
     }
 
-    fn grain(&self, options: &Options) -> Grain {
+    fn resolution(&self, options: &Options) -> Resolution {
         let unit = (0..options.integer(DECIMALS)).fold(1.0, |unit, _| unit / 10.0);
         let half = 0.5 * unit;
-        Grain {
+        Resolution {
             length: Length::mm(half),
             attitude: Angle::deg(half),
             axis: Angle::deg(half),
@@ -39,11 +40,11 @@ impl Reader for CsvReader {
     }
 
     /// A row says all axes, and with them the way to stand.
-    fn stance(&self, _branch: Branch, _axes: AxisValues) -> Option<Stance> {
+    fn configuration(&self, _branch: Branch, _axes: AxisValues) -> Option<Configuration> {
         None
     }
 
-    fn read(&self, sources: Sources<'_>, heed: &mut dyn FnMut(Statement)) {
+    fn read(&self, sources: Sources<'_>, visit: &mut dyn FnMut(Statement)) {
         for (number, file) in (0..).zip(sources.files) {
             let mut start = 0;
             for whole in file.text.split_inclusive('\n') {
@@ -51,9 +52,9 @@ impl Reader for CsvReader {
                 let place = place(number, start, line.len());
                 start += whole.len();
                 if !(line.is_empty() || line.starts_with(COMMENT)) {
-                    heed(Statement {
+                    visit(Statement {
                         place,
-                        says: says(line),
+                        effect: effect(line),
                     });
                 }
             }
@@ -70,21 +71,21 @@ fn place(file: u32, start: usize, length: usize) -> Place {
     }
 }
 
-fn says(line: &str) -> Says {
+fn effect(line: &str) -> Effect {
     let columns: Vec<&str> = line.split(',').map(str::trim).collect();
     let Ok(columns) = <[&str; COLUMNS.len()]>::try_from(columns) else {
         let count = COLUMNS.len();
         return unreadable(format!("{count} columns"));
     };
     if columns == COLUMNS {
-        return Says::Setting;
+        return Effect::Setting;
     }
     let [_, _, does, x, y, z, a1, a2, a3, a4, a5, a6, tip, turn, value] = columns;
     let axes = || axes([a1, a2, a3, a4, a5, a6]);
-    let deed = match does {
-        "axes" => axes().map(Deed::Axes),
+    let command = match does {
+        "axes" => axes().map(Command::Axes),
         "move" => target([x, y, z], axes()).and_then(|to| {
-            Some(Deed::Straight {
+            Some(Command::Straight {
                 to,
                 pace: Pace::Speeds {
                     tip: optional(tip)?.map(Speed::mm_per_s),
@@ -94,15 +95,15 @@ fn says(line: &str) -> Says {
             })
         }),
         "switch" => switch(value),
-        "await" => value.parse().ok().map(Deed::AwaitInput),
-        "wait" => number(value).map(|seconds| Deed::Wait(Duration::s(seconds))),
-        _ => return Says::Unknown,
+        "await" => value.parse().ok().map(Command::AwaitInput),
+        "wait" => number(value).map(|seconds| Command::Wait(Duration::s(seconds))),
+        _ => return Effect::Unknown,
     };
-    deed.map_or_else(|| unreadable(format!("the columns of `{does}`")), Says::Deed)
+    command.map_or_else(|| unreadable(format!("the columns of `{does}`")), Effect::Command)
 }
 
-fn unreadable(expected: String) -> Says {
-    Says::Unreadable { expected }
+fn unreadable(expected: String) -> Effect {
+    Effect::Unreadable { expected }
 }
 
 fn axes(columns: [&str; AXES]) -> Option<AxisValues> {
@@ -121,14 +122,14 @@ fn target([x, y, z]: [&str; 3], axes: Option<AxisValues>) -> Option<Target> {
     })
 }
 
-fn switch(value: &str) -> Option<Deed> {
+fn switch(value: &str) -> Option<Command> {
     let (output, state) = value.split_once('=')?;
     let state = match state {
         "on" => Switch::On,
         "off" => Switch::Off,
         _ => return None,
     };
-    Some(Deed::Switch {
+    Some(Command::Switch {
         output: output.parse().ok()?,
         state,
     })

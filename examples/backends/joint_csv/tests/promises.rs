@@ -7,7 +7,7 @@ use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::ir::Maker;
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::profile::{LineNumbers, Profile};
-use vcutc_backend_api::readback::{Departure, Judge, ProgramFile, Retrace, Sources, program_files};
+use vcutc_backend_api::readback::{Comparator, Divergence, ProgramFile, Replay, Sources, program_files};
 use vcutc_backend_api::testkit::{conformance, samples_for};
 use vcutc_backend_joint_csv::JointCsv;
 
@@ -37,15 +37,15 @@ fn written(program: &ReachableProgram, options: &Options) -> Vec<ProgramFile> {
     program_files(&bundle)
 }
 
-fn retraced(program: &ReachableProgram, options: &Options, files: &[ProgramFile]) -> Result<(), Departure> {
+fn replayed(program: &ReachableProgram, options: &Options, files: &[ProgramFile]) -> Result<(), Divergence> {
     let reader = JointCsv.reader().unwrap();
-    let judge = Judge::new(program, reader, reader.grain(options));
-    let mut retrace = Retrace::new(judge, reader.frames());
+    let comparator = Comparator::new(program, reader, reader.resolution(options));
+    let mut replay = Replay::new(comparator, reader.frames());
     let cell = program.program().cell.as_ref().unwrap();
     reader.read(Sources { files, cell, options }, &mut |statement| {
-        retrace.heed(&statement)
+        replay.take(&statement)
     });
-    retrace.finish().map(|_| ())
+    replay.finish().map(|_| ())
 }
 
 #[test]
@@ -63,13 +63,13 @@ fn every_row_that_is_dropped_or_changed_is_missed() {
         }]
     };
     let lines: Vec<String> = file.text.lines().map(str::to_owned).collect();
-    assert_eq!(retraced(&program, &options, &with(lines.clone())), Ok(()));
+    assert_eq!(replayed(&program, &options, &with(lines.clone())), Ok(()));
     let first_row = lines.len() - program.program().ops.len();
     for row in first_row..lines.len() {
         let mut dropped = lines.clone();
         dropped.remove(row);
         assert!(
-            retraced(&program, &options, &with(dropped)).is_err(),
+            replayed(&program, &options, &with(dropped)).is_err(),
             "{}",
             lines[row]
         );
@@ -87,7 +87,7 @@ fn every_row_that_is_dropped_or_changed_is_missed() {
             };
             changed[row].replace_range(at + 1..at + 2, digit);
             assert!(
-                retraced(&program, &options, &with(changed.clone())).is_err(),
+                replayed(&program, &options, &with(changed.clone())).is_err(),
                 "{}",
                 changed[row]
             );
@@ -118,7 +118,7 @@ fn decimals_are_those_asked_for_and_read_back() {
             decimals as usize,
             "{column}"
         );
-        assert_eq!(retraced(&program, &options, &files), Ok(()));
+        assert_eq!(replayed(&program, &options, &files), Ok(()));
     }
 }
 
@@ -139,7 +139,7 @@ fn a_profile_is_followed_or_refused() {
         files[0].name.to_ascii_lowercase(),
         format!("{}.csv", name.to_ascii_lowercase())
     );
-    assert_eq!(retraced(&program, &options, &files), Ok(()));
+    assert_eq!(replayed(&program, &options, &files), Ok(()));
 
     let options = with(Profile {
         header: vec!["G54".to_owned()],
@@ -177,7 +177,7 @@ fn nonsense_is_told_as_such() {
     };
     JointCsv.reader().unwrap().read(sources, &mut |statement| {
         let place = statement.place.start as usize..statement.place.end as usize;
-        told.push(format!("{} <- {:?}", &text[place], statement.says));
+        told.push(format!("{} <- {:?}", &text[place], statement.effect));
     });
     assert_eq!(
         told,

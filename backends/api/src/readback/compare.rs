@@ -1,6 +1,6 @@
-//! What is different between an op and a deed.
+//! What is different between an op and a command.
 
-use super::{Deed, End, Grain, Held, Pace, Reader, Stance, Target};
+use super::{Command, Configuration, End, Held, Pace, Reader, Resolution, Target};
 use crate::corners::may_round;
 use crate::geometry::{Frame, Orientation, Point3};
 use crate::ir::{Action, AxisKind, AxisValues, MOST_AXES, OpId, Program, Ready, Switch};
@@ -10,10 +10,10 @@ use crate::state::{Generator, State, TipPose};
 use crate::swivel::Apart;
 use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
 
-/// A difference between an op and a deed.
+/// A difference between an op and a command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mismatch {
-    /// Another kind of deed.
+    /// Another kind of command.
     Kind,
     /// The tip ends elsewhere.
     Tip {
@@ -28,11 +28,11 @@ pub enum Mismatch {
         by: Angle,
     },
     /// Another way to stand.
-    Stance {
+    Configuration {
         /// Which; none when it is not said.
-        is: Option<Stance>,
+        is: Option<Configuration>,
         /// Which it should be.
-        should: Option<Stance>,
+        should: Option<Configuration>,
     },
     /// An axis ends elsewhere: in rad or mm.
     Axis {
@@ -91,36 +91,40 @@ pub struct Moment {
     pub before: State,
 }
 
-/// Compares ops with deeds.
+/// Compares ops with commands.
 #[derive(Clone, Copy)]
-pub struct Judge<'p> {
+pub struct Comparator<'p> {
     reachable: &'p ReachableProgram,
     reader: &'p dyn Reader,
-    grain: Grain,
+    resolution: Resolution,
 }
 
 /// Numbers may differ by half of what is printed last, and by the rounding of the arithmetic.
-fn within(is: f64, should: f64, grain: f64) -> bool {
+fn within(is: f64, should: f64, resolution: f64) -> bool {
     let rounding = 1e-9 * should.abs().max(1.0);
-    (is - should).abs() <= grain * (1.0 + 1e-6) + rounding
+    (is - should).abs() <= resolution * (1.0 + 1e-6) + rounding
 }
 
-/// Numbers that are rounded down may be less by all that is printed last, twice the grain, and more by nothing but the rounding of
+/// Numbers that are rounded down may be less by all that is printed last, twice the resolution, and more by nothing but the rounding of
 /// the arithmetic.
-fn is_at_most(is: f64, should: f64, grain: f64) -> bool {
+fn is_at_most(is: f64, should: f64, resolution: f64) -> bool {
     let rounding = 1e-9 * should.abs().max(1.0);
     let below = should - is;
-    (-(1e-3 * grain + rounding)..=2.0 * grain * (1.0 + 1e-6) + rounding).contains(&below)
+    (-(1e-3 * resolution + rounding)..=2.0 * resolution * (1.0 + 1e-6) + rounding).contains(&below)
 }
 
-impl<'p> Judge<'p> {
-    /// A judge of a program that was printed so finely.
+impl<'p> Comparator<'p> {
+    /// A comparator of a program that was printed so finely.
     #[must_use]
-    pub const fn new(reachable: &'p ReachableProgram, reader: &'p dyn Reader, grain: Grain) -> Self {
+    pub const fn new(
+        reachable: &'p ReachableProgram,
+        reader: &'p dyn Reader,
+        resolution: Resolution,
+    ) -> Self {
         Self {
             reachable,
             reader,
-            grain,
+            resolution,
         }
     }
 
@@ -134,9 +138,9 @@ impl<'p> Judge<'p> {
         self.reachable.program()
     }
 
-    /// Everything in which a deed is not what the op at a moment says; nothing when it is.
+    /// Everything in which a command is not what the op at a moment says; nothing when it is.
     #[must_use]
-    pub fn mismatches(&self, moment: Moment, deed: &Deed) -> Vec<Mismatch> {
+    pub fn mismatches(&self, moment: Moment, command: &Command) -> Vec<Mismatch> {
         let mut found = Vec::new();
         let program = self.program();
         let Some(op) = program.op(moment.op) else {
@@ -144,34 +148,22 @@ impl<'p> Judge<'p> {
         };
         let axes = self.reachable.axes_after(moment.op);
         let cell = program.cell.as_ref();
-        match (op.action, deed, axes) {
-            (Action::Home, Deed::Axes(is), Some(should)) => self.axes(is, &should, Which::All, &mut found),
-            (Action::AxisTravel { to: tip, orientation }, deed, Some(should)) => match deed {
-                Deed::Axes(is) => self.axes(is, &should, Which::All, &mut found),
-                Deed::AxesToPose(target) => {
-                    self.target(moment.op, target, TipPose { tip, orientation }, &mut found);
-                }
-                Deed::Straight { .. } | Deed::Switch { .. } | Deed::AwaitInput(_) | Deed::Wait(_) => {
-                    found.push(Mismatch::Kind);
-                }
-            },
-            (
-                Action::Travel { .. }
-                | Action::Approach { .. }
-                | Action::Retract { .. }
-                | Action::Cut { .. }
-                | Action::Turn { .. },
-                Deed::Straight { to, pace, end },
-                Some(_),
-            ) => match self.line(moment) {
+        match (op.action, command, axes) {
+            (Action::Home | Action::AxisTravel { .. }, Command::Axes(is), Some(should)) => {
+                self.axes(is, &should, Which::All, &mut found);
+            }
+            (Action::AxisTravel { to: tip, orientation }, Command::AxesToPose(target), Some(_)) => {
+                self.target(moment.op, target, TipPose { tip, orientation }, &mut found);
+            }
+            (action, Command::Straight { to, pace, end }, Some(_)) => match self.line(moment) {
                 Some(line) => {
                     self.target(moment.op, to, line.to, &mut found);
                     self.pace(moment.op, &line, *pace, &mut found);
-                    self.end(moment, &op.action, *end, &mut found);
+                    self.end(moment, &action, *end, &mut found);
                 }
                 None => found.push(Mismatch::Kind),
             },
-            (Action::Ultrasonic { state }, Deed::Switch { output, state: is }, _) => {
+            (Action::Ultrasonic { state }, Command::Switch { output, state: is }, _) => {
                 let should = cell.and_then(|cell| cell.ultrasonic);
                 if (Some(*output), *is) != (should, state) {
                     found.push(Mismatch::Output {
@@ -180,56 +172,49 @@ impl<'p> Judge<'p> {
                     });
                 }
             }
-            (Action::AwaitReady, deed, _) => match (cell.map(|cell| cell.ready), deed) {
-                (Some(Ready::Input(should)), Deed::AwaitInput(is)) if *is == should => {}
-                (Some(Ready::Input(should)), &Deed::AwaitInput(is)) => {
-                    found.push(Mismatch::Input { is, should });
+            (Action::AwaitReady, command, _) => match (cell.map(|cell| cell.ready), command) {
+                (Some(Ready::Input(should)), &Command::AwaitInput(is)) => {
+                    if is != should {
+                        found.push(Mismatch::Input { is, should });
+                    }
                 }
-                (Some(Ready::After(should)), Deed::Wait(is)) => self.wait(*is, should, &mut found),
-                (Some(Ready::Input(_) | Ready::After(_)) | None, _) => found.push(Mismatch::Kind),
+                (Some(Ready::After(should)), Command::Wait(is)) => self.wait(*is, should, &mut found),
+                (_, _) => found.push(Mismatch::Kind),
             },
-            (Action::Dwell { time }, Deed::Wait(is), _) => self.wait(*is, time, &mut found),
-            (
-                Action::Home
-                | Action::Travel { .. }
-                | Action::AxisTravel { .. }
-                | Action::Approach { .. }
-                | Action::Retract { .. }
-                | Action::Cut { .. }
-                | Action::Turn { .. }
-                | Action::Ultrasonic { .. }
-                | Action::Dwell { .. }
-                | Action::ToolChange { .. },
-                _,
-                _,
-            ) => found.push(Mismatch::Kind),
+            (Action::Dwell { time }, Command::Wait(is), _) => self.wait(*is, time, &mut found),
+            (_, _, _) => found.push(Mismatch::Kind),
         }
         found
     }
 
-    /// Whether a deed brings the machine to a waypoint on the way of the op at a moment, as the op itself would go on.
+    /// Whether a command brings the machine to a waypoint on the way of the op at a moment, as the op itself would go on.
     #[must_use]
-    pub fn passes(&self, moment: Moment, waypoint: &Waypoint, deed: &Deed) -> bool {
-        self.mismatches_on_the_way(moment, waypoint, deed).is_empty()
+    pub fn passes(&self, moment: Moment, waypoint: &Waypoint, command: &Command) -> bool {
+        self.waypoint_mismatches(moment, waypoint, command).is_empty()
     }
 
     /// Whether every waypoint has to be named.
     #[must_use]
     pub fn needs_waypoints(&self) -> bool {
-        self.reader.says_waypoints()
+        self.reader.states_waypoints()
     }
 
-    /// Everything in which a deed is not the motion to a waypoint of the op at a moment.
+    /// Everything in which a command is not the motion to a waypoint of the op at a moment.
     #[must_use]
-    pub fn mismatches_on_the_way(&self, moment: Moment, waypoint: &Waypoint, deed: &Deed) -> Vec<Mismatch> {
-        let (Deed::Straight { to, pace, .. }, Some(line)) = (deed, self.line(moment)) else {
+    pub fn waypoint_mismatches(
+        &self,
+        moment: Moment,
+        waypoint: &Waypoint,
+        command: &Command,
+    ) -> Vec<Mismatch> {
+        let (Command::Straight { to, pace, .. }, Some(line)) = (command, self.line(moment)) else {
             return vec![Mismatch::Kind];
         };
         let mut found = Vec::new();
         let branch = self.reachable.branch_after(moment.op);
-        let stance = branch.and_then(|branch| self.reader.stance(branch, waypoint.axes));
+        let configuration = branch.and_then(|branch| self.reader.configuration(branch, waypoint.axes));
         self.pose(to, waypoint.frame.origin, waypoint.frame.orientation, &mut found);
-        self.stance(to, stance, &mut found);
+        self.configuration(to, configuration, &mut found);
         self.pace(moment.op, &line, *pace, &mut found);
         found
     }
@@ -244,40 +229,40 @@ impl<'p> Judge<'p> {
         )
     }
 
-    /// Whether a deed leaves everything as it is before an op: the move to where the machine stands already, the state of
+    /// Whether a command leaves everything as it is before an op: the move to where the machine stands already, the state of
     /// the generator once more.
     #[must_use]
-    pub fn restates(&self, moment: Moment, deed: &Deed) -> bool {
+    pub fn restates(&self, moment: Moment, command: &Command) -> bool {
         let program = self.program();
         let cell = program.cell.as_ref();
         let before = moment.op.0.checked_sub(1).map(OpId);
         let stands = before.and_then(|before| self.reachable.axes_after(before));
         let generator = moment.before.generator;
         let mut found = Vec::new();
-        match (deed, before, moment.before.place.pose()) {
-            (Deed::Axes(is), _, _) => match stands {
+        match (command, before, moment.before.place.pose()) {
+            (Command::Axes(is), _, _) => match stands {
                 Some(should) => self.axes(is, &should, Which::All, &mut found),
                 None => return false,
             },
-            (Deed::AxesToPose(target), Some(before), Some(pose)) => {
+            (Command::AxesToPose(target), Some(before), Some(pose)) => {
                 self.target(before, target, pose, &mut found);
             }
-            (Deed::Switch { output, state }, _, _) => {
+            (Command::Switch { output, state }, _, _) => {
                 let running = match generator {
                     Generator::Off => Switch::Off,
                     Generator::Starting | Generator::Running => Switch::On,
                 };
                 return *state == running && cell.is_some_and(|cell| cell.ultrasonic == Some(*output));
             }
-            (Deed::AwaitInput(is), _, _) => {
+            (Command::AwaitInput(is), _, _) => {
                 return generator == Generator::Running
                     && cell.is_some_and(|cell| cell.ready == Ready::Input(*is));
             }
-            (Deed::Wait(is), _, _) => match (generator, cell.map(|cell| cell.ready)) {
+            (Command::Wait(is), _, _) => match (generator, cell.map(|cell| cell.ready)) {
                 (Generator::Running, Some(Ready::After(should))) => self.wait(*is, should, &mut found),
                 (Generator::Running | Generator::Starting | Generator::Off, _) => return false,
             },
-            (Deed::AxesToPose(_) | Deed::Straight { .. }, _, _) => return false,
+            (Command::AxesToPose(_) | Command::Straight { .. }, _, _) => return false,
         }
         found.is_empty()
     }
@@ -287,11 +272,11 @@ impl<'p> Judge<'p> {
         let mut found = Vec::new();
         self.tip(is.origin, should.origin, &mut found);
         let by = is.orientation.angle_to(should.orientation);
-        found.is_empty() && within(by.to_rad(), 0.0, self.grain.attitude.to_rad())
+        found.is_empty() && within(by.to_rad(), 0.0, self.resolution.attitude.to_rad())
     }
 
     fn wait(&self, is: Duration, should: Duration, found: &mut Vec<Mismatch>) {
-        if !within(is.to_s(), should.to_s(), self.grain.time.to_s()) {
+        if !within(is.to_s(), should.to_s(), self.resolution.time.to_s()) {
             found.push(Mismatch::Time { is, should });
         }
     }
@@ -299,12 +284,12 @@ impl<'p> Judge<'p> {
     fn axes(&self, is: &AxisValues, should: &AxisValues, which: Which, found: &mut Vec<Mismatch>) {
         let axes = self.program().cell.iter().flat_map(|cell| &cell.axes);
         for (axis, (known, (&is, &should))) in axes.zip(is.0.iter().zip(&should.0)).enumerate() {
-            let grain = match (known.kind, which) {
-                (AxisKind::Rotary, Which::All | Which::Rotary) => self.grain.axis.to_rad(),
-                (AxisKind::Linear, Which::All) => self.grain.length.to_mm(),
+            let resolution = match (known.kind, which) {
+                (AxisKind::Rotary, Which::All | Which::Rotary) => self.resolution.axis.to_rad(),
+                (AxisKind::Linear, Which::All) => self.resolution.length.to_mm(),
                 (AxisKind::Linear, Which::Rotary) => continue,
             };
-            if !within(is, should, grain) {
+            if !within(is, should, resolution) {
                 found.push(Mismatch::Axis { axis, is, should });
             }
         }
@@ -315,13 +300,13 @@ impl<'p> Judge<'p> {
         let orientation = self.program().orientation(should.orientation);
         let axes = self.reachable.axes_after(op);
         match (is.held, orientation, axes) {
-            (Held::Orientation(_, stance), Some(orientation), Some(axes)) => {
+            (Held::Orientation(_, configuration), Some(orientation), Some(axes)) => {
                 self.pose(is, tip, orientation, found);
-                if stance.is_some() || self.must_say_stance(op) {
+                if configuration.is_some() || self.must_state_configuration(op) {
                     let branch = self.reachable.branch_after(op);
-                    self.stance(
+                    self.configuration(
                         is,
-                        branch.and_then(|branch| self.reader.stance(branch, axes)),
+                        branch.and_then(|branch| self.reader.configuration(branch, axes)),
                         found,
                     );
                 }
@@ -335,7 +320,7 @@ impl<'p> Judge<'p> {
     }
 
     /// A move of all axes to a pose has no other way to say which way is meant.
-    fn must_say_stance(&self, op: OpId) -> bool {
+    fn must_state_configuration(&self, op: OpId) -> bool {
         let action = self.program().op(op).map(|op| op.action);
         matches!(action, Some(Action::AxisTravel { .. }))
     }
@@ -345,7 +330,7 @@ impl<'p> Judge<'p> {
         match is.held {
             Held::Orientation(held, _) => {
                 let by = held.angle_to(orientation);
-                if !within(by.to_rad(), 0.0, self.grain.attitude.to_rad()) {
+                if !within(by.to_rad(), 0.0, self.resolution.attitude.to_rad()) {
                     found.push(Mismatch::Attitude { by });
                 }
             }
@@ -353,19 +338,19 @@ impl<'p> Judge<'p> {
         }
     }
 
-    fn stance(&self, is: &Target, should: Option<Stance>, found: &mut Vec<Mismatch>) {
+    fn configuration(&self, is: &Target, should: Option<Configuration>, found: &mut Vec<Mismatch>) {
         if let Held::Orientation(_, is) = is.held
             && is != should
         {
-            found.push(Mismatch::Stance { is, should });
+            found.push(Mismatch::Configuration { is, should });
         }
     }
 
     fn tip(&self, is: Point3, should: Point3, found: &mut Vec<Mismatch>) {
-        let grain = self.grain.length.to_mm();
+        let resolution = self.resolution.length.to_mm();
         let near = [(is.x, should.x), (is.y, should.y), (is.z, should.z)]
             .into_iter()
-            .all(|(is, should)| within(is, should, grain));
+            .all(|(is, should)| within(is, should, resolution));
         if !near {
             found.push(Mismatch::Tip { is, should });
         }
@@ -397,7 +382,7 @@ impl<'p> Judge<'p> {
             }
             Pace::PerMinute(is) => {
                 let should = 60.0 / duration.to_s();
-                if duration > Duration::ZERO && !is_at_most(is, should, self.grain.per_minute) {
+                if duration > Duration::ZERO && !is_at_most(is, should, self.resolution.per_minute) {
                     found.push(Mismatch::Time {
                         is: Duration::s(60.0 / is),
                         should: duration,
@@ -444,7 +429,7 @@ impl<'p> Judge<'p> {
         within(
             is.to_mm_per_s(),
             should.to_mm_per_s(),
-            self.grain.speed.to_mm_per_s(),
+            self.resolution.speed.to_mm_per_s(),
         )
     }
 
@@ -453,7 +438,7 @@ impl<'p> Judge<'p> {
         is_at_most(
             is.to_mm_per_s(),
             should.to_mm_per_s(),
-            self.grain.speed.to_mm_per_s(),
+            self.resolution.speed.to_mm_per_s(),
         )
     }
 
@@ -462,7 +447,7 @@ impl<'p> Judge<'p> {
         is_at_most(
             is.to_rad_per_s(),
             should.to_rad_per_s(),
-            self.grain.rate.to_rad_per_s(),
+            self.resolution.rate.to_rad_per_s(),
         )
     }
 

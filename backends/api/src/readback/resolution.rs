@@ -1,11 +1,11 @@
-//! How coarse a dialect may print at most. Within its grain numbers are the same, so a grain without bounds would make every
+//! How coarse a dialect may print at most. Within its resolution numbers are the same, so a resolution without bounds would make every
 //! program read back as every other.
 
-use super::Grain;
+use super::Resolution;
 use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
 
-/// The coarsest grain.
-pub const COARSEST: Grain = Grain {
+/// The coarsest resolution.
+pub const COARSEST: Resolution = Resolution {
     length: Length::mm(0.01),
     attitude: Angle::deg(0.1),
     axis: Angle::deg(0.1),
@@ -15,21 +15,21 @@ pub const COARSEST: Grain = Grain {
     time: Duration::s(0.01),
 };
 
-impl Grain {
+impl Resolution {
     /// Which of its values is not a number, below zero or above that of [`COARSEST`], and that one in words.
     ///
     /// # Errors
     /// The key with what it may be.
     pub fn is_sound(&self) -> Result<(), &'static str> {
-        let of = |grain: &Self| {
+        let of = |resolution: &Self| {
             [
-                grain.length.to_mm(),
-                grain.attitude.to_rad(),
-                grain.axis.to_rad(),
-                grain.speed.to_mm_per_s(),
-                grain.rate.to_rad_per_s(),
-                grain.per_minute,
-                grain.time.to_s(),
+                resolution.length.to_mm(),
+                resolution.attitude.to_rad(),
+                resolution.axis.to_rad(),
+                resolution.speed.to_mm_per_s(),
+                resolution.rate.to_rad_per_s(),
+                resolution.per_minute,
+                resolution.time.to_s(),
             ]
         };
         let words = [
@@ -41,7 +41,7 @@ impl Grain {
             "`per_minute` is 0 to 1 a minute",
             "`time` is 0 to 0.01 s",
         ];
-        // A grain printed with few digits may be that of the cap and a rounding above it.
+        // A resolution printed with few digits may be that of the cap and a rounding above it.
         const ROUNDING: f64 = 1.0 + 1e-9;
         let mut values = of(self).into_iter().zip(of(&COARSEST)).zip(words);
         let unsound = values.find(|((value, cap), _)| !(0.0..=cap * ROUNDING).contains(value));
@@ -57,45 +57,45 @@ mod tests {
     fn the_coarsest_is_sound_and_nothing_coarser() {
         assert_eq!(COARSEST.is_sound(), Ok(()));
         let coarser = [
-            Grain {
+            Resolution {
                 length: Length::mm(0.011),
                 ..COARSEST
             },
-            Grain {
+            Resolution {
                 attitude: Angle::deg(0.11),
                 ..COARSEST
             },
-            Grain {
+            Resolution {
                 axis: Angle::deg(0.11),
                 ..COARSEST
             },
-            Grain {
+            Resolution {
                 speed: Speed::mm_per_s(1.1),
                 ..COARSEST
             },
-            Grain {
+            Resolution {
                 rate: AngularSpeed::deg_per_s(1.1),
                 ..COARSEST
             },
-            Grain {
+            Resolution {
                 per_minute: 1.1,
                 ..COARSEST
             },
-            Grain {
+            Resolution {
                 time: Duration::s(0.011),
                 ..COARSEST
             },
-            Grain {
+            Resolution {
                 length: Length::mm(-0.001),
                 ..COARSEST
             },
-            Grain {
+            Resolution {
                 per_minute: f64::NAN,
                 ..COARSEST
             },
         ];
-        for grain in coarser {
-            assert!(grain.is_sound().is_err(), "{grain:?}");
+        for resolution in coarser {
+            assert!(resolution.is_sound().is_err(), "{resolution:?}");
         }
     }
 }

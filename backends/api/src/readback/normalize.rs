@@ -5,7 +5,7 @@
 ///
 /// Dialects that tell small letters from capitals outside of quotes are not served by this; none of ours does.
 #[must_use]
-pub fn essence(statement: &str) -> String {
+pub fn normalized(statement: &str) -> String {
     let mut writer = Writer {
         out: String::with_capacity(statement.len()),
         last: Last::Other,
@@ -152,7 +152,7 @@ mod tests {
             ("[9E9,9E9]", "[9e+09, 9.0E+9]"),
             ("m68e3q1.0", "M68 E3 Q1"),
         ] {
-            assert_eq!(essence(one), essence(other));
+            assert_eq!(normalized(one), normalized(other));
         }
     }
 
@@ -170,26 +170,26 @@ mod tests {
             ("1E9", "1E8"),
             ("1E-9", "1E9"),
         ] {
-            assert_ne!(essence(one), essence(other), "{one} {other}");
+            assert_ne!(normalized(one), normalized(other), "{one} {other}");
         }
     }
 
     proptest! {
         #[test]
         fn an_essence_is_its_own(text in "[ -~]{0,40}") {
-            let once = essence(&text);
-            prop_assert_eq!(essence(&once), once);
+            let once = normalized(&text);
+            prop_assert_eq!(normalized(&once), once);
         }
 
         #[test]
         fn any_text_has_one(text in any::<String>()) {
-            let _ = essence(&text);
+            let _ = normalized(&text);
         }
 
         #[test]
         fn other_numbers_are_other_statements(a in 0_u32..10_000_000, b in 0_u32..10_000_000) {
             let text = |n: u32| format!("LIN {{X {}.{:03}}}", n / 1000, n % 1000);
-            prop_assert_eq!(essence(&text(a)) == essence(&text(b)), a == b);
+            prop_assert_eq!(normalized(&text(a)) == normalized(&text(b)), a == b);
         }
     }
 }

@@ -2,32 +2,37 @@
 
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OpId, Program};
-use vcutc_backend_api::readback::{Place, ProgramFile, Reader, Sources, Statement, essence};
+use vcutc_backend_api::readback::{Effect, Place, ProgramFile, Reader, Sources, Statement, normalized};
 
 /// The statements of a program.
-pub(super) struct Told<'f> {
+pub(super) struct Listing<'f> {
     pub(super) files: &'f [ProgramFile],
     pub(super) statements: Vec<Statement>,
     /// How many more there are than are held.
     pub(super) beyond: usize,
 }
 
-impl<'f> Told<'f> {
+impl<'f> Listing<'f> {
     /// Reads a program, and keeps so many of its statements at most.
     pub(super) fn read(reader: &dyn Reader, sources: Sources<'f>, most: usize) -> Self {
-        let mut told = Self {
+        let mut listing = Self {
             files: sources.files,
             statements: Vec::new(),
             beyond: 0,
         };
         reader.read(sources, &mut |statement| {
-            if told.statements.len() < most {
-                told.statements.push(statement);
+            if listing.statements.len() < most {
+                listing.statements.push(statement);
             } else {
-                told.beyond += 1;
+                listing.beyond += 1;
             }
         });
-        told
+        listing
+    }
+
+    /// What a statement does; none where there is no statement of that number.
+    pub(super) fn effect(&self, index: usize) -> Option<&Effect> {
+        self.statements.get(index).map(|statement| &statement.effect)
     }
 
     /// The text of a statement; empty where a place does not fit the files.
@@ -37,17 +42,17 @@ impl<'f> Told<'f> {
             .map_or("", |statement| text_at(self.files, statement.place))
     }
 
-    /// The elements to compare: equal numbers for statements of the same essence. The table is shared by both programs.
-    pub(super) fn essences(&self, known: &mut Names) -> Vec<u32> {
-        self.named(known, essence)
+    /// The elements to compare: equal numbers for statements of the same normalized text. The table is shared by both programs.
+    pub(super) fn normalized_texts(&self, known: &mut Numbering) -> Vec<u32> {
+        self.named(known, normalized)
     }
 
     /// The same for statements that differ in their numbers only.
-    pub(super) fn skeletons(&self, known: &mut Names) -> Vec<u32> {
+    pub(super) fn skeletons(&self, known: &mut Numbering) -> Vec<u32> {
         self.named(known, skeleton)
     }
 
-    fn named(&self, known: &mut Names, name: impl Fn(&str) -> String) -> Vec<u32> {
+    fn named(&self, known: &mut Numbering, name: impl Fn(&str) -> String) -> Vec<u32> {
         let places = 0..self.statements.len();
         places.map(|index| known.number(name(self.text(index)))).collect()
     }
@@ -63,10 +68,10 @@ impl<'f> Told<'f> {
     }
 }
 
-/// A statement's essence without its numbers.
+/// A statement's normalized text without its numbers.
 pub(super) fn skeleton(text: &str) -> String {
     let is_of_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+');
-    essence(text).split(is_of_number).collect()
+    normalized(text).split(is_of_number).collect()
 }
 
 /// The text at a place.
@@ -79,11 +84,11 @@ pub(super) fn text_at(files: &[ProgramFile], place: Place) -> &str {
 
 /// Numbers for texts, in the order in which they first come.
 #[derive(Default)]
-pub(super) struct Names {
+pub(super) struct Numbering {
     numbers: BTreeMap<String, u32>,
 }
 
-impl Names {
+impl Numbering {
     pub(super) fn number(&mut self, name: String) -> u32 {
         let next = u32::try_from(self.numbers.len()).unwrap_or(u32::MAX);
         *self.numbers.entry(name).or_insert(next)

@@ -1,18 +1,20 @@
 //! A whole program's statements against its ops.
 
-use super::{Deed, FrameRole, FrameSetting, Frames, Judge, Mismatch, Moment, Place, Says, Statement};
+use super::{
+    Command, Comparator, Effect, FrameRole, FrameSetting, Frames, Mismatch, Moment, Place, Statement,
+};
 use crate::ir::{OpId, PlacedFrame, Program};
 use crate::motion::Waypoint;
 use crate::state::{Generator, State};
 
 /// Follows a program's statements. What is read must be its ops, one after the other, each once; in between only
 /// settings, and at the head of a part a restatement of what holds already.
-pub struct Retrace<'p> {
-    judge: Judge<'p>,
+pub struct Replay<'p> {
+    comparator: Comparator<'p>,
     frames: Frames,
     /// Where each op was read.
     places: Vec<Place>,
-    departure: Option<Departure>,
+    divergence: Option<Divergence>,
     state: State,
     restating: Restating,
     waypoints: core::slice::Iter<'p, Waypoint>,
@@ -37,19 +39,19 @@ enum Seen {
 
 /// The first place where a program is not what it should be.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Departure {
+pub struct Divergence {
     /// The op that was to come; none behind the last.
     pub op: Option<OpId>,
     /// What stands there; nothing when the program ended too soon.
     pub place: Option<Place>,
     /// What is wrong.
-    pub what: DepartureKind,
+    pub what: DivergenceKind,
 }
 
 /// What is wrong.
 #[derive(Clone, Debug, PartialEq)]
-pub enum DepartureKind {
-    /// The deed differs from the op.
+pub enum DivergenceKind {
+    /// The command differs from the op.
     Differs(Vec<Mismatch>),
     /// The program ends before its last op.
     Ends,
@@ -63,24 +65,17 @@ pub enum DepartureKind {
     NotUnderstood,
 }
 
-/// A program that was read back as it should be.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Retraced {
-    /// Where each op stands.
-    pub places: Vec<Place>,
-}
-
-impl<'p> Retrace<'p> {
+impl<'p> Replay<'p> {
     /// Nothing read yet.
     #[must_use]
-    pub fn new(judge: Judge<'p>, frames: Frames) -> Self {
-        let mut waypoints = judge.reachable().motion().waypoints.iter();
+    pub fn new(comparator: Comparator<'p>, frames: Frames) -> Self {
+        let mut waypoints = comparator.reachable().motion().waypoints.iter();
         let waypoint = waypoints.next();
         Self {
-            judge,
+            comparator,
             frames,
-            places: Vec::with_capacity(judge.reachable().program().ops.len()),
-            departure: None,
+            places: Vec::with_capacity(comparator.reachable().program().ops.len()),
+            divergence: None,
             state: State::START,
             restating: Restating::Over,
             waypoints,
@@ -91,34 +86,34 @@ impl<'p> Retrace<'p> {
     }
 
     fn program(&self) -> &'p Program {
-        self.judge.reachable().program()
+        self.comparator.reachable().program()
     }
 
     fn next(&self) -> OpId {
         OpId(u32::try_from(self.places.len()).unwrap_or(u32::MAX))
     }
 
-    fn depart(&mut self, place: Option<Place>, what: DepartureKind) {
+    fn diverge(&mut self, place: Option<Place>, what: DivergenceKind) {
         let next = self.next();
         let op = ((next.0 as usize) < self.program().ops.len()).then_some(next);
-        self.departure.get_or_insert(Departure { op, place, what });
+        self.divergence.get_or_insert(Divergence { op, place, what });
     }
 
     /// Takes the next statement.
-    pub fn heed(&mut self, statement: &Statement) {
-        if self.departure.is_some() {
+    pub fn take(&mut self, statement: &Statement) {
+        if self.divergence.is_some() {
             return;
         }
         let place = Some(statement.place);
-        match &statement.says {
-            Says::Setting => {}
-            Says::PartBegins => {
+        match &statement.effect {
+            Effect::Setting => {}
+            Effect::PartBegins => {
                 self.restating = Restating::Allowed;
                 (self.tool, self.base) = (Seen::Not, Seen::Not);
             }
-            Says::Frame(role, setting) => self.frame(*role, setting, place),
-            Says::Deed(deed) => self.deed(deed, statement.place),
-            Says::Unknown | Says::Unreadable { .. } => self.depart(place, DepartureKind::NotUnderstood),
+            Effect::Frame(role, setting) => self.frame(*role, setting, place),
+            Effect::Command(command) => self.command(command, statement.place),
+            Effect::Unknown | Effect::Unreadable { .. } => self.diverge(place, DivergenceKind::NotUnderstood),
         }
     }
 
@@ -128,21 +123,21 @@ impl<'p> Retrace<'p> {
             FrameRole::Tool => cell.tool,
             FrameRole::Base => cell.base,
         });
-        if should.is_some_and(|should| self.judge.is_frame(setting, &should)) {
+        if should.is_some_and(|should| self.comparator.is_frame(setting, &should)) {
             match role {
                 FrameRole::Tool => self.tool = Seen::AsItShould,
                 FrameRole::Base => self.base = Seen::AsItShould,
             }
         } else {
-            self.depart(place, DepartureKind::Frame(role));
+            self.diverge(place, DivergenceKind::Frame(role));
         }
     }
 
-    fn deed(&mut self, deed: &Deed, place: Place) {
-        if self.frames == Frames::InProgram && is_motion(deed) {
+    fn command(&mut self, command: &Command, place: Place) {
+        if self.frames == Frames::InProgram && command.is_motion() {
             for (role, seen) in [(FrameRole::Tool, self.tool), (FrameRole::Base, self.base)] {
                 if seen == Seen::Not {
-                    return self.depart(Some(place), DepartureKind::NoFrame(role));
+                    return self.diverge(Some(place), DivergenceKind::NoFrame(role));
                 }
             }
         }
@@ -150,26 +145,26 @@ impl<'p> Retrace<'p> {
             op: self.next(),
             before: self.state,
         };
-        let restates = self.restating == Restating::Allowed && self.judge.restates(moment, deed);
+        let restates = self.restating == Restating::Allowed && self.comparator.restates(moment, command);
         let Some(op) = self.program().op(moment.op) else {
             if !restates {
-                self.depart(Some(place), DepartureKind::More);
+                self.diverge(Some(place), DivergenceKind::More);
             }
             return;
         };
         let due = self.waypoint.filter(|waypoint| waypoint.op == moment.op);
         let found = match due {
-            Some(waypoint) if self.judge.needs_waypoints() => {
-                let found = self.judge.mismatches_on_the_way(moment, waypoint, deed);
+            Some(waypoint) if self.comparator.needs_waypoints() => {
+                let found = self.comparator.waypoint_mismatches(moment, waypoint, command);
                 if found.is_empty() {
                     self.restating = Restating::Over;
                     self.waypoint = self.waypoints.next();
                 } else if !restates {
-                    self.depart(Some(place), DepartureKind::Differs(found));
+                    self.diverge(Some(place), DivergenceKind::Differs(found));
                 }
                 return;
             }
-            Some(_) | None => self.judge.mismatches(moment, deed),
+            Some(_) | None => self.comparator.mismatches(moment, command),
         };
         if found.is_empty() {
             self.restating = Restating::Over;
@@ -181,25 +176,25 @@ impl<'p> Retrace<'p> {
         } else if restates {
             // Nothing changes.
         } else if let Some(waypoint) = due
-            && self.judge.passes(moment, waypoint, deed)
+            && self.comparator.passes(moment, waypoint, command)
         {
             self.waypoint = self.waypoints.next();
         } else {
-            self.depart(Some(place), DepartureKind::Differs(found));
+            self.diverge(Some(place), DivergenceKind::Differs(found));
         }
     }
 
-    /// What came of it when there are no more statements.
+    /// Where each op stands, when there are no more statements.
     ///
     /// # Errors
     /// The first place where the program is not what it should be.
-    pub fn finish(mut self) -> Result<Retraced, Departure> {
+    pub fn finish(mut self) -> Result<Vec<Place>, Divergence> {
         if self.places.len() < self.program().ops.len() {
-            self.depart(None, DepartureKind::Ends);
+            self.diverge(None, DivergenceKind::Ends);
         }
-        match self.departure {
-            Some(departure) => Err(departure),
-            None => Ok(Retraced { places: self.places }),
+        match self.divergence {
+            Some(divergence) => Err(divergence),
+            None => Ok(self.places),
         }
     }
 
@@ -210,14 +205,7 @@ impl<'p> Retrace<'p> {
     }
 }
 
-const fn is_motion(deed: &Deed) -> bool {
-    match deed {
-        Deed::Axes(_) | Deed::AxesToPose(_) | Deed::Straight { .. } => true,
-        Deed::Switch { .. } | Deed::AwaitInput(_) | Deed::Wait(_) => false,
-    }
-}
-
-impl Judge<'_> {
+impl Comparator<'_> {
     /// Whether a frame is set to what it should be.
     #[must_use]
     pub fn is_frame(&self, setting: &FrameSetting, should: &PlacedFrame) -> bool {
