@@ -78,6 +78,12 @@ impl FixedDecimal {
         0.5 / f64::from(self.scale)
     }
 
+    /// Whether a number that was read is the one that was printed.
+    #[must_use]
+    pub fn is_near(self, is: f64, printed: f64) -> bool {
+        is_within(is, printed, self.half_unit())
+    }
+
     /// Appends the value.
     ///
     /// # Errors
@@ -174,6 +180,12 @@ impl FromTheRight {
         out.extend_from_slice(&self.characters.to_le_bytes());
         out.truncate(end);
     }
+}
+
+/// Whether two numbers differ by no more than what is printed, and the rounding of the arithmetic.
+pub(crate) fn is_within(is: f64, should: f64, resolution: f64) -> bool {
+    let rounding = 1e-9 * should.abs().max(1.0);
+    (is - should).abs() <= resolution * (1.0 + 1e-6) + rounding
 }
 
 #[cfg(test)]

@@ -64,6 +64,19 @@ pub fn decoded(bytes: &[u8]) -> String {
     }
 }
 
+/// The name of a file without its extension, and the extension, which is empty where there is none.
+#[must_use]
+pub fn stem(file: &str) -> (&str, &str) {
+    file.rsplit_once('.').unwrap_or((file, ""))
+}
+
+/// Whether a file has one of these extensions, whatever their case.
+#[must_use]
+pub fn has_extension(file: &str, known: &[&str]) -> bool {
+    let (_, extension) = stem(file);
+    known.iter().any(|known| extension.eq_ignore_ascii_case(known))
+}
+
 /// What a program is read from, and for whom.
 #[derive(Clone, Copy)]
 pub struct Sources<'a> {

@@ -67,8 +67,3 @@ pub(crate) fn seconds(number: Number) -> Parsed<Duration> {
         expected("a time that is not negative")
     }
 }
-
-/// The name of a file without its extension.
-pub(crate) fn stem(file: &str) -> &str {
-    file.rfind('.').and_then(|at| file.get(..at)).unwrap_or(file)
-}

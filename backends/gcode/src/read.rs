@@ -30,7 +30,9 @@ use crate::options::Settings;
 use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::ir::AxisValues;
 use vcutc_backend_api::motion::Branch;
-use vcutc_backend_api::readback::{Configuration, Frames, Reader, Resolution, Sources, Statement};
+use vcutc_backend_api::readback::{
+    Configuration, Frames, Reader, Resolution, Sources, Statement, has_extension,
+};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
 
 /// The reader of all dialects.
@@ -44,12 +46,7 @@ const SECONDS_A_MINUTE: f64 = 60.0;
 
 impl Reader for GcodeReader {
     fn recognises(&self, file: &str) -> bool {
-        let extension = file.rfind('.').and_then(|at| file.get(at + 1..));
-        extension.is_some_and(|extension| {
-            EXTENSIONS
-                .iter()
-                .any(|known| extension.eq_ignore_ascii_case(known))
-        })
+        has_extension(file, &EXTENSIONS)
     }
 
     fn resolution(&self, options: &Options) -> Resolution {

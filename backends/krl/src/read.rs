@@ -1,6 +1,6 @@
 //! KRL programs read back.
 //!
-//! [`syntax`] turns lines into statements with places, and [`interpreter`](crate::interpreter) carries them out: both serve any
+//! [`syntax`](crate::syntax) turns lines into statements with places, and [`interpreter`](crate::interpreter) carries them out: both serve any
 //! reader of KRL. What is here is strict, and goes as far as the programs of this crate do: speeds and modes are kept, and
 //! every statement is told with what it does ([`Effect`](vcutc_backend_api::readback::Effect)).
 //!
@@ -30,14 +30,14 @@ mod program;
 mod setup;
 
 use crate::configuration::StatusAndTurn;
-use crate::interpreter::index;
 use crate::options::Settings;
-use crate::syntax;
 use crate::turns::RATES;
 use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::ir::AxisValues;
 use vcutc_backend_api::motion::Branch;
-use vcutc_backend_api::readback::{Configuration, Frames, Reader, Resolution, Sources, Statement};
+use vcutc_backend_api::readback::{
+    Configuration, Frames, Reader, Resolution, Sources, Statement, has_extension,
+};
 use vcutc_backend_api::script::TRIMMED;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
 
@@ -46,10 +46,7 @@ pub struct KrlReader;
 
 impl Reader for KrlReader {
     fn recognises(&self, file: &str) -> bool {
-        let (_, extension) = index::stem(file);
-        ["src", "dat"]
-            .iter()
-            .any(|known| syntax::is_same_name(extension, known))
+        has_extension(file, &["src", "dat"])
     }
 
     fn resolution(&self, options: &Options) -> Resolution {

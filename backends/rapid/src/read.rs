@@ -32,7 +32,7 @@ use vcutc_backend_api::ir::AxisValues;
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::readback::{
-    Configuration, Effect, Frames, Place, Reader, Resolution, Sources, Statement, normalized,
+    Configuration, Effect, Frames, Place, Reader, Resolution, Sources, Statement, has_extension, normalized,
 };
 use vcutc_backend_api::script::TRIMMED;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
@@ -45,10 +45,7 @@ pub(crate) struct RapidReader;
 
 impl Reader for RapidReader {
     fn recognises(&self, file: &str) -> bool {
-        let extension = file
-            .rsplit_once('.')
-            .map(|(_, extension)| extension.to_ascii_lowercase());
-        extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()))
+        has_extension(file, &EXTENSIONS)
     }
 
     fn resolution(&self, options: &Options) -> Resolution {

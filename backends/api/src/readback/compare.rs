@@ -5,6 +5,7 @@ use crate::corners::may_round;
 use crate::geometry::{Frame, Orientation, Point3};
 use crate::ir::{Action, AxisKind, AxisValues, MOST_AXES, OpId, Program, Ready, Switch};
 use crate::motion::{ReachableProgram, Waypoint};
+use crate::number::is_within;
 use crate::segments::LinearSegment;
 use crate::state::{Generator, State, TipPose};
 use crate::swivel::Apart;
@@ -97,12 +98,6 @@ pub struct Comparator<'p> {
     reachable: &'p ReachableProgram,
     reader: &'p dyn Reader,
     resolution: Resolution,
-}
-
-/// Numbers may differ by half of what is printed last, and by the rounding of the arithmetic.
-fn within(is: f64, should: f64, resolution: f64) -> bool {
-    let rounding = 1e-9 * should.abs().max(1.0);
-    (is - should).abs() <= resolution * (1.0 + 1e-6) + rounding
 }
 
 /// Numbers that are rounded down may be less by all that is printed last, twice the resolution, and more by nothing but the rounding of
@@ -272,11 +267,11 @@ impl<'p> Comparator<'p> {
         let mut found = Vec::new();
         self.tip(is.origin, should.origin, &mut found);
         let by = is.orientation.angle_to(should.orientation);
-        found.is_empty() && within(by.to_rad(), 0.0, self.resolution.attitude.to_rad())
+        found.is_empty() && is_within(by.to_rad(), 0.0, self.resolution.attitude.to_rad())
     }
 
     fn wait(&self, is: Duration, should: Duration, found: &mut Vec<Mismatch>) {
-        if !within(is.to_s(), should.to_s(), self.resolution.time.to_s()) {
+        if !is_within(is.to_s(), should.to_s(), self.resolution.time.to_s()) {
             found.push(Mismatch::Time { is, should });
         }
     }
@@ -289,7 +284,7 @@ impl<'p> Comparator<'p> {
                 (AxisKind::Linear, Which::All) => self.resolution.length.to_mm(),
                 (AxisKind::Linear, Which::Rotary) => continue,
             };
-            if !within(is, should, resolution) {
+            if !is_within(is, should, resolution) {
                 found.push(Mismatch::Axis { axis, is, should });
             }
         }
@@ -330,7 +325,7 @@ impl<'p> Comparator<'p> {
         match is.held {
             Held::Orientation(held, _) => {
                 let by = held.angle_to(orientation);
-                if !within(by.to_rad(), 0.0, self.resolution.attitude.to_rad()) {
+                if !is_within(by.to_rad(), 0.0, self.resolution.attitude.to_rad()) {
                     found.push(Mismatch::Attitude { by });
                 }
             }
@@ -350,7 +345,7 @@ impl<'p> Comparator<'p> {
         let resolution = self.resolution.length.to_mm();
         let near = [(is.x, should.x), (is.y, should.y), (is.z, should.z)]
             .into_iter()
-            .all(|(is, should)| within(is, should, resolution));
+            .all(|(is, should)| is_within(is, should, resolution));
         if !near {
             found.push(Mismatch::Tip { is, should });
         }
@@ -426,7 +421,7 @@ impl<'p> Comparator<'p> {
     }
 
     fn is_feed(&self, is: Speed, should: Speed) -> bool {
-        within(
+        is_within(
             is.to_mm_per_s(),
             should.to_mm_per_s(),
             self.resolution.speed.to_mm_per_s(),

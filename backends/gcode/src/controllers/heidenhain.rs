@@ -17,12 +17,12 @@
 //! before their letter, and blocks with `R0` end at a standstill.
 
 use crate::controller::{AxisPace, Codes, Controller, Facts, File, Signs, Unnumbered};
-use crate::iso::{m_code, seconds, stem};
+use crate::iso::{m_code, seconds};
 use crate::statement::{
     Act, Block, Convention, Coordinates, Cursor, Cycle, FeedMode, Flow, Mode, Motion, Number, Order, Parsed,
     ReadError, Routine, Scope, Style, Tcp, expected,
 };
-use vcutc_backend_api::readback::End;
+use vcutc_backend_api::readback::{End, stem};
 use vcutc_backend_api::script::Layout;
 
 pub(super) struct Heidenhain;
@@ -147,7 +147,7 @@ impl Controller for Heidenhain {
     }
 
     fn routine<'t>(&self, file: &'t str, _: &'t str) -> Option<Routine<'t>> {
-        Some(Routine::Name(stem(file)))
+        Some(Routine::Name(stem(file).0))
     }
 
     fn order<'t>(&self, code: &'t str, scope: Scope<'_>) -> Parsed<Order<'t>> {

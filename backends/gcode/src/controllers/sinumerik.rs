@@ -14,13 +14,13 @@
 //! control's is the name of a part.
 
 use crate::controller::{Codes, Controller, Facts, File, Heads};
-use crate::iso::{g_code, m_code, rounding, seconds, stem};
+use crate::iso::{g_code, m_code, rounding, seconds};
 use crate::statement::{
     Act, Block, Convention, Coordinates, Cursor, Flow, Mode, Number, Once, Order, Parsed, ReadError, Routine,
     Scope, Style, Tcp, expected,
 };
 use vcutc_backend_api::ir::Switch;
-use vcutc_backend_api::readback::End;
+use vcutc_backend_api::readback::{End, stem};
 use vcutc_backend_api::script::{Layout, trimmed_text};
 use vcutc_backend_api::units::Length;
 
@@ -143,7 +143,7 @@ impl Controller for Sinumerik {
     }
 
     fn routine<'t>(&self, file: &'t str, _: &'t str) -> Option<Routine<'t>> {
-        Some(Routine::Name(stem(file)))
+        Some(Routine::Name(stem(file).0))
     }
 
     fn order<'t>(&self, code: &'t str, scope: Scope<'_>) -> Parsed<Order<'t>> {

@@ -1,9 +1,9 @@
 //! Which statement comes next: the main routine, and others where they are called.
 
-use super::index::{FileKind, Index, Rank, Routine, stem};
+use super::index::{FileKind, Index, Rank, Routine};
 use super::variables::Context;
 use crate::syntax::{Span, Statement, Statements, statements};
-use vcutc_backend_api::readback::ProgramFile;
+use vcutc_backend_api::readback::{ProgramFile, stem};
 
 /// The way through a program. Nothing is entered until somebody says so.
 #[derive(Debug)]

@@ -3,7 +3,7 @@
 use crate::syntax::cursor::Cursor;
 use crate::syntax::{Phrase, Scope, Span, is_same_name, statements};
 use std::collections::{BTreeMap, BTreeSet};
-use vcutc_backend_api::readback::ProgramFile;
+use vcutc_backend_api::readback::{ProgramFile, has_extension};
 
 /// A routine of a source file.
 #[derive(Clone, Copy, Debug)]
@@ -44,12 +44,6 @@ pub struct Index<'t> {
     called: BTreeSet<String>,
 }
 
-/// The name of a file without its extension, and that.
-#[must_use]
-pub fn stem(file: &str) -> (&str, &str) {
-    file.rsplit_once('.').unwrap_or((file, ""))
-}
-
 /// What a file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
@@ -62,7 +56,7 @@ impl FileKind {
     /// By the name of the file: what does not end in `.dat` is taken for routines.
     #[must_use]
     pub fn of(file: &ProgramFile) -> Self {
-        if is_same_name(stem(&file.name).1, "dat") {
+        if has_extension(&file.name, &["dat"]) {
             Self::Data
         } else {
             Self::Source

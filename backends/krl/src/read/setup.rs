@@ -194,12 +194,7 @@ fn is_word(value: &Value<'_>, word: &str) -> bool {
 
 /// Whether a value is a number as printed in a format.
 fn is_number(value: &Value<'_>, should: f64, format: FixedDecimal) -> bool {
-    value.number().is_some_and(|is| is_near(is, should, format))
-}
-
-fn is_near(is: f64, should: f64, format: FixedDecimal) -> bool {
-    let rounding = 1e-9 * should.abs().max(1.0);
-    (is - should).abs() <= format.half_unit() * (1.0 + 1e-6) + rounding
+    value.number().is_some_and(|is| format.is_near(is, should))
 }
 
 fn is_load(value: &Value<'_>, should: &Registered<Load>, settings: &Settings<'_>) -> bool {
@@ -237,7 +232,7 @@ fn is_centre(is: &Coordinates, should: &Load, lengths: FixedDecimal) -> bool {
     let near = tip.is_some_and(|tip| {
         tip.into_iter()
             .zip([centre.x, centre.y, centre.z])
-            .all(|(is, should)| is_near(is, should, lengths))
+            .all(|(is, should)| lengths.is_near(is, should))
     });
     near && is.all(Component::ANGLES) == Some([0.0; 3])
 }

@@ -9,7 +9,7 @@ use crate::keywords::MAIN;
 use core::ops::Range;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::ir::Registered;
-use vcutc_backend_api::readback::{Effect, FrameRole, FrameSetting, ProgramFile};
+use vcutc_backend_api::readback::{Effect, FrameRole, FrameSetting, ProgramFile, has_extension, stem};
 use vcutc_backend_api::script::TRIMMED;
 
 /// A file with a module.
@@ -83,10 +83,7 @@ impl<'t> Program<'t> {
                 pieces: all,
                 effect: BTreeMap::new(),
             };
-            let stem = file
-                .name
-                .rsplit_once('.')
-                .map_or(file.name.as_str(), |(stem, _)| stem);
+            let (stem, _) = stem(&file.name);
             if loaded
                 .as_ref()
                 .is_none_or(|names| names.contains(&file.name.to_ascii_uppercase()))
@@ -404,8 +401,7 @@ const KINDS: [&str; 11] = [
 
 /// Whether a file is a list of modules.
 fn is_list(name: &str) -> bool {
-    name.rsplit_once('.')
-        .is_some_and(|(_, extension)| extension.eq_ignore_ascii_case("pgf"))
+    has_extension(name, &["pgf"])
 }
 
 /// The frame of a tool that carries what the job says.
@@ -414,11 +410,10 @@ fn tool(value: &Value, view: View<'_>, machine: Machine<'_>) -> Option<Effect> {
     let Some(Registered::Value(should)) = machine.cell.load else {
         return None;
     };
-    let length = machine.settings.common.lengths.half_unit();
-    let near = |is: f64, should: f64, resolution: f64| (is - should).abs() <= resolution * (1.0 + 1e-6);
-    let is_load = near(load.mass.to_kg(), should.mass.to_kg(), TRIMMED.half_unit())
-        && near(load.centre.x, should.centre.x, length)
-        && near(load.centre.y, should.centre.y, length)
-        && near(load.centre.z, should.centre.z, length);
+    let lengths = machine.settings.common.lengths;
+    let is_load = TRIMMED.is_near(load.mass.to_kg(), should.mass.to_kg())
+        && lengths.is_near(load.centre.x, should.centre.x)
+        && lengths.is_near(load.centre.y, should.centre.y)
+        && lengths.is_near(load.centre.z, should.centre.z);
     is_load.then_some(Effect::Frame(FrameRole::Tool, FrameSetting::Value(frame)))
 }
