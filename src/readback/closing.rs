@@ -15,8 +15,8 @@ const MOST_NAMED: usize = 3;
 /// has the rounding of several of them.
 const SAME_SHARE: f64 = 1e-5;
 
-/// What moves at a speed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What moves at a speed, in the order in which it is reported.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Moved {
     /// The blade in a cut.
     Cut,
@@ -63,11 +63,7 @@ pub(super) fn other_speeds(rebuilt: &Rebuilt, fresh: &Program, resolution: Resol
             }
         }
     }
-    found.sort_by_key(|other| match other.moved {
-        Moved::Cut => 0,
-        Moved::Travel => 1,
-        Moved::Turn => 2,
-    });
+    found.sort_by_key(|other| other.moved);
     found
 }
 

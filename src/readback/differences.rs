@@ -95,26 +95,15 @@ enum Follow {
 
 impl Reporter<'_> {
     fn step(&mut self, step: Step) {
-        match step {
-            Step::Same { fresh, given } => self.same(fresh, given),
-            Step::Changed { fresh, given } => {
-                let diagnostic = self.changed(fresh, given);
-                self.report(diagnostic);
-            }
-            Step::Moved { fresh, given } => {
-                let diagnostic = self.moved(fresh, given);
-                self.report(diagnostic);
-            }
-            Step::Missing { fresh, given } => {
-                let diagnostic = self.missing(fresh, given);
-                self.report(diagnostic);
-            }
-            Step::Added { given, .. } => {
-                let diagnostic = self.added(given);
-                self.report(diagnostic);
-            }
-            Step::OfPart { .. } => {}
-        }
+        let diagnostic = match step {
+            Step::Same { fresh, given } => return self.same(fresh, given),
+            Step::OfPart { .. } => return,
+            Step::Changed { fresh, given } => self.changed(fresh, given),
+            Step::Moved { fresh, given } => self.moved(fresh, given),
+            Step::Missing { fresh, given } => self.missing(fresh, given),
+            Step::Added { given, .. } => self.added(given),
+        };
+        self.report(diagnostic);
     }
 
     /// That the program is split in another way. What the parts do is compared all the same.

@@ -451,19 +451,7 @@ impl Builder<'_> {
                 to: orientation,
                 rate,
             },
-            Some(
-                Action::Cut { .. }
-                | Action::Approach { .. }
-                | Action::Retract { .. }
-                | Action::Turn { .. }
-                | Action::Travel { .. }
-                | Action::Home
-                | Action::AxisTravel { .. }
-                | Action::Ultrasonic { .. }
-                | Action::AwaitReady
-                | Action::Dwell { .. }
-                | Action::ToolChange { .. },
-            ) => travel,
+            Some(_) => travel,
             None if keeps_attitude && self.is_through_stock(from, to) => Action::Cut {
                 flank: self.flank(orientation),
                 to,

@@ -265,30 +265,29 @@ impl<'t> Order<'t> {
 
     /// Names the kind of motion.
     pub(crate) fn moves(&mut self, motion: Motion) -> Parsed<()> {
-        match self.motion.replace(motion) {
-            Some(_) => expected("one word for the motion"),
-            None => Ok(()),
-        }
+        once(&mut self.motion, motion, "one word for the motion")
     }
 
     /// Adds what is done.
     pub(crate) fn does(&mut self, act: Act) -> Parsed<()> {
-        match self.act.replace(act) {
-            Some(_) => expected("one thing that is done in a block"),
-            None => Ok(()),
-        }
+        once(&mut self.act, act, "one thing that is done in a block")
     }
 
     /// Adds where things go on.
     pub(crate) fn goes(&mut self, flow: Flow<'t>) -> Parsed<()> {
-        match self.flow.replace(flow) {
-            Some(_) => expected("one way to go on"),
-            None => Ok(()),
-        }
+        once(&mut self.flow, flow, "one way to go on")
     }
 
     /// Whether it has coordinates.
     pub(crate) fn has_axes(&self) -> bool {
         self.axes.iter().any(Option::is_some)
+    }
+}
+
+/// Says something that a block says once.
+fn once<T>(known: &mut Option<T>, said: T, what: &str) -> Parsed<()> {
+    match known.replace(said) {
+        Some(_) => expected(what),
+        None => Ok(()),
     }
 }

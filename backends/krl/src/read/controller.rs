@@ -88,13 +88,7 @@ impl<'a> Controller<'a> {
             }
             Phrase::Halt | Phrase::Other(_) | Phrase::Call { .. } => Effect::Unknown,
             Phrase::Unreadable { expected } => Effect::expected(*expected),
-            Phrase::Mark(_)
-            | Phrase::Def { .. }
-            | Phrase::End
-            | Phrase::DefDat { .. }
-            | Phrase::EndDat
-            | Phrase::Ext { .. }
-            | Phrase::Declaration(_) => Effect::expected("an instruction, or `END`"),
+            _ => Effect::expected("an instruction, or `END`"),
         }
     }
 
