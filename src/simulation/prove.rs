@@ -131,9 +131,8 @@ fn played(
     watch: &mut dyn FnMut(&mut Surface, Release),
 ) -> Replay {
     let mut player = Player::new(surface, program.program(), bounds);
-    for cut in program.program().segments().filter_map(Cut::of) {
-        player.cut(&cut, watch);
-    }
+    let cuts = program.program().segments().filter_map(Cut::of);
+    cuts.for_each(|cut| player.cut(&cut, watch));
     player.finish()
 }
 

@@ -115,10 +115,11 @@ pub struct Times {
 #[must_use]
 pub fn op_times(program: &VerifiedProgram) -> Vec<Duration> {
     let program = program.program();
+    let mut times = Vec::with_capacity(program.ops.len());
     program
         .segments()
-        .map(|segment| op_time(program, &segment))
-        .collect()
+        .for_each(|segment| times.push(op_time(program, &segment)));
+    times
 }
 
 fn op_time(program: &Program, segment: &Segment<'_>) -> Duration {

@@ -60,7 +60,7 @@ impl ProgramBuilder {
     /// Appends an op; leaves out what the cell does not have (home angles, a generator).
     pub fn op(&mut self, site: Site, action: Action) {
         let cell = self.program.cell.as_ref();
-        let exists = match action {
+        let exists = match &action {
             Action::Home => cell.is_some_and(|cell| cell.home.is_some()),
             Action::Ultrasonic { .. } | Action::AwaitReady => {
                 cell.is_some_and(|cell| cell.ultrasonic.is_some())

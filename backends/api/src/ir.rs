@@ -604,14 +604,16 @@ impl ActionKind {
 
 impl Action {
     /// Where it leads the tip; none for an action that leaves the tip where it is, or goes home.
+    // Copies of an action are taken apart in halves of numbers where they are matched: these match references.
     #[must_use]
+    #[inline(always)]
     pub const fn tip(&self) -> Option<Point3> {
-        match *self {
+        match self {
             Self::Travel { to, .. }
             | Self::AxisTravel { to, .. }
             | Self::Approach { to, .. }
             | Self::Retract { to, .. }
-            | Self::Cut { to, .. } => Some(to),
+            | Self::Cut { to, .. } => Some(*to),
             Self::Home
             | Self::Turn { .. }
             | Self::Ultrasonic { .. }
@@ -621,14 +623,34 @@ impl Action {
         }
     }
 
+    /// How the blade is held after it; none for an action that keeps the orientation, or goes home.
+    #[must_use]
+    #[inline(always)]
+    pub const fn orientation(&self) -> Option<OrientationId> {
+        match self {
+            Self::Travel { orientation, .. }
+            | Self::AxisTravel { orientation, .. }
+            | Self::Turn { to: orientation, .. } => Some(*orientation),
+            Self::Home
+            | Self::Approach { .. }
+            | Self::Retract { .. }
+            | Self::Cut { .. }
+            | Self::Ultrasonic { .. }
+            | Self::AwaitReady
+            | Self::Dwell { .. }
+            | Self::ToolChange { .. } => None,
+        }
+    }
+
     /// The speed of the ops that move the tip on a line.
     #[must_use]
+    #[inline(always)]
     pub const fn feed(&self) -> Option<FeedId> {
-        match *self {
+        match self {
             Self::Travel { feed, .. }
             | Self::Approach { feed, .. }
             | Self::Retract { feed, .. }
-            | Self::Cut { feed, .. } => Some(feed),
+            | Self::Cut { feed, .. } => Some(*feed),
             Self::Home
             | Self::AxisTravel { .. }
             | Self::Turn { .. }
@@ -641,9 +663,10 @@ impl Action {
 
     /// The rate of the ops that turn the blade at one.
     #[must_use]
+    #[inline(always)]
     pub const fn rate(&self) -> Option<RateId> {
-        match *self {
-            Self::Travel { rate, .. } | Self::Turn { rate, .. } => Some(rate),
+        match self {
+            Self::Travel { rate, .. } | Self::Turn { rate, .. } => Some(*rate),
             Self::Home
             | Self::AxisTravel { .. }
             | Self::Approach { .. }

@@ -52,14 +52,21 @@ impl State {
 
     /// After an action. One that moves nothing leaves the machine where it is.
     #[must_use]
-    pub const fn after(mut self, action: &Action) -> Self {
-        match *action {
+    #[inline]
+    pub const fn after(self, action: &Action) -> Self {
+        self.led(action, action.leads_to(self.place.pose()))
+    }
+
+    /// The same with the pose to which the action leads, as [`Action::leads_to`] has it.
+    #[inline(always)]
+    pub(crate) const fn led(mut self, action: &Action, to: Option<TipPose>) -> Self {
+        match action {
             Action::Home => self.place = Place::Home,
             Action::Ultrasonic { state: Switch::On } => self.generator = Generator::Starting,
             Action::Ultrasonic { state: Switch::Off } => self.generator = Generator::Off,
             Action::AwaitReady => self.generator = Generator::Running,
             _ => {
-                if let Some(pose) = action.leads_to(self.place.pose()) {
+                if let Some(pose) = to {
                     self.place = Place::Pose(pose);
                 }
             }
@@ -71,6 +78,7 @@ impl State {
 impl Place {
     /// The pose of the blade, where it is known.
     #[must_use]
+    #[inline]
     pub const fn pose(self) -> Option<TipPose> {
         match self {
             Self::Pose(pose) => Some(pose),
@@ -83,14 +91,13 @@ impl Action {
     /// The pose to which it leads the blade from another one; none for an action that moves no blade, or only the axes to
     /// home, and for one that needs to know where it begins.
     #[must_use]
+    #[inline(always)]
     pub const fn leads_to(&self, from: Option<TipPose>) -> Option<TipPose> {
-        match (*self, self.tip(), from) {
-            (Self::Travel { orientation, .. } | Self::AxisTravel { orientation, .. }, Some(tip), _)
-            | (_, Some(tip), Some(TipPose { orientation, .. })) => Some(TipPose { tip, orientation }),
-            (Self::Turn { to: orientation, .. }, None, Some(TipPose { tip, .. })) => {
-                Some(TipPose { tip, orientation })
-            }
-            (_, _, _) => None,
+        match (self.tip(), self.orientation(), from) {
+            (Some(tip), Some(orientation), _)
+            | (Some(tip), None, Some(TipPose { orientation, .. }))
+            | (None, Some(orientation), Some(TipPose { tip, .. })) => Some(TipPose { tip, orientation }),
+            (Some(_), None, None) | (None, Some(_), None) | (None, None, _) => None,
         }
     }
 }
