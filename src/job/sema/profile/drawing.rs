@@ -106,7 +106,10 @@ struct Options {
     z: Length,
 }
 
-/// What a drawing shows, and its outline as stretches of points, each with the place in the drawing that drew it.
+/// Points of an outline, with the place in the drawing that drew them.
+pub(super) type Stretch = (Span, Vec<Point2>);
+
+/// What a drawing shows, and its outline as stretches.
 pub(super) fn read(
     format: &'static Format,
     path: &Spanned<String>,
@@ -114,7 +117,7 @@ pub(super) fn read(
     piece: Span,
     scope: Scope<'_>,
     session: &mut Session<'_>,
-) -> Checked<(Section, Vec<(Span, Vec<Point2>)>)> {
+) -> Checked<(Section, Vec<Stretch>)> {
     let fields = Fields::sort(&format.spec, place_of(path, piece), options, session);
     let file = (format.load)(path, session);
     let mut reader = Reader {
@@ -212,7 +215,7 @@ fn turns_back(outline: &Outline) -> bool {
 }
 
 /// The points of an outline, parted where another stroke begins.
-fn stretches(outline: &Outline, drawing: &Drawing, file: FileId) -> Vec<(Span, Vec<Point2>)> {
+fn stretches(outline: &Outline, drawing: &Drawing, file: FileId) -> Vec<Stretch> {
     let span = |owner: usize| {
         let place = drawing.strokes.get(owner).map(|stroke| stroke.place);
         Span {
