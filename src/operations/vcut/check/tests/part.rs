@@ -37,11 +37,14 @@ fn off(profile: &Profile, height: fn(f64) -> f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// The height of a part at an x, both in mm.
+type Height = fn(f64) -> f64;
+
 #[test]
 fn curves_are_followed_within_any_tolerance() {
     let z = circle(0.0);
     let arc = format!("start (0 mm, {z} mm) arc to (80 mm, {z} mm) radius 100 mm");
-    let drawn: [(&str, fn(f64) -> f64); 3] = [
+    let drawn: [(&str, Height); 3] = [
         (&arc, circle),
         ("z(x) = top - 5 mm * cos(4.5 deg * x / 1 mm)", wave),
         ("dxf \"arc.dxf\" { unit = mm, x = 0 mm }", circle),
