@@ -15,9 +15,8 @@ use super::surface::{Side, Surface, Vee};
 use core::num::NonZeroU32;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::geometry::Orientation;
-use vcutc_backend_api::ir::{Action, Flank, OpId, Operation, OperationId, OrientationId, Program, Site};
-use vcutc_backend_api::segments::Segment;
-use vcutc_backend_api::state::TipPose;
+use vcutc_backend_api::ir::{Action, Flank, Op, OpId, Operation, OperationId, OrientationId, Program, Site};
+use vcutc_backend_api::state::{State, TipPose};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_geometry::curve::Point2;
@@ -131,7 +130,7 @@ fn played(
     watch: &mut dyn FnMut(&mut Surface, Release),
 ) -> Replay {
     let mut player = Player::new(surface, program.program(), bounds);
-    let cuts = program.program().segments().filter_map(Cut::of);
+    let cuts = Cut::all(program.program());
     cuts.for_each(|cut| player.cut(&cut, watch));
     player.finish()
 }
@@ -141,9 +140,9 @@ fn played(
 pub fn accompanied(program: &VerifiedProgram, show: &mut dyn FnMut(OpId, &mut Surface)) {
     let program = program.program();
     let mut player = Player::new(Surface::untouched(program.stock), program, &[]);
-    for segment in program.segments() {
-        show(segment.id, &mut player.surface);
-        if let Some(cut) = Cut::of(segment) {
+    for (id, op, after) in program.ends() {
+        show(id, &mut player.surface);
+        if let Some(cut) = Cut::of(op, after) {
             player.cut(&cut, &mut |_, _| {});
         }
     }
@@ -184,19 +183,26 @@ struct Cut {
 }
 
 impl Cut {
-    fn of(segment: Segment<'_>) -> Option<Self> {
-        let Action::Cut { flank, .. } = segment.op.action else {
+    /// The cuts of a program, in its order.
+    fn all(program: &Program) -> impl Iterator<Item = Self> {
+        let ends = program.ends();
+        ends.filter_map(|(_, op, after)| Self::of(op, after))
+    }
+
+    /// The cut that an op is, with the state after it.
+    fn of(op: &Op, after: State) -> Option<Self> {
+        let Action::Cut { flank, .. } = op.action else {
             return None;
         };
         let Site::Cut {
             operation,
             layer,
             cut,
-        } = segment.op.site
+        } = op.site
         else {
             return None;
         };
-        let TipPose { tip, orientation } = segment.end()?;
+        let TipPose { tip, orientation } = after.place.pose()?;
         Some(Self {
             operation,
             layer,
@@ -381,8 +387,7 @@ impl<'p> Player<'p> {
     fn cut_through(&self, operation: OperationId, at: Point2, fault: CutFault) -> Option<Finding> {
         let flanks = flanks(self.program, operation);
         let mut lowest: Option<(f64, Cut)> = None;
-        let cuts = self.program.segments().filter_map(Cut::of);
-        for cut in cuts.filter(|cut| cut.operation == operation) {
+        for cut in Cut::all(self.program).filter(|cut| cut.operation == operation) {
             let Some(geometry) = flanks.get(cut.held.0 as usize) else {
                 continue;
             };

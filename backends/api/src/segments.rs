@@ -231,6 +231,21 @@ impl Program {
         }
     }
 
+    /// The ops, each with the state of the machine after it: a walk for those who do not ask how the blade gets there.
+    pub fn ends(&self) -> impl Iterator<Item = (OpId, &Op, State)> {
+        let ops = (0..).map(OpId).zip(&self.ops);
+        ops.scan(State::START, |state, (id, op)| {
+            *state = state.after(&op.action);
+            Some((id, op, *state))
+        })
+    }
+
+    /// The state of the machine after the last op.
+    #[must_use]
+    pub fn end(&self) -> State {
+        self.ends().last().map_or(State::START, |(_, _, end)| end)
+    }
+
     /// What one op moves. All ops before it are walked.
     #[must_use]
     pub fn segment(&self, op: OpId) -> Option<Segment<'_>> {
