@@ -1,7 +1,7 @@
 //! Axis moves at once: each goes straight from its value to the next, all at the same time (PTP, MoveJ).
 //!
-//! Limits that hold at both ends hold between. The blade's way is no line, though: its points are computed along spans of
-//! the move, as [`super::along`] does, and a span is proven when one face of the stock has all of them on its outer side.
+//! Limits that hold at both ends hold between. The blade's way is not a line, though: its points are computed [`Along`] spans
+//! of the move, and a span is proven when one face of the stock has all of them on its outer side.
 //! What is between the points is then out there too, since a half space that has the points has their convex hull.
 
 use super::bounds::limits;
