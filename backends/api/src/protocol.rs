@@ -277,7 +277,7 @@ pub struct ReadBack {
     /// Version of the protocol.
     pub protocol: u32,
     /// The statements in the order in which they are carried out. A configuration is `[shoulder, elbow, wrist, number]` as
-    /// [`branch_as_stance`] makes it.
+    /// [`branch_as_configuration`] makes it.
     pub statements: Vec<Statement>,
 }
 
@@ -300,7 +300,7 @@ pub enum Message<'a> {
     Emitted(Emitted),
 }
 
-/// A branch as the numbers of a [`Stance`]: shoulder (0 front, 1 back), elbow (0 forward, 1 backward), wrist (0 positive,
+/// A branch as the numbers of a [`Configuration`]: shoulder (0 front, 1 back), elbow (0 forward, 1 backward), wrist (0 positive,
 /// 1 negative), and 0; of a machine whose branches are numbered, three zeros and the number.
 ///
 /// The dialect of an outside program may say more or less than a branch; this is what its reader tells.

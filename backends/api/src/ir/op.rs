@@ -104,7 +104,7 @@ pub enum Action {
         /// On or off.
         state: Switch,
     },
-    /// Waits until the generator is up ([`Cell::ready`]).
+    /// Waits until the generator is up, as `ready` of the cell states.
     AwaitReady,
     /// Waits.
     Dwell {
