@@ -15,7 +15,7 @@ use vcutc::syntax::{self, ast::Ast};
 use vcutc_backend_api::backend::{Backend, Emission, OptionValue, Options};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_backend_api::readback::{Comparator, ProgramFile, Replay, Sources, Statement};
+use vcutc_backend_api::readback::{self, Comparator, ProgramFile, Sources, Statement};
 use vcutc_backend_api::testkit;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_backend_krl::Krl;
@@ -214,7 +214,7 @@ pub fn read(program: &ReachableProgram, options: &Options, files: &[ProgramFile]
 pub fn retrace(program: &ReachableProgram, options: &Options, files: &[ProgramFile]) {
     let reader = Krl.reader().expect("KRL is read");
     let comparator = Comparator::new(program, reader, reader.resolution(options));
-    let mut replay = Replay::new(comparator, reader.frames());
+    let mut replay = readback::Replay::new(comparator, reader.frames());
     told(program, options, files, &mut |statement| replay.take(&statement));
     replay.finish().expect("the program is what was written");
 }
