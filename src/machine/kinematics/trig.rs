@@ -100,10 +100,10 @@ impl Turn {
         let cos = most + ((1.0 - most - half) + rest);
 
         let quadrant = shifted.to_bits();
-        let (sin, cos) = if quadrant & 1 == 0 { (sin, cos) } else { (cos, sin) };
+        let is_odd = Mask::of_bit(quadrant & 1);
         Self {
-            sin: negated_if(sin, quadrant & 2),
-            cos: negated_if(cos, quadrant.wrapping_add(1) & 2),
+            sin: negated_if(is_odd.either(cos, sin), quadrant & 2),
+            cos: negated_if(is_odd.either(sin, cos), quadrant.wrapping_add(1) & 2),
         }
     }
 
@@ -156,28 +156,24 @@ pub fn turn_of_any(angle: f64) -> Turn {
 #[must_use]
 pub fn atan2(y: f64, x: f64) -> f64 {
     let (width, height) = (x.abs(), y.abs());
-    let is_steep = height > width;
-    let (short, long) = if is_steep {
-        (width, height)
-    } else {
-        (height, width)
-    };
+    let is_steep = Mask::of(height > width);
+    let (short, long) = (is_steep.either(width, height), is_steep.either(height, width));
     // From tan(pi/8) on, the angle is counted from pi/4: tan(a - pi/4) = (tan a - 1) / (tan a + 1).
-    let is_diagonal = short > long * TAN_PI_8;
-    let over = if is_diagonal { short - long } else { short };
-    let under = if is_diagonal { short + long } else { long };
-    let under = if under == 0.0 { 1.0 } else { under };
+    let is_diagonal = Mask::of(short > long * TAN_PI_8);
+    let over = is_diagonal.either(short - long, short);
+    let under = is_diagonal.either(short + long, long);
+    let under = Mask::of(under == 0.0).either(1.0, under);
     let tangent = over / under;
     let square = tangent * tangent;
     let angle = tangent + tangent * square * polynomial(&ATAN, square);
 
     // The answer is a multiple of pi/4 and more or less that angle.
-    let eighths = if is_diagonal { 1.0 } else { 0.0 };
-    let eighths = if is_steep { 2.0 - eighths } else { eighths };
-    let angle = if is_steep { -angle } else { angle };
-    let is_behind = x.is_sign_negative();
-    let eighths = if is_behind { 4.0 - eighths } else { eighths };
-    let angle = if is_behind { -angle } else { angle };
+    let eighths = is_diagonal.either(1.0, 0.0);
+    let eighths = is_steep.either(2.0 - eighths, eighths);
+    let angle = is_steep.either(-angle, angle);
+    let is_behind = Mask::of(x.is_sign_negative());
+    let eighths = is_behind.either(4.0 - eighths, eighths);
+    let angle = is_behind.either(-angle, angle);
     let whole = eighths * QUARTER_PI[0] + (angle + eighths * QUARTER_PI[1]);
     whole.copysign(y)
 }
@@ -187,8 +183,8 @@ pub fn atan2(y: f64, x: f64) -> f64 {
 #[must_use]
 pub fn wrapped(angle: f64) -> f64 {
     let rest = angle - TAU * whole_turns(angle);
-    let rest = if rest <= -PI { rest + TAU } else { rest };
-    if rest > PI { rest - TAU } else { rest }
+    let rest = Mask::of(rest <= -PI).either(rest + TAU, rest);
+    Mask::of(rest > PI).either(rest - TAU, rest)
 }
 
 /// The same angle within half a turn of another, for angles up to 2^51.
@@ -214,6 +210,30 @@ fn polynomial<const N: usize>(coefficients: &[f64; N], x: f64) -> f64 {
         (waiting, last) = (last, waiting * square + coefficient);
     }
     last + x * waiting
+}
+
+/// All bits or none: what selects between two numbers. Written as `if`, a selection may become a branch, which leaves a loop
+/// over lanes without vector instructions.
+#[derive(Clone, Copy)]
+struct Mask(u64);
+
+impl Mask {
+    #[inline(always)]
+    fn of(holds: bool) -> Self {
+        Self::of_bit(u64::from(holds))
+    }
+
+    /// Of a bit that is 0 or 1.
+    #[inline(always)]
+    fn of_bit(bit: u64) -> Self {
+        Self(bit.wrapping_neg())
+    }
+
+    /// The first number where it holds, else the second.
+    #[inline(always)]
+    fn either(self, yes: f64, no: f64) -> f64 {
+        f64::from_bits((yes.to_bits() & self.0) | (no.to_bits() & !self.0))
+    }
 }
 
 /// Negates where the bit with the value 2 is set.
