@@ -116,9 +116,7 @@ pub struct Times {
 pub fn op_times(program: &VerifiedProgram) -> Vec<Duration> {
     let program = program.program();
     let mut times = Vec::with_capacity(program.ops.len());
-    program
-        .segments()
-        .for_each(|segment| times.push(op_time(program, &segment)));
+    times.extend(program.segments().map(|segment| op_time(program, &segment)));
     times
 }
 

@@ -72,15 +72,16 @@ impl Findings {
         also: &mut dyn FnMut(&mut Self, OpId, &Action),
     ) {
         let tables = program.program();
-        self.ops(program, &mut |found, segment| {
-            let (id, action) = (segment.id, &segment.op.action);
+        for (id, op) in (0..).map(OpId).zip(&tables.ops) {
+            let action = &op.action;
+            self.op(tables, id, op);
             if let Some(to) = action.tip() {
-                found.point(Some(id), ["X", "Y", "Z"], to, limits.farthest_mm);
+                self.point(Some(id), ["X", "Y", "Z"], to, limits.farthest_mm);
             }
             if let Some(feed) = action.feed().and_then(|feed| tables.feed(feed)) {
                 let (value, unit) = limits.speed_unit.of(feed);
                 let what = "tip speed";
-                found.range(Some(id), &Number { what, value, unit }, limits.tip_speed);
+                self.range(Some(id), &Number { what, value, unit }, limits.tip_speed);
             }
             if let Some(rate) = action.rate().and_then(|rate| tables.rate(rate)) {
                 let number = Number {
@@ -88,10 +89,10 @@ impl Findings {
                     value: rate.to_deg_per_s(),
                     unit: "deg/s",
                 };
-                found.range(Some(id), &number, limits.rate);
+                self.range(Some(id), &number, limits.rate);
             }
-            also(found, id, action);
-        });
+            also(self, id, action);
+        }
     }
 
     /// The origin of a frame that the program states itself, and not the controller.

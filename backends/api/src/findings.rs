@@ -5,10 +5,9 @@
 
 use crate::backend::{BackendIssue, Exceeded, MachineMismatch};
 use crate::geometry::Point3;
-use crate::ir::{Action, Cell, OpId, OperationId, Program};
+use crate::ir::{Action, Cell, Op, OpId, OperationId, Program};
 use crate::motion::ReachableProgram;
 use crate::script::trimmed_text;
-use crate::segments::Segment;
 use crate::units::Duration;
 use core::ops::RangeInclusive;
 use std::collections::BTreeSet;
@@ -134,22 +133,18 @@ impl Findings {
         }
     }
 
-    /// No op may change the blade or wait for longer than a day; `also` checks what else there is to an op.
-    pub fn ops(&mut self, program: &ReachableProgram, also: &mut dyn FnMut(&mut Self, &Segment<'_>)) {
-        for segment in program.program().segments() {
-            let id = segment.id;
-            if let Some(operation) = segment.op.site.operation() {
-                self.blade(program.program(), id, operation);
+    /// An op may not change the blade or wait for longer than a day.
+    pub fn op(&mut self, program: &Program, id: OpId, op: &Op) {
+        if let Some(operation) = op.site.operation() {
+            self.blade(program, id, operation);
+        }
+        match op.action {
+            Action::Dwell { time } => self.wait(Some(id), "waiting time", time),
+            Action::ToolChange { .. } => {
+                let what = "a tool change within the program";
+                self.tell(what, BackendIssue::Unsupported { op: id, what });
             }
-            match segment.op.action {
-                Action::Dwell { time } => self.wait(Some(id), "waiting time", time),
-                Action::ToolChange { .. } => {
-                    let what = "a tool change within the program";
-                    self.tell(what, BackendIssue::Unsupported { op: id, what });
-                }
-                _ => {}
-            }
-            also(self, &segment);
+            _ => {}
         }
     }
 

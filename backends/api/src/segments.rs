@@ -275,32 +275,9 @@ pub struct Segments<'p> {
 impl<'p> Iterator for Segments<'p> {
     type Item = Segment<'p>;
 
+    // Within the loop that asks for it, a segment is only worked out as far as the loop uses it.
+    #[inline]
     fn next(&mut self) -> Option<Segment<'p>> {
-        self.step()
-    }
-
-    // A loop that is one function does not compute what it does not ask of a segment: `for_each` takes half as long as `for`.
-    #[inline]
-    fn fold<B, F: FnMut(B, Segment<'p>) -> B>(mut self, start: B, mut each: F) -> B {
-        let mut folded = start;
-        while let Some(segment) = self.step() {
-            folded = each(folded, segment);
-        }
-        folded
-    }
-
-    #[inline]
-    fn size_hint(&self) -> (usize, Option<usize>) {
-        self.ops.size_hint()
-    }
-}
-
-impl ExactSizeIterator for Segments<'_> {}
-impl FusedIterator for Segments<'_> {}
-
-impl<'p> Segments<'p> {
-    #[inline(always)]
-    fn step(&mut self) -> Option<Segment<'p>> {
         let op = self.ops.next()?;
         let (id, before) = (self.next, self.state);
         let from = before.place.pose();
@@ -315,6 +292,16 @@ impl<'p> Segments<'p> {
         })
     }
 
+    #[inline]
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.ops.size_hint()
+    }
+}
+
+impl ExactSizeIterator for Segments<'_> {}
+impl FusedIterator for Segments<'_> {}
+
+impl Segments<'_> {
     /// The state of the machine before the next op, or after the last.
     #[must_use]
     pub const fn state(&self) -> State {

@@ -150,8 +150,11 @@ const SAME: f64 = 1e-6;
 pub fn verify(program: Program) -> Result<VerifiedProgram, Vec<Fault>> {
     let mut walk = Walk::new(&program);
     walk.tables();
-    program.segments().for_each(|segment| walk.op(&segment));
-    walk.ending(program.end());
+    let mut segments = program.segments();
+    for segment in segments.by_ref() {
+        walk.op(&segment);
+    }
+    walk.ending(segments.state());
     let Walk {
         mut faults, needs, ..
     } = walk;

@@ -160,11 +160,15 @@ fn numbers(settings: &Settings<'_>, parts: &[Part], found: &mut Findings) {
 }
 
 fn ops(job: &Job<'_>, found: &mut Findings) {
-    found.ops(job.source.reachable, &mut |found, segment| match &segment.path {
-        Path::Home | Path::Axes(_) => axes(job, segment.id, found),
-        Path::Linear(line) => self::line(job, segment.id, line, found),
-        Path::Still => {}
-    });
+    let program = job.source.program();
+    for segment in program.segments() {
+        found.op(program, segment.id, segment.op);
+        match &segment.path {
+            Path::Home | Path::Axes(_) => axes(job, segment.id, found),
+            Path::Linear(line) => self::line(job, segment.id, line, found),
+            Path::Still => {}
+        }
+    }
 }
 
 fn axes(job: &Job<'_>, op: OpId, found: &mut Findings) {

@@ -34,14 +34,16 @@ impl Turns {
             of: Vec::with_capacity(program.ops.len()),
             changes: Vec::with_capacity(program.ops.len()),
         };
-        for segment in program.segments() {
-            let rates = match (segment.path.line(), segment.op.action.rate()) {
-                (Some(line), Some(rate)) if line.turns() => {
-                    let (from, to) = (line.from.orientation, line.to.orientation);
+        let mut held = None;
+        for (_, op, after) in program.ends() {
+            let before = held;
+            held = after.place.pose().map(|pose| pose.orientation);
+            let rates = match (before, held, op.action.rate()) {
+                (Some(from), Some(to), Some(rate)) if from != to => {
                     let new = || rates(program, (from, to), rate);
                     *known.entry((from, to, rate)).or_insert_with(new)
                 }
-                (_, _) => None,
+                (_, _, _) => None,
             };
             turns
                 .changes
