@@ -18,7 +18,7 @@ pub fn path_of(program: &Program, op: OpId) -> Option<Path> {
 }
 
 fn path(segment: &Segment<'_>) -> Path {
-    match segment.path {
+    match segment.path() {
         Path::Linear(line) if line.limited_by().is_none() => Path::Still,
         path => path,
     }
@@ -33,7 +33,7 @@ pub fn numbered(paths: &[Path]) -> impl Iterator<Item = (OpId, &Path)> {
 #[must_use]
 pub fn pacing(program: &Program, op: OpId) -> Option<SpeedField> {
     let segment = program.segment(op)?;
-    Some(match (segment.path.line()?.limited_by()?, segment.op.action) {
+    Some(match (segment.line()?.limited_by()?, segment.op.action) {
         (LimitedBy::Rate(_), _) => SpeedField::Reorient,
         (LimitedBy::Feed(_), Action::Cut { .. }) => SpeedField::Cut,
         (LimitedBy::Feed(_), _) => SpeedField::Travel,
@@ -43,7 +43,7 @@ pub fn pacing(program: &Program, op: OpId) -> Option<SpeedField> {
 /// The blade frame T in W at a height (mm) above the first pose of a program.
 #[must_use]
 pub fn above_first_pose(program: &Program, height: f64) -> Option<Pose> {
-    let first = program.segments().find_map(|segment| segment.path.target())?;
+    let first = program.segments().find_map(|segment| segment.target())?;
     let mut blade = program.frame(first)?;
     blade.origin.z += height;
     Some(Pose::from(blade))

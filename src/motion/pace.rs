@@ -81,7 +81,7 @@ pub fn programmed(program: &VerifiedProgram) -> Paced {
         basis: Basis {
             kept: Kept::Speeds,
             untimed: (program.program().segments())
-                .filter(|segment| segment.path.is_of_axes())
+                .filter(|segment| segment.path().is_of_axes())
                 .count(),
             unfollowed: 0,
         },

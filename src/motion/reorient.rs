@@ -50,7 +50,7 @@ pub fn slowed(program: &Program, motion: &Motion, mechanism: &Mechanism) -> Opti
 /// The rate that an op asks for, and the part of it at which its blade turns no faster than that; none of ops that do not turn
 /// faster.
 fn asked(segment: &Segment<'_>, fastest: f64) -> Option<(AngularSpeed, f64)> {
-    let line = segment.path.line()?;
+    let line = segment.line()?;
     let asked = line.rate?;
     let shortest = line.turn.to_rad();
     if shortest <= 0.0 {

@@ -557,7 +557,7 @@ impl<'s> Scene<'s> {
 
     /// Where the tip comes to in an op, in the work.
     fn tip(&self, op: OpId) -> Option<Point3> {
-        Some(self.program.segment(op)?.path.target()?.tip)
+        Some(self.program.segment(op)?.target()?.tip)
     }
 
     /// How far along its motion something fails.

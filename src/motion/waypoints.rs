@@ -37,7 +37,7 @@ pub(super) fn waypoints(program: &Program, rig: &Rig<'_>, motion: &Motion) -> Ve
         while let Some(stretch) = branches.next_if(|stretch| stretch.from <= op) {
             branch = Some(stretch.branch);
         }
-        if let (Path::Linear(line), Some(start), Some(branch)) = (segment.path, before, branch)
+        if let (Path::Linear(line), Some(start), Some(branch)) = (segment.path(), before, branch)
             && wrist::turn(&start, end) > wrist::FAR
         {
             found.extend(on_the_way(program, rig, (op, &line), branch, [&start.0, &end.0]));

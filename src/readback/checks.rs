@@ -45,7 +45,7 @@ impl Checker<'_> {
         let read = Read {
             checker: *self,
             proven: (comparison.program().segments())
-                .map(|segment| segment.path)
+                .map(|segment| segment.path())
                 .collect(),
             rebuilt: &rebuilt,
         };
@@ -195,7 +195,7 @@ impl Read<'_> {
                 op: segment.id,
                 site: segment.op.site,
                 flank,
-                line: *segment.path.line()?,
+                line: segment.line()?,
             })
         })
     }

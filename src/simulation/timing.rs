@@ -122,7 +122,7 @@ pub fn op_times(program: &VerifiedProgram) -> Vec<Duration> {
 
 fn op_time(program: &Program, segment: &Segment<'_>) -> Duration {
     let ready = program.cell.as_ref().map(|cell| cell.ready);
-    match (segment.path.line(), segment.op.action) {
+    match (segment.line(), segment.op.action) {
         (Some(line), _) => line.duration(),
         (None, Action::Dwell { time }) => time,
         (None, Action::AwaitReady) => match ready {

@@ -194,7 +194,7 @@ fn no_turn_is_faster_than_the_job_asks_for() {
         let rig = rig(model, program.cell.as_ref().unwrap());
         let durations: Vec<f64> = program
             .segments()
-            .map(|segment| segment.path.line().map_or(0.0, |line| line.duration().to_s()))
+            .map(|segment| segment.line().map_or(0.0, |line| line.duration().to_s()))
             .collect();
         let (mut fastest, mut before) = (0.0_f64, None);
         trajectory(&reached.program, &rig, &Spacing::CLOSE, |sample| {

@@ -139,7 +139,7 @@ fn is_as_walked(program: &Program, index: usize, segment: &Segment<'_>) {
         "{op:?}"
     );
     let before = segment.before.place;
-    match (op.action, before.pose(), segment.path) {
+    match (op.action, before.pose(), segment.path()) {
         (Action::Home, _, Path::Home) => {}
         (Action::AxisTravel { to: tip, orientation }, _, Path::Axes(to))
         | (
@@ -222,7 +222,7 @@ fn ops_of_unknown_speeds_move_nothing() {
     let mut program = PROGRAMS[0].clone();
     program.feeds.clear();
     for (index, segment) in program.segments().enumerate() {
-        let is_line = matches!(segment.path, Path::Linear(_));
+        let is_line = matches!(segment.path(), Path::Linear(_));
         assert_eq!(
             is_line,
             matches!(segment.op.action, Action::Turn { .. }),

@@ -86,7 +86,7 @@ fn the_axes_bring_the_blade_where_the_program_has_it() {
     let rig: Rig<'_> = rig(model, &cell);
     let mut checked = 0;
     for (segment, end) in program.segments().zip(&reached.program.motion().ends) {
-        let Some(to) = segment.path.target() else { continue };
+        let Some(to) = segment.target() else { continue };
         let should = Pose::from(program.frame(to).unwrap());
         let (apart, turned) = rig.blade_in_work(&end.0).apart(&should);
         assert!(apart < 1e-5 && turned < 1e-8, "{apart} mm, {turned}");

@@ -209,7 +209,7 @@ fn no_slit_of_a_proven_program_enters_the_part() {
         let mut cuts = 0;
         for segment in program.segments() {
             let op = segment.op;
-            if let (Action::Cut { .. }, Some(line)) = (op.action, segment.path.line()) {
+            if let (Action::Cut { .. }, Some(line)) = (op.action, segment.line()) {
                 let operation = usize::from(op.site.operation().unwrap().0);
                 let blade = &program.operations[operation].blade;
                 let edge = edge(blade, program.orientation(line.to.orientation).unwrap());

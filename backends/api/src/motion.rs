@@ -11,7 +11,6 @@ mod tests;
 
 use crate::geometry::Frame;
 use crate::ir::{Action, AxisValues, Cell, Head, OpId, Program};
-use crate::segments::{LinearSegment, Path};
 use crate::state::TipPose;
 use crate::verify::VerifiedProgram;
 use core::fmt;
@@ -270,14 +269,12 @@ fn faults(
             let should = program.frame(pose);
             should.is_some_and(|should| is_there(&blade_in_work(&values), &should))
         };
-        let broken = match segment.path {
-            Path::Still => before
+        let broken = match (segment.op.action, segment.target()) {
+            (_, Some(to)) => (!is_there(to)).then_some(MotionRule::Pose),
+            (Action::Home, None) => (cell.home != Some(values)).then_some(MotionRule::Pose),
+            (_, None) => before
                 .is_some_and(|before| before != values)
                 .then_some(MotionRule::Still),
-            Path::Home => (cell.home != Some(values)).then_some(MotionRule::Pose),
-            Path::Axes(to) | Path::Linear(LinearSegment { to, .. }) => {
-                (!is_there(to)).then_some(MotionRule::Pose)
-            }
         };
         broken.into_iter().for_each(fault);
         before = Some(values);
@@ -297,11 +294,14 @@ fn waypoint_faults(
     let mut faults = Vec::new();
     let mut waypoints = motion.waypoints.iter().peekable();
     for segment in program.segments() {
+        if waypoints.peek().is_none() {
+            break;
+        }
         let mut done = 0.0;
         while let Some(waypoint) = waypoints.next_if(|waypoint| waypoint.op == segment.id) {
             let in_order = done < waypoint.done && waypoint.done < 1.0;
             done = waypoint.done;
-            let on_the_way = (segment.path.line())
+            let on_the_way = (segment.line())
                 .and_then(|line| line.frame_at(program, waypoint.done))
                 .is_some_and(|should| is_there(&waypoint.frame, &should));
             let held = waypoint.axes.0.iter().all(|value| value.is_finite())

@@ -22,8 +22,9 @@ pub struct Segment<'p> {
     pub op: &'p Op,
     /// The state of the machine when it begins.
     pub before: State,
-    /// What moves.
-    pub path: Path,
+    to: Option<TipPose>,
+    turn: Option<Angle>,
+    program: &'p Program,
 }
 
 /// What an op moves.
@@ -76,7 +77,54 @@ impl Segment<'_> {
     #[must_use]
     #[inline]
     pub const fn end(&self) -> Option<TipPose> {
-        self.before.after(&self.op.action).place.pose()
+        self.after().place.pose()
+    }
+
+    /// The state of the machine when it ends.
+    #[must_use]
+    #[inline]
+    pub const fn after(&self) -> State {
+        self.before.led(&self.op.action, self.to)
+    }
+
+    /// The pose to which it leads the blade, where it leads it to one.
+    #[must_use]
+    #[inline]
+    pub const fn target(&self) -> Option<TipPose> {
+        self.to
+    }
+
+    /// How far the blade turns; none where the program does not have its orientations.
+    #[must_use]
+    #[inline]
+    pub const fn turn(&self) -> Option<Angle> {
+        self.turn
+    }
+
+    /// What moves.
+    #[must_use]
+    #[inline(always)]
+    pub fn path(&self) -> Path {
+        match (&self.op.action, self.start(), self.to) {
+            (Action::Home, ..) => Path::Home,
+            // Before the first pose the blade is at home or somewhere unknown, so the motion has no line to follow.
+            (Action::AxisTravel { .. }, _, Some(to)) | (_, None, Some(to)) => Path::Axes(to),
+            (_, Some(from), Some(to)) => {
+                let line = LinearSegment::with(self.program, [from, to], &self.op.action, || self.turn);
+                line.map_or(Path::Still, Path::Linear)
+            }
+            (_, _, None) => Path::Still,
+        }
+    }
+
+    /// The straight motion, if it is one.
+    #[must_use]
+    #[inline]
+    pub fn line(&self) -> Option<LinearSegment> {
+        match self.path() {
+            Path::Linear(line) => Some(line),
+            Path::Still | Path::Home | Path::Axes(_) => None,
+        }
     }
 }
 
@@ -117,16 +165,16 @@ impl LinearSegment {
     #[must_use]
     pub fn of(program: &Program, from: TipPose, action: &Action) -> Option<Self> {
         let to = action.leads_to(Some(from))?;
-        Self::turning(program, [from, to], action, |ids| angle(program, ids))
+        Self::with(program, [from, to], action, || angle(program, [from.orientation, to.orientation]))
     }
 
-    /// The same with its end, and the angle between two different orientations, from elsewhere.
+    /// The same with its end, and how far the blade turns, from elsewhere.
     #[inline(always)]
-    fn turning(
+    fn with(
         program: &Program,
         [from, to]: [TipPose; 2],
         action: &Action,
-        angle: impl FnOnce([OrientationId; 2]) -> Option<Angle>,
+        turn: impl FnOnce() -> Option<Angle>,
     ) -> Option<Self> {
         let (feed, rate) = match (action.feed(), action.rate()) {
             (Some(feed), Some(rate)) => (Some(program.feed(feed)?), Some(program.rate(rate)?)),
@@ -134,15 +182,10 @@ impl LinearSegment {
             (None, Some(rate)) => (None, Some(program.rate(rate)?)),
             (None, None) => return None,
         };
-        let turn = if from.orientation == to.orientation {
-            Angle::ZERO
-        } else {
-            angle([from.orientation, to.orientation])?
-        };
         Some(Self {
             from,
             to,
-            turn,
+            turn: turn()?,
             feed,
             rate,
         })
@@ -275,21 +318,28 @@ pub struct Segments<'p> {
 impl<'p> Iterator for Segments<'p> {
     type Item = Segment<'p>;
 
-    // Within the loop that asks for it, a segment is only worked out as far as the loop uses it.
     #[inline]
     fn next(&mut self) -> Option<Segment<'p>> {
         let op = self.ops.next()?;
-        let (id, before) = (self.next, self.state);
-        let from = before.place.pose();
+        let from = self.state.place.pose();
         let to = op.action.leads_to(from);
-        self.next = OpId(id.0.saturating_add(1));
-        self.state = before.led(&op.action, to);
-        Some(Segment {
-            id,
+        let turn = match (from, to) {
+            (Some(from), Some(to)) if from.orientation != to.orientation => {
+                (self.angles).between(self.program, [from.orientation, to.orientation])
+            }
+            (_, _) => Some(Angle::ZERO),
+        };
+        let segment = Segment {
+            id: self.next,
             op,
-            before,
-            path: self.path(from, to, &op.action),
-        })
+            before: self.state,
+            to,
+            turn,
+            program: self.program,
+        };
+        self.next = OpId(segment.id.0.saturating_add(1));
+        self.state = segment.after();
+        Some(segment)
     }
 
     #[inline]
@@ -306,21 +356,6 @@ impl Segments<'_> {
     #[must_use]
     pub const fn state(&self) -> State {
         self.state
-    }
-
-    #[inline(always)]
-    fn path(&mut self, from: Option<TipPose>, to: Option<TipPose>, action: &Action) -> Path {
-        match (action, from, to) {
-            (Action::Home, ..) => Path::Home,
-            // Before the first pose the blade is at home or somewhere unknown, so the motion has no line to follow.
-            (Action::AxisTravel { .. }, _, Some(to)) | (_, None, Some(to)) => Path::Axes(to),
-            (_, Some(from), Some(to)) => {
-                let Self { program, angles, .. } = self;
-                LinearSegment::turning(program, [from, to], action, |ids| angles.between(program, ids))
-                    .map_or(Path::Still, Path::Linear)
-            }
-            (_, _, None) => Path::Still,
-        }
     }
 }
 

@@ -301,7 +301,7 @@ impl<'p> Walk<'p> {
 
     /// Every id refers to an entry of its table.
     fn tables_have(&mut self, segment: &Segment<'_>) {
-        let (program, action) = (self.program, segment.op.action);
+        let (program, action) = (self.program, &segment.op.action);
         let held = segment.end().map(|pose| pose.orientation);
         let known = action.feed().is_none_or(|id| program.feed(id).is_some())
             && action.rate().is_none_or(|id| program.rate(id).is_some())
@@ -488,7 +488,7 @@ impl<'p> Walk<'p> {
             // The tip stays where the op before has led it.
             Action::Turn { .. } => true,
             _ => {
-                let to = segment.path.target();
+                let to = segment.target();
                 to.is_none_or(|to| to.tip.z >= lowest)
             }
         }
@@ -505,8 +505,7 @@ impl<'p> Walk<'p> {
     }
 
     fn rotation(&mut self, segment: &Segment<'_>) {
-        let turn = segment.path.line().map(|line| line.turn);
-        self.require(turn.is_none_or(|turn| turn < LARGEST_TURN), Rule::AmbiguousTurn);
+        self.require(segment.turn().is_none_or(|turn| turn < LARGEST_TURN), Rule::AmbiguousTurn);
     }
 
     /// The tip's way through the air stays on one outer side of the stock (which is convex, so both ends tell).

@@ -163,9 +163,9 @@ fn ops(job: &Job<'_>, found: &mut Findings) {
     let program = job.source.program();
     for segment in program.segments() {
         found.op(program, segment.id, segment.op);
-        match &segment.path {
+        match segment.path() {
             Path::Home | Path::Axes(_) => axes(job, segment.id, found),
-            Path::Linear(line) => self::line(job, segment.id, line, found),
+            Path::Linear(line) => self::line(job, segment.id, &line, found),
             Path::Still => {}
         }
     }

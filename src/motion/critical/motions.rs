@@ -44,7 +44,7 @@ impl CriticalMotions {
     pub fn of(program: &Program) -> Self {
         let mut kinds: BTreeMap<Kind, Vec<LinearSegment>> = BTreeMap::new();
         for segment in program.segments() {
-            if let Path::Linear(line) = segment.path
+            if let Path::Linear(line) = segment.path()
                 && let Some(kind) = kind(&segment, &line)
             {
                 kinds.entry(kind).or_default().push(line);

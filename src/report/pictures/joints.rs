@@ -111,7 +111,7 @@ impl Clock {
         let mut layer = None;
         for (segment, time) in program.segments().zip(op_times) {
             let length = time.to_s();
-            let line = segment.path.line();
+            let line = segment.line();
             clock.starts.push(clock.total);
             clock.lengths.push(length);
             clock.programmed.push(line.map(|line| line.duration().to_s()));

@@ -44,7 +44,7 @@ impl Track {
             if let (ActionKind::CutLeft | ActionKind::CutRight, Some(start)) = (kind, segment.start()) {
                 track.blades.extend(blade(program, start));
             }
-            if let Some(to) = segment.path.target().filter(|_| kind != ActionKind::Turn) {
+            if let Some(to) = segment.target().filter(|_| kind != ActionKind::Turn) {
                 track.tip.push([to.tip.x, to.tip.y, to.tip.z]);
             }
         }

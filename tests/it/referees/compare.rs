@@ -46,7 +46,7 @@ pub(super) fn deeds(program: &ReachableProgram) -> Vec<(OpId, Deed)> {
     for (segment, next) in ir.segments().zip(followers) {
         let (id, op) = (segment.id, segment.op);
         let axes = program.axes_after(id).unwrap();
-        let deed = match (op.action, segment.path.line()) {
+        let deed = match (op.action, segment.line()) {
             (_, Some(line)) => {
                 let before = program.axes_after(OpId(id.0 - 1)).unwrap();
                 Deed::Straight {

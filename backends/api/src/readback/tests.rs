@@ -8,7 +8,6 @@ use crate::geometry::{Orientation, Point3};
 use crate::ir::{Action, AxisValues, OpId, Program, Ready, Switch};
 use crate::motion::{Branch, Motion, ReachableProgram, Waypoint, Wrist};
 use crate::options::Options;
-use crate::segments::Segment;
 use crate::testkit::{Crossing, Recipe, axes_at, blade_in_work, reachable, samples};
 use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
 use crate::verify::verify;
@@ -87,7 +86,7 @@ fn told(reachable: &ReachableProgram) -> Vec<Command> {
             | Action::Retract { .. }
             | Action::Cut { .. }
             | Action::Turn { .. } => {
-                let line = segment.path.line().unwrap();
+                let line = segment.line().unwrap();
                 Command::Straight {
                     to: target(),
                     pace: Pace::Speeds {
@@ -291,8 +290,8 @@ fn waypoints_are_passed_in_their_order() {
         .iter()
         .position(|op| matches!(op.action, Action::Turn { .. }))
         .unwrap();
-    let Segment { id: op, path, .. } = program.program().segments().nth(turn).unwrap();
-    let line = path.line().unwrap();
+    let segment = program.program().segments().nth(turn).unwrap();
+    let (op, line) = (segment.id, segment.line().unwrap());
     let (before, after) = (
         program.axes_after(OpId(op.0 - 1)).unwrap(),
         program.axes_after(op).unwrap(),

@@ -201,10 +201,10 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
             Place::Unknown => None,
             Place::Home | Place::Pose(_) => segment.id.0.checked_sub(1).map(OpId),
         };
-        match (&segment.path, segment.op.action) {
+        match (segment.path(), segment.op.action) {
             (Path::Home, _) => self.joint_move(segment.id, JointTarget::Home, from),
-            (Path::Axes(to), _) => self.joint_move(segment.id, JointTarget::Pose(*to), from),
-            (Path::Linear(line), _) => self.linear_move(segment, line, next),
+            (Path::Axes(to), _) => self.joint_move(segment.id, JointTarget::Pose(to), from),
+            (Path::Linear(line), _) => self.linear_move(segment, &line, next),
             (Path::Still, Action::Ultrasonic { state }) => self.switch(state),
             (Path::Still, Action::AwaitReady) => self.await_ready(),
             (Path::Still, Action::Dwell { time }) => self.dialect.wait(time),

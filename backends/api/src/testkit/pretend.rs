@@ -100,17 +100,17 @@ fn motion(program: &Program) -> Motion {
             motion.stretches.push(Stretch { from, branch });
         }
         let start = axes;
-        axes = match segment.path {
+        axes = match segment.path() {
             Path::Home => home.unwrap_or(axes),
             Path::Axes(to) => axes_at(to, wrist, axes),
             Path::Linear(line) if line.from != line.to => axes_at(line.to, wrist, axes),
             Path::Linear(_) | Path::Still => axes,
         };
         motion.ends.push(axes);
-        if let Some(line) = segment.path.line() {
+        if let Some(line) = segment.line() {
             motion
                 .waypoints
-                .extend(on_the_way(program, from, line, wrist, [start, axes]));
+                .extend(on_the_way(program, from, &line, wrist, [start, axes]));
         }
     }
     motion

@@ -254,7 +254,7 @@ fn compare(program: &ReachableProgram, bundle: &Bundle, dialect: &str, grain: f6
             at = words_at(program, id, there);
             continue;
         }
-        let should = segment.path.line().unwrap().duration().to_s();
+        let should = segment.line().unwrap().duration().to_s();
         let (feed, value) = moved.feed.unwrap();
         let is = 60.0 / value
             * match feed {

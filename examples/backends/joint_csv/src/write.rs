@@ -72,7 +72,7 @@ impl Table<'_> {
             .cell
             .as_ref()
             .ok_or(EmitError::Internal("a program without a machine"))?;
-        match segment.path {
+        match segment.path() {
             Path::Home | Path::Axes(_) => return self.motion("axes", segment.id, None),
             Path::Linear(line) => return self.motion("move", segment.id, Some(&line)),
             Path::Still => {}
