@@ -46,18 +46,21 @@ impl ProgramBuilder {
 
     /// Whether the tip is at a point of W, and not at home or wherever the machine was left.
     #[must_use]
+    #[inline]
     pub const fn knows_tip(&self) -> bool {
         self.state.place.pose().is_some()
     }
 
     /// How the blade is held; none at home or wherever the machine was left.
     #[must_use]
+    #[inline]
     pub fn held(&self) -> Option<Orientation> {
         let OrientationId(index) = self.state.place.pose()?.orientation;
         self.program.orientations.get(index as usize).copied()
     }
 
     /// Appends an op; leaves out what the cell does not have (home angles, a generator).
+    #[inline]
     pub fn op(&mut self, site: Site, action: Action) {
         let cell = self.program.cell.as_ref();
         let exists = match &action {
@@ -80,17 +83,20 @@ impl ProgramBuilder {
     }
 
     /// An orientation of the table, added where it is new.
+    #[inline]
     pub fn orientation(&mut self, orientation: Orientation) -> OrientationId {
         let place = find_or_push(&mut self.program.orientations, orientation);
         OrientationId(u32::from(id(place)))
     }
 
     /// A speed of the table, added where it is new.
+    #[inline]
     pub fn feed(&mut self, feed: Speed) -> FeedId {
         FeedId(id(find_or_push(&mut self.program.feeds, feed)))
     }
 
     /// A rate of the table, added where it is new.
+    #[inline]
     pub fn rate(&mut self, rate: AngularSpeed) -> RateId {
         RateId(id(find_or_push(&mut self.program.rates, rate)))
     }

@@ -82,7 +82,7 @@ impl Segment<'_> {
 
     /// The state of the machine when it ends.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub const fn after(&self) -> State {
         self.before.led(&self.op.action, self.to)
     }
@@ -318,7 +318,8 @@ pub struct Segments<'p> {
 impl<'p> Iterator for Segments<'p> {
     type Item = Segment<'p>;
 
-    #[inline]
+    // Within the loop that asks, a segment is worked out only as far as the loop uses it.
+    #[inline(always)]
     fn next(&mut self) -> Option<Segment<'p>> {
         let op = self.ops.next()?;
         let from = self.state.place.pose();

@@ -121,20 +121,7 @@ impl<'s> Text<'s> {
     /// A whole number within a line.
     #[inline]
     pub fn whole(&mut self, value: u32) {
-        let mut digits = [0; 10];
-        let mut at = digits.len();
-        let mut rest = value;
-        loop {
-            at = at.saturating_sub(1);
-            if let Some(place) = digits.get_mut(at) {
-                *place = b'0' + (rest % 10) as u8;
-            }
-            rest /= 10;
-            if rest == 0 {
-                break;
-            }
-        }
-        self.put(digits.get(at..).unwrap_or_default());
+        self.put(digits(value, &mut [0; 10]));
     }
 
     /// Ends a line.
@@ -149,6 +136,24 @@ impl<'s> Text<'s> {
         }
         Ok(())
     }
+}
+
+/// The digits of a whole number.
+#[inline]
+pub(super) fn digits(value: u32, room: &mut [u8; 10]) -> &[u8] {
+    let mut at = room.len();
+    let mut rest = value;
+    loop {
+        at = at.saturating_sub(1);
+        if let Some(place) = room.get_mut(at) {
+            *place = b'0' + (rest % 10) as u8;
+        }
+        rest /= 10;
+        if rest == 0 {
+            break;
+        }
+    }
+    room.get(at..).unwrap_or_default()
 }
 
 /// Appends a number with up to six decimals, at least one, and no further trailing zeros.

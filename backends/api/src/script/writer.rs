@@ -6,7 +6,7 @@ use super::listing::{Lead, Modal, first_of};
 use super::options::Common;
 use super::split::Part;
 use super::tables::operation_heading;
-use super::text::Written;
+use super::text::{Written, digits};
 use crate::backend::EmitError;
 use crate::corners::may_round;
 use crate::ir::{Action, Op, OpId, Ready, Switch};
@@ -14,6 +14,7 @@ use crate::readback::End;
 use crate::segments::{LinearSegment, Path, Segment};
 use crate::state::{Generator, Place};
 use crate::verify::{Capabilities, Capability};
+use core::num::NonZeroU32;
 
 /// The ops that are written: all but changes of the tool.
 pub const CAPABILITIES: Capabilities = Capabilities::NONE
@@ -112,6 +113,27 @@ struct PartWriter<'a, 'd, D> {
     source: Source<'a>,
     common: &'a Common<'a>,
     modal: Modal,
+    heading: CutHeading,
+}
+
+/// The words over a cut. They stand over every one of them, so they are put together without formatting.
+#[derive(Default)]
+struct CutHeading(String);
+
+impl CutHeading {
+    fn set(&mut self, layer: NonZeroU32, cut: NonZeroU32) {
+        self.0.clear();
+        self.0.push_str("layer ");
+        self.whole(layer);
+        self.0.push_str(" cut ");
+        self.whole(cut);
+    }
+
+    fn whole(&mut self, number: NonZeroU32) {
+        let mut room = [0; 10];
+        let digits = digits(number.get(), &mut room);
+        self.0.extend(digits.iter().copied().map(char::from));
+    }
 }
 
 impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
@@ -121,6 +143,7 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
             source,
             common,
             modal: Modal::default(),
+            heading: CutHeading::default(),
         }
     }
 
@@ -187,8 +210,8 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
             self.dialect.layer_begins(layer, cut.map(|(_, cut)| cut))?;
         }
         if let Some((layer, cut)) = cut {
-            self.dialect
-                .comment(&format!("layer {} cut {cut}", layer.number), "")?;
+            self.heading.set(layer.number, cut);
+            self.dialect.comment(&self.heading.0, "")?;
         }
         match feed {
             Some(feed) => self.dialect.feed(feed),
