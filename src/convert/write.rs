@@ -142,7 +142,7 @@ fn origins(file: FileId, text: &str, passes: &[Pass]) -> Vec<Origin> {
     let rows = blocks
         .flat_map(|block| &block.entries)
         .filter_map(|entry| match entry {
-            Entry::Tips { points, .. } => Some(points),
+            Entry::Row { points, .. } => Some(points),
             Entry::Field { .. }
             | Entry::Limit { .. }
             | Entry::Formula { .. }

@@ -80,6 +80,41 @@ pub struct Blade {
     pub thickness: Sourced<Length>,
     /// Which sides cut.
     pub edges: Edges,
+    /// What is behind the edge; none if the job does not state it.
+    pub body: Option<Body>,
+}
+
+/// What is behind the edge of a blade: round stages about its axis, from the tip up. Each goes on up to the next one, the last
+/// one without end.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Where it is given.
+    pub span: Span,
+    /// At least one; the heights rise.
+    pub stages: Vec<BodyStage>,
+}
+
+/// A stage of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyStage {
+    /// Height above the tip at which it begins, along the axis; at least the cutting length.
+    pub from: Sourced<Length>,
+    /// Its radius; positive.
+    pub radius: Sourced<Length>,
+}
+
+impl Body {
+    /// Its stages as programs have them.
+    #[must_use]
+    pub fn in_program(&self) -> Vec<ir::BodyStage> {
+        let stages = self.stages.iter();
+        stages
+            .map(|stage| ir::BodyStage {
+                from: stage.from.value,
+                radius: stage.radius.value,
+            })
+            .collect()
+    }
 }
 
 impl Blade {
@@ -92,6 +127,7 @@ impl Blade {
             half_apex: self.half_apex.value,
             thickness: self.thickness.value,
             edges: self.edges,
+            body: self.body.as_ref().map(Body::in_program),
         }
     }
 }

@@ -66,6 +66,13 @@ fn blade(blade: &mut Blade, place: Span) {
     blade.cutting_length.forget_place(place);
     blade.half_apex.forget_place(place);
     blade.thickness.forget_place(place);
+    if let Some(body) = &mut blade.body {
+        body.span = place;
+        for stage in &mut body.stages {
+            stage.from.forget_place(place);
+            stage.radius.forget_place(place);
+        }
+    }
 }
 
 fn machine(machine: &mut Machine, place: Span) {

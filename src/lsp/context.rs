@@ -5,6 +5,7 @@ use super::slots::Slot;
 use super::surroundings::{BlockAround, Surroundings};
 use core::ops::Range;
 use vcutc_job::sema::vocabulary;
+use vcutc_syntax::ast::Row;
 use vcutc_syntax::lexical::{Bracket, Token, TokenKind, tokens};
 
 /// What is being written.
@@ -164,7 +165,7 @@ fn in_entry(around: &Surroundings<'_>, at: usize, before: usize, depth: usize) -
     in_piece(around, before, depth).unwrap_or(Wanted::Entry)
 }
 
-/// Behind the beginning of a piece that lacks something, or of a row of tips.
+/// Behind the beginning of a piece that lacks something, or of a row of points.
 fn in_piece(around: &Surroundings<'_>, before: usize, depth: usize) -> Option<Wanted> {
     if depth == 0 {
         return None;
@@ -174,7 +175,8 @@ fn in_piece(around: &Surroundings<'_>, before: usize, depth: usize) -> Option<Wa
     let is_file = vocabulary::data_file(&piece).is_some();
     match last {
         "radius" => return Some(Wanted::Value(Slot::at(around, before))),
-        "to" | "center" | "through" | "start" | "tips" => return Some(Wanted::Point),
+        "to" | "center" | "through" | "start" => return Some(Wanted::Point),
+        word if Row::named(word).is_some() => return Some(Wanted::Point),
         word if is_file && word == piece => return Some(Wanted::File),
         _ => {}
     }

@@ -31,7 +31,7 @@ fn of_block(block: &Block, text: &Text, found: &mut Vec<FoldingRange>) {
     for entry in &block.entries {
         match entry {
             Entry::Block(inner) => of_block(inner, text, found),
-            Entry::Tips { span, .. } => found.extend(of_span(*span, text)),
+            Entry::Row { span, .. } => found.extend(of_span(*span, text)),
             Entry::Field { .. } | Entry::Limit { .. } | Entry::Formula { .. } | Entry::Curve { .. } => {}
         }
     }

@@ -224,7 +224,7 @@ mod tests {
         assert!(all.len() >= 9, "{all:?}");
         for (block, spec) in all {
             // Of these the reference says in a sentence that all fields are required.
-            let all_required = matches!(block, "blade" | "feed" | "cell");
+            let all_required = matches!(block, "feed" | "cell");
             for field in spec.fields {
                 if field.form == Form::Block {
                     assert!(

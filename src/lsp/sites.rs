@@ -206,7 +206,7 @@ impl<'a> Row<'a> {
                     }
                 }
                 Entry::Formula { .. } | Entry::Curve { .. } => self.profile_entry(entry, place),
-                Entry::Tips { points, .. } => self.points(points, place),
+                Entry::Row { points, .. } => self.points(points, place),
                 Entry::Block(inner) => self.inner_block(inner, spec, place),
             }
         }
@@ -260,7 +260,7 @@ impl<'a> Row<'a> {
                 self.push(name.span, Kind::Field(&name.node), place);
                 self.value(value, place, None);
             }
-            Entry::Tips { points, .. } => self.points(points, place),
+            Entry::Row { points, .. } => self.points(points, place),
             Entry::Block(inner) => self.inner_block(inner, None, place),
         }
     }

@@ -3,6 +3,7 @@
 
 use super::surroundings::Surroundings;
 use vcutc_job::sema::vocabulary;
+use vcutc_syntax::ast::Row;
 
 /// A place for a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -125,7 +126,7 @@ fn name_before(around: &Surroundings<'_>, bracket: usize) -> usize {
 /// Whether the word before a bracket is that of a call: words of pieces are none.
 fn is_call(around: &Surroundings<'_>, name: usize) -> bool {
     let of_pieces = |word: &str| {
-        word == "tips"
+        Row::named(word).is_some()
             || vocabulary::JOINTS_OF_CURVES.contains(&word)
             || vocabulary::CURVES.iter().any(|(known, _)| *known == word)
     };
@@ -136,7 +137,7 @@ fn is_call(around: &Surroundings<'_>, name: usize) -> bool {
 fn owner(around: &Surroundings<'_>, first: usize) -> Owner {
     for number in around.back_from(first) {
         if let Some(word) = around.word(number)
-            && (word == "tips"
+            && (Row::named(word).is_some()
                 || vocabulary::JOINTS_OF_CURVES.contains(&word)
                 || vocabulary::CURVES.iter().any(|(known, _)| *known == word))
         {

@@ -1,6 +1,7 @@
 //! The tokens around a cursor: which brackets are open, whose they are, and what they already contain.
 
 use vcutc_job::sema::vocabulary;
+use vcutc_syntax::ast::Row;
 use vcutc_syntax::lexical::{Bracket, Token, TokenKind};
 
 /// A block around the cursor. The brackets of a profile in its short form count as two: `profile`, and in that the file.
@@ -192,7 +193,7 @@ impl Surroundings<'_> {
         let is_entry = |number: usize| {
             self.is_symbol(number + 1, &["=", "<=", ">="])
                 || self.opens(number + 1, Bracket::Curly)
-                || self.word(number) == Some("tips") && self.opens(number + 1, Bracket::Round)
+                || self.word(number).and_then(Row::named).is_some() && self.opens(number + 1, Bracket::Round)
         };
         self.words_in(bracket, is_entry)
     }
@@ -274,7 +275,7 @@ impl Surroundings<'_> {
         })
     }
 
-    /// The piece of a profile, or the row of tips, that a place before a token belongs to: its first word, and the words that
+    /// The piece of a profile, or the row of points, that a place before a token belongs to: its first word, and the words that
     /// join its parts.
     pub(super) fn piece_before(&self, before: usize) -> Option<(String, Vec<String>)> {
         let mut given = Vec::new();
@@ -283,7 +284,7 @@ impl Surroundings<'_> {
                 return None;
             }
             let Some(word) = self.word(number) else { continue };
-            if vocabulary::CURVES.iter().any(|(known, _)| *known == word) || word == "tips" {
+            if vocabulary::CURVES.iter().any(|(known, _)| *known == word) || Row::named(word).is_some() {
                 given.reverse();
                 return Some((word.to_owned(), given));
             }

@@ -83,7 +83,7 @@ fn of_entry(entry: &Entry, text: &Text) -> Option<DocumentSymbol> {
             let kind = SymbolKind::FUNCTION;
             Some(symbol(&name.node, value, kind, *span, name.span, text))
         }
-        Entry::Curve { .. } | Entry::Tips { .. } => None,
+        Entry::Curve { .. } | Entry::Row { .. } => None,
     }
 }
 

@@ -11,6 +11,7 @@ use vcutc_job::sema::study::Meaning;
 use vcutc_job::sema::vocabulary::{self, BlockSpec, Dimension, FieldSpec, Leaving, Signature, Takes};
 use vcutc_registry as registry;
 use vcutc_registry::OPERATIONS;
+use vcutc_syntax::ast::Row;
 
 /// One text for every path that ends as jobs do, and no other files.
 struct One(String);
@@ -307,7 +308,10 @@ fn fields() -> Vec<&'static FieldSpec> {
 fn the_grammar_of_editors_has_every_word_and_no_other() {
     let curves = vocabulary::CURVES.iter().map(|(word, _)| *word);
     let joints = vocabulary::JOINTS_OF_CURVES.iter().copied();
-    assert_eq!(named_by("curve", None), set(curves.chain(joints).chain(["tips"])));
+    assert_eq!(
+        named_by("curve", None),
+        set(curves.chain(joints).chain(Row::ALL.map(Row::word)))
+    );
     let functions = vocabulary::functions().map(|(name, _)| name);
     assert_eq!(named_by("call", Some(0)), set(functions));
     let calls = fields().into_iter().flat_map(|field| match field.takes {

@@ -82,8 +82,10 @@ pub enum Entry {
         curve: Curve,
         span: Span,
     },
-    /// `tips (x, z) ...`: where blades are to run.
-    Tips {
+    /// `tips (x, z) ...`, `body (height, radius) ...`.
+    Row {
+        /// The word that it begins with.
+        row: Spanned<Row>,
         /// The points, at least one.
         points: Vec<Point>,
         span: Span,
@@ -101,7 +103,36 @@ pub enum Relation {
     AtLeast,
 }
 
-/// A point `(x, z)` of a profile or of tips, as written.
+/// What a row of points states.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Row {
+    /// `tips (x, z) ...`: where blades are to run.
+    Tips,
+    /// `body (height, radius) ...`: how thick a blade is above its edge.
+    Body,
+}
+
+impl Row {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Tips, Self::Body];
+
+    /// The word that it begins with.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Tips => "tips",
+            Self::Body => "body",
+        }
+    }
+
+    /// The row that begins with a word.
+    #[must_use]
+    pub fn named(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|row| row.word() == word)
+    }
+}
+
+/// A point `(x, z)` of a profile or of a row, as written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
     /// Along x.

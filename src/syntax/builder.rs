@@ -3,7 +3,7 @@
 //! A statement that has an unreadable value is left out whole: half of a statement would only lead to complaints about
 //! what is missing in it. So the functions here return `None` for what has been reported already.
 
-use super::ast::{ArcBy, Ast, Block, Curve, Entry, HeadPart, Item, Point, Relation};
+use super::ast::{ArcBy, Ast, Block, Curve, Entry, HeadPart, Item, Point, Relation, Row};
 use super::bad::Bad;
 use super::grammar::{Mismatch, Rule};
 use super::mistakes;
@@ -191,10 +191,7 @@ impl<'t> Builder<'t> {
             Rule::limit => self.limit(pair),
             Rule::formula => self.formula(pair),
             Rule::inner_block => self.block(pair).map(Entry::Block),
-            Rule::tips => {
-                let points = self.points(pair)?;
-                Some(Entry::Tips { points, span })
-            }
+            Rule::row => self.row(pair),
             Rule::bad_entry => {
                 self.bad(&pair, Rule::only_entry);
                 None
@@ -280,6 +277,14 @@ impl<'t> Builder<'t> {
             Rule::polyline => Some(Curve::Polyline { through: points, to }),
             _ => None,
         }
+    }
+
+    fn row(&mut self, pair: Pair<'_, Rule>) -> Option<Entry> {
+        let span = self.place.span_of(&pair);
+        let word = self.place.spanned(&find(pair.clone(), Rule::row_word)?);
+        let row = Spanned::new(Row::named(&word.node)?, word.span);
+        let points = self.points(pair)?;
+        Some(Entry::Row { row, points, span })
     }
 
     /// The points of a row of them. All are read even if one is wrong, so that all are reported.

@@ -119,7 +119,7 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
 }
 
 /// Words that points in brackets follow.
-const WITH_POINTS: [&str; 5] = ["start", "bezier", "spline", "polyline", "tips"];
+const WITH_POINTS: [&str; 6] = ["start", "bezier", "spline", "polyline", "tips", "body"];
 
 /// Whether the statement goes on where the one before it ended, with no comma or line end between.
 fn is_leftover(bad: &Bad<'_>) -> bool {
@@ -148,6 +148,7 @@ fn is_plain_name(word: &str) -> bool {
             | "dxf"
             | "svg"
             | "tips"
+            | "body"
     )
 }
 

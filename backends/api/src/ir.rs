@@ -363,6 +363,19 @@ pub struct Blade {
     pub thickness: Length,
     /// Which sides cut.
     pub edges: Edges,
+    /// What is behind the edge, where the job states it: round stages about the tool axis, from the tip up.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body: Option<Vec<BodyStage>>,
+}
+
+/// A round part of a blade's body about the tool axis. It goes on up to the next one, the last one without end.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct BodyStage {
+    /// Height above the tip at which it begins, along the tool axis.
+    pub from: Length,
+    /// Its radius.
+    pub radius: Length,
 }
 
 /// Which sides of a blade cut.

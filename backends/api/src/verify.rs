@@ -15,8 +15,8 @@ pub use capability::{Capabilities, Capability};
 
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{
-    Action, Axis, Cell, Edges, Flank, Head, IR_VERSION, MOST_AXES, Op, OpId, Operation, OperationId,
-    OrientationId, Program, Purpose, Ready, Registered, Site, Switch,
+    Action, Axis, BodyStage, Cell, Edges, Flank, Head, IR_VERSION, MOST_AXES, Op, OpId, Operation,
+    OperationId, OrientationId, Program, Purpose, Ready, Registered, Site, Switch,
 };
 use crate::segments::Segment;
 use crate::state::{Generator, Place, State};
@@ -256,6 +256,7 @@ impl<'p> Walk<'p> {
                 && apex
                 && blade.thickness.is_finite()
                 && blade.thickness >= Length::ZERO
+                && blade.body.as_deref().is_none_or(has_sound_stages)
         });
         let speeds = p.feeds.iter().all(|f| f.is_finite() && f.to_mm_per_s() > 0.0)
             && p.rates.iter().all(|r| r.is_finite() && r.to_rad_per_s() > 0.0);
@@ -566,6 +567,15 @@ fn overhangs(operation: &Operation, held: Orientation) -> [Length; 2] {
     let axis = libm::acos((-held.matrix()[1][2]).clamp(-1.0, 1.0));
     let half_apex = operation.blade.half_apex.to_rad();
     [axis - half_apex, axis + half_apex].map(|angle| operation.blade.cutting_length * libm::cos(angle))
+}
+
+/// Whether the stages of a body are round, and rise.
+fn has_sound_stages(stages: &[BodyStage]) -> bool {
+    let positive = |length: Length| length.is_finite() && length > Length::ZERO;
+    let sound = |stage: &BodyStage| positive(stage.from) && positive(stage.radius);
+    !stages.is_empty()
+        && stages.iter().all(sound)
+        && stages.is_sorted_by(|below, above| below.from < above.from)
 }
 
 /// Whether all numbers of a machine but those of its axes are ones that it can have.

@@ -86,6 +86,10 @@ test("words are what they are", async () => {
       ["4", "constant.numeric"], ["mm", "keyword.other.unit"],
     ]],
     ["  tips", [["tips", "keyword.other.curve"]]],
+    ["  body (40 mm, 8 mm)", [
+      ["body", "keyword.other.curve"], ["40", "constant.numeric"], ["mm", "keyword.other.unit"],
+      ["8", "constant.numeric"], ["mm", "keyword.other.unit"],
+    ]],
   );
   for (const [line, wanted] of expected) {
     assert.deepStrictEqual(tokens(vcut, line), wanted, line);

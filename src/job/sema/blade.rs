@@ -1,7 +1,9 @@
 //! `blade NAME { ... }`.
 
+mod body;
+
 use super::eval::Scope;
-use super::fields::{BlockSpec, Fields, Inner, Place, Takes, value};
+use super::fields::{BlockSpec, Fields, Inner, Place, Takes, points, value};
 use super::range::{DISTANCE, HALF_APEX, SIZE};
 use super::read::{Reader, words_of};
 use super::report::Checked;
@@ -20,6 +22,7 @@ pub(crate) const SPEC: BlockSpec = BlockSpec {
         value("edges", "double")
             .required()
             .takes(Takes::Words(|| words_of(EDGES))),
+        points("body", "(40 mm, 8 mm) (90 mm, 30 mm)"),
     ],
     inner: Inner::Refused,
 };
@@ -42,6 +45,7 @@ pub(crate) fn check(
     let edges = fields
         .required_value("edges", reader.reports)
         .and_then(|expr| reader.word("edges", expr, EDGES));
+    let body = body::check(&fields, cutting_length.ok(), &mut reader);
     Ok(Blade {
         name: name.node.to_owned(),
         span: name.span,
@@ -49,5 +53,6 @@ pub(crate) fn check(
         half_apex: half_apex?,
         thickness: thickness?,
         edges: edges?.value,
+        body: body?,
     })
 }

@@ -118,8 +118,9 @@ impl<'a> Fields<'a> {
                 self.put(entry.related_at(relation.span), reports);
             }
             Entry::Block(inner) => self.sort_block(inner, reports),
-            Entry::Tips { points, span } => {
-                self.put(Given::points(&tips_name(*span), points, *span), reports)
+            Entry::Row { row, points, span } => {
+                let name = Spanned::new(row.node.word().to_owned(), row.span);
+                self.put(Given::points(&name, points, *span), reports)
             }
             Entry::Formula { span, .. } => {
                 reports.push(self.belongs_in_profile("a formula", *span));
@@ -293,13 +294,6 @@ const fn taken_value<'a>(slot: Option<&(Slot<'a>, Span)>) -> Checked<Option<&'a 
         Some((Slot::Spoiled(reported), _)) => Err(*reported),
         Some((Slot::Block(_) | Slot::Points(_), _)) | None => Ok(None),
     }
-}
-
-/// The word that a row of tips begins with.
-fn tips_name(row: Span) -> Spanned<String> {
-    const WORD: &str = "tips";
-    let end = row.start.saturating_add(4).min(row.end);
-    Spanned::new(WORD.to_owned(), Span { end, ..row })
 }
 
 /// The head of a block, from its first word to the last.

@@ -20,7 +20,7 @@ use vcutc_backend_api::ir::Stock;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
-use vcutc_syntax::ast::{Block, Curve, Entry, Expr};
+use vcutc_syntax::ast::{Block, Curve, Entry, Expr, Row};
 
 /// The polyline of a profile as it is drawn, with where its points come from.
 #[derive(Debug, Default)]
@@ -162,7 +162,7 @@ fn sort<'a>(block: &'a Block, place: Place, session: &mut Session<'_>) -> Checke
             },
             Entry::Field { name, .. } => no_field(name),
             Entry::Limit { name, .. } => no_field(name),
-            Entry::Tips { span, .. } => no_tips(*span),
+            Entry::Row { row, span, .. } => no_row(row.node, *span),
             Entry::Block(inner) => no_block(inner),
         };
         fault = Some(session.reports.push(found));
@@ -179,14 +179,26 @@ fn sort<'a>(block: &'a Block, place: Place, session: &mut Session<'_>) -> Checke
     }
 }
 
-fn no_tips(span: Span) -> Diagnostic {
+fn no_row(row: Row, span: Span) -> Diagnostic {
+    let (label, block) = match row {
+        Row::Tips => (
+            "says where the blade runs, not what the part looks like",
+            "`rough vcut { ... }`",
+        ),
+        Row::Body => (
+            "says how thick a blade is, not what the part looks like",
+            "`blade`",
+        ),
+    };
     Diagnostic::new(
         Code::Misplaced,
-        "`tips` does not belong in `profile`",
+        format!("`{}` does not belong in `profile`", row.word()),
         span,
-        "says where the blade runs, not what the part looks like",
+        label,
     )
-    .help("move it into the `rough vcut { ... }` block; a profile through points is a `polyline`")
+    .help(format!(
+        "move it into the {block} block; a profile through points is a `polyline`"
+    ))
 }
 
 fn second_formula(second: Span, first: Span) -> Diagnostic {

@@ -52,6 +52,7 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
                     half_apex: given(Angle::deg(7.13)),
                     thickness: mm(0.0),
                     edges: Edges::Double,
+                    body: None,
                 },
                 rake: given(Angle::deg(60.0)),
                 direction: given(Direction::Alternate),

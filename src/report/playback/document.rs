@@ -45,6 +45,8 @@ fn blade(operation: &Operation) -> Value {
         half_apex,
         thickness,
         edges,
+        // The player shows the blade up to its shank.
+        body: _,
         name: _,
     } = &operation.blade;
     json!({

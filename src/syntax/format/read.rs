@@ -363,7 +363,7 @@ impl<'t> Reader<'t> {
                 | Curve::Spline { .. }
                 | Curve::Polyline { .. } => self.statement(Kind::Curve, span.bytes().end),
             },
-            Entry::Tips { span, .. } => self.statement(Kind::Curve, span.bytes().end),
+            Entry::Row { span, .. } => self.statement(Kind::Curve, span.bytes().end),
             Entry::Block(block) => self.block(Kind::Block, &block.entries, block.span.bytes().end),
         }
     }

@@ -258,6 +258,7 @@ impl Recipe {
                 half_apex: HALF_APEX,
                 thickness: Length::mm(1.5),
                 edges: self.edges,
+                body: None,
             },
             source: SourceRef {
                 file: "sample.vcut".to_owned(),
