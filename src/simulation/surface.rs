@@ -196,6 +196,31 @@ impl Surface {
             .take_while(move |corner| corner.x <= to)
     }
 
+    /// The surface between two x: its corners there, and its points at both, as far as they are over the stock.
+    pub fn stretch(&mut self, from: f64, to: f64) -> impl Iterator<Item = Point2> + '_ {
+        let (from, to) = (from.max(0.0), to.min(self.width));
+        self.go_to(from);
+        let first = Point2 {
+            x: from,
+            z: self.height_here(from),
+        };
+        let mut before = Some(first);
+        let rest = self.right.iter().rev().map_while(move |&corner| {
+            let last = before?;
+            if corner.x < to {
+                before = Some(corner);
+                return Some(corner);
+            }
+            before = None;
+            let share = (to - last.x) / (corner.x - last.x);
+            Some(Point2 {
+                x: to,
+                z: last.z + (corner.z - last.z) * share,
+            })
+        });
+        core::iter::once(first).chain(rest).filter(move |_| from <= to)
+    }
+
     /// Moves the place of work to x: corner by corner, because it is nearly always a neighbour's.
     fn go_to(&mut self, x: f64) {
         while let Some(corner) = self.left.pop_if(|corner| corner.x > x) {

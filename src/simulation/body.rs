@@ -1,0 +1,269 @@
+//! The proof that the body of a blade, which is all of it above its edge, stays out of the work.
+//!
+//! A body is made of cylinders about the blade's axis ([`stage`]). The work is its cross-section swept along y, and a cut
+//! leads through all of its depth, so a body meets material in a cut if and only if its shadow on the x-z plane ([`shadow`])
+//! meets the section as it is before that cut. A shadow lies above the section where it lies above it over every x: that
+//! is the clearance, measured along z.
+//!
+//! On straight ways through the air the same holds of those discs of a body that come over the stock; each counts whole
+//! where any of it does. While the blade turns, the way is cut into spans: the cylinders of the middle of a span, grown by how
+//! far any of their points gets in half of it, contain all that the body covers meanwhile ([`turn`]). Moves of all axes have
+//! no straight way and are not looked at.
+
+mod shadow;
+mod stage;
+#[cfg(test)]
+mod tests;
+mod turn;
+
+use super::prove::{Bound, accompanied};
+use super::surface::Surface;
+use shadow::Shadow;
+use stage::{Axis, Cylinder, Way};
+use turn::Turning;
+use vcutc_backend_api::ir::{Action, OpId, OperationId, Program, Site, Stock};
+use vcutc_backend_api::segments::{LinearSegment, Segment};
+use vcutc_backend_api::units::Length;
+use vcutc_backend_api::verify::VerifiedProgram;
+use vcutc_geometry::curve::Point2;
+
+/// Depth below which contact is rounding: a nanometre.
+const TOUCH: f64 = 1e-6;
+
+/// How the bodies of a program's blades pass the work.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bodies {
+    /// How many motions take a body into the work, and the worst of them: the deepest cut, or if only ways do, the deepest way.
+    pub contact: Option<(usize, Contact)>,
+    /// Where a body comes nearest above the work in a cut.
+    pub nearest: Option<Passage>,
+}
+
+/// A body at its place nearest to the work in a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Passage {
+    /// The motion.
+    pub op: OpId,
+    /// What of the job it serves.
+    pub site: Site,
+    pub operation: OperationId,
+    /// The stage, counted from the edge.
+    pub stage: usize,
+    /// Where on the body.
+    pub at: Point2,
+    /// How far above the work that is, along z; negative within.
+    pub clearance: Length,
+}
+
+/// A body that enters the work.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Where it goes deepest.
+    pub passage: Passage,
+    /// In what motion.
+    pub during: During,
+    /// How deep in the part or its allowance it comes in the same motion.
+    pub in_part: Option<Length>,
+}
+
+/// The kinds of motions that bodies are looked at in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum During {
+    Way,
+    Cut,
+}
+
+/// Whether a program has a blade whose body is known.
+#[must_use]
+pub fn is_stated(program: &Program) -> bool {
+    program
+        .operations
+        .iter()
+        .any(|operation| operation.blade.body.is_some())
+}
+
+/// How the bodies of a program's blades pass the work. `bounds` are the operations' own, in order.
+#[must_use]
+pub fn bodies(verified: &VerifiedProgram, bounds: &[Bound<'_>]) -> Bodies {
+    let program = verified.program();
+    if !is_stated(program) {
+        return Bodies::default();
+    }
+    let mut watcher = Watcher::new(program, bounds);
+    let mut segments = program.segments();
+    accompanied(verified, &mut |_, surface| {
+        if let Some(segment) = segments.next() {
+            watcher.motion(&segment, surface);
+        }
+    });
+    watcher.found
+}
+
+/// The nearest place of a body on a way, and how it comes there.
+#[derive(Clone, Copy)]
+struct Near {
+    stage: usize,
+    at: Point2,
+    gap: f64,
+    axis: Axis,
+    way: Way,
+}
+
+/// The section of the stock as it is at a moment.
+struct Section<'s> {
+    stock: Stock,
+    surface: &'s mut Surface,
+    /// Of the piece looked at last.
+    piece: Vec<Point2>,
+}
+
+impl Section<'_> {
+    /// Where one of some cylinders, as the blade is held, comes nearest above the section on a way, if that is nearer than so
+    /// much. None where all of them pass beside it.
+    fn nearest(&mut self, stages: &[Cylinder], axis: Axis, way: Way, within: f64) -> Option<Near> {
+        let mut nearest: Option<Near> = None;
+        for (stage, cylinder) in stages.iter().enumerate() {
+            let within = nearest.map_or(within, |near| near.gap);
+            let low = cylinder.below_top(self.stock, way.lowest(), axis.rise());
+            let Some(shadow) = low.shadow(axis, way, self.stock) else {
+                continue;
+            };
+            if let Some((at, gap)) = self.gap(&shadow, within).filter(|&(_, gap)| gap < within) {
+                nearest = Some(Near {
+                    stage,
+                    at,
+                    gap,
+                    axis,
+                    way,
+                });
+            }
+        }
+        nearest
+    }
+
+    /// How far a shadow stays above the section, unless it plainly is farther than so much.
+    fn gap(&mut self, shadow: &Shadow, within: f64) -> Option<(Point2, f64)> {
+        if shadow.lowest().z - self.surface.top() >= within {
+            return None;
+        }
+        let (left, right) = shadow.span();
+        self.piece.clear();
+        self.piece.extend(self.surface.stretch(left, right));
+        shadow.nearest_above(&self.piece)
+    }
+}
+
+struct Watcher<'p> {
+    program: &'p Program,
+    bounds: &'p [Bound<'p>],
+    /// Of each operation.
+    stages: Vec<Vec<Cylinder>>,
+    found: Bodies,
+}
+
+impl<'p> Watcher<'p> {
+    fn new(program: &'p Program, bounds: &'p [Bound<'p>]) -> Self {
+        let stages = program.operations.iter().map(|operation| {
+            let stages = operation.blade.body.as_deref().unwrap_or_default();
+            Cylinder::all(stages)
+        });
+        Self {
+            program,
+            bounds,
+            stages: stages.collect(),
+            found: Bodies::default(),
+        }
+    }
+
+    fn motion(&mut self, segment: &Segment<'_>, surface: &mut Surface) {
+        let (Some(line), Some(operation)) = (segment.path.line(), segment.op.site.operation()) else {
+            return;
+        };
+        let during = match segment.op.action {
+            Action::Cut { .. } => During::Cut,
+            _ => During::Way,
+        };
+        let mut section = Section {
+            stock: self.program.stock,
+            surface,
+            piece: Vec::new(),
+        };
+        let Some(near) = self.nearest(line, operation, during, &mut section) else {
+            return;
+        };
+        let passage = Passage {
+            op: segment.id,
+            site: segment.op.site,
+            operation,
+            stage: near.stage,
+            at: near.at,
+            clearance: Length::mm(near.gap),
+        };
+        if near.gap < -TOUCH {
+            let in_part = self.in_part(operation, near);
+            self.note(Contact {
+                passage,
+                during,
+                in_part,
+            });
+        } else if during == During::Cut {
+            self.found.nearest = Some(passage);
+        }
+    }
+
+    /// Where the body comes nearest above the section: in a cut, if nearer than in any before; on a way, if it enters.
+    fn nearest(
+        &self,
+        line: &LinearSegment,
+        operation: OperationId,
+        during: During,
+        section: &mut Section<'_>,
+    ) -> Option<Near> {
+        let stages = self.stages.get(usize::from(operation.0))?;
+        let way = Way {
+            from: line.from.tip,
+            to: line.to.tip,
+        };
+        let ends = [line.from.orientation, line.to.orientation];
+        let [from, to] = ends.map(|id| self.program.orientation(id));
+        let (from, to) = (from?, to?);
+        if line.from.orientation != line.to.orientation {
+            return Turning { from, to, way }.entry(stages, section);
+        }
+        let known = self
+            .found
+            .nearest
+            .map_or(f64::INFINITY, |near| near.clearance.to_mm());
+        let within = match during {
+            During::Cut => known,
+            During::Way => -TOUCH,
+        };
+        section.nearest(stages, Axis::of(from), way, within)
+    }
+
+    /// How deep in the part a body comes that enters the stock.
+    fn in_part(&self, operation: OperationId, near: Near) -> Option<Length> {
+        let cylinder = self.stages.get(usize::from(operation.0))?.get(near.stage)?;
+        let part = self.bounds.get(usize::from(operation.0))?.part;
+        let shadow = cylinder.shadow(near.axis, near.way, self.program.stock)?;
+        let (_, gap) = shadow.nearest_above(part.points())?;
+        (gap < -TOUCH).then(|| Length::mm(-gap))
+    }
+
+    fn note(&mut self, contact: Contact) {
+        let worse = |known: &Contact| {
+            let rank = |contact: &Contact| (contact.during, -contact.passage.clearance.to_mm());
+            let ((during, depth), (known_during, known_depth)) = (rank(&contact), rank(known));
+            during > known_during || (during == known_during && depth > known_depth + TOUCH)
+        };
+        match &mut self.found.contact {
+            Some((count, known)) => {
+                *count += 1;
+                if worse(known) {
+                    *known = contact;
+                }
+            }
+            None => self.found.contact = Some((1, contact)),
+        }
+    }
+}

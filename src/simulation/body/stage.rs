@@ -1,0 +1,140 @@
+//! A stage of a body as the blade is held, cut off where it cannot come near the work.
+
+use super::shadow::{Ellipse, Shadow};
+use vcutc_backend_api::geometry::{Orientation, Point3};
+use vcutc_backend_api::ir::{BodyStage, Stock};
+use vcutc_geometry::curve::Point2;
+
+/// Nothing of a body is longer, in mm.
+const LONGEST: f64 = 100_000.0;
+
+/// A stage of a body: a cylinder about the blade's axis, seen from the tip. In mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Cylinder {
+    from: f64,
+    to: f64,
+    radius: f64,
+}
+
+impl Cylinder {
+    /// The stages of a body, each up to where the next one begins.
+    pub(super) fn all(stages: &[BodyStage]) -> Vec<Self> {
+        let ends = stages.iter().skip(1).map(|next| next.from.to_mm());
+        let ends = ends.chain([LONGEST]);
+        let cylinders = stages.iter().zip(ends).map(|(stage, to)| Self {
+            from: stage.from.to_mm(),
+            to,
+            radius: stage.radius.to_mm(),
+        });
+        cylinders.collect()
+    }
+
+    /// A cylinder that all points no farther than this from it lie in.
+    pub(super) fn grown(self, by: f64) -> Self {
+        Self {
+            from: self.from - by,
+            to: self.to + by,
+            radius: self.radius + by,
+        }
+    }
+
+    /// The farthest that any of its points is from the tip.
+    pub(super) fn reach(self) -> f64 {
+        libm::hypot(self.to, self.radius)
+    }
+
+    /// What of it may come as low as the stock's top, with the tip no lower than this and the axis rising at least so much;
+    /// its lower end stays.
+    pub(super) fn below_top(self, stock: Stock, lowest_tip: f64, rise: f64) -> Self {
+        if rise <= 0.0 {
+            return self;
+        }
+        let end = (stock.height.to_mm() - lowest_tip + self.radius) / rise;
+        Self {
+            to: self.to.min(self.from.max(end)),
+            ..self
+        }
+    }
+
+    /// What of it comes over the stock, seen along x and z, on a way of the tip; none where all of it passes before or behind.
+    fn over_stock(self, axis: Axis, way: Way, stock: Stock) -> Option<Self> {
+        let [_, y, _] = axis.0;
+        let half = self.radius * (1.0 - y * y).max(0.0).sqrt();
+        let near = way.from.y.min(way.to.y) - half;
+        let far = way.from.y.max(way.to.y) + half;
+        // Discs with y from `near + s y` to `far + s y` touch the stock from 0 to its depth.
+        let (enters, leaves) = (-far, stock.depth.to_mm() - near);
+        let (from, to) = if y.abs() * self.reach() < 1e-9 {
+            if enters > 0.0 || leaves < 0.0 {
+                return None;
+            }
+            (self.from, self.to)
+        } else {
+            let ends = [enters / y, leaves / y];
+            let [first, second] = if y > 0.0 { ends } else { [ends[1], ends[0]] };
+            (self.from.max(first), self.to.min(second))
+        };
+        (from <= to).then_some(Self { from, to, ..self })
+    }
+
+    /// What it covers of the section on a way of the tip with the blade held like this: all of it that comes over the stock
+    /// at some place of the way.
+    pub(super) fn shadow(self, axis: Axis, way: Way, stock: Stock) -> Option<Shadow> {
+        let over = self.over_stock(axis, way, stock)?;
+        let [x, _, z] = axis.0;
+        let start = Point2::new(way.from.x + over.from * x, way.from.z + over.from * z);
+        let length = over.to - over.from;
+        let along = [
+            Point2::new(length * x, length * z),
+            Point2::new(way.to.x - way.from.x, way.to.z - way.from.z),
+        ];
+        Some(Shadow::new(Ellipse::of_disc(over.radius, axis.0), start, along))
+    }
+}
+
+/// The unit vector from the tip to the shank.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Axis(pub(super) [f64; 3]);
+
+impl Axis {
+    pub(super) fn of(held: Orientation) -> Self {
+        let m = held.matrix();
+        Self([-m[0][2], -m[1][2], -m[2][2]])
+    }
+
+    /// How much it rises for each millimetre.
+    pub(super) const fn rise(self) -> f64 {
+        let [_, _, z] = self.0;
+        z
+    }
+}
+
+/// A straight way of the tip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Way {
+    pub(super) from: Point3,
+    pub(super) to: Point3,
+}
+
+impl Way {
+    /// The height of its lower end.
+    pub(super) const fn lowest(self) -> f64 {
+        self.from.z.min(self.to.z)
+    }
+
+    /// A part of it, between two shares.
+    pub(super) fn part(self, from: f64, to: f64) -> Self {
+        let at = |share: f64| {
+            let between = |a: f64, b: f64| a + (b - a) * share;
+            Point3::new(
+                between(self.from.x, self.to.x),
+                between(self.from.y, self.to.y),
+                between(self.from.z, self.to.z),
+            )
+        };
+        Self {
+            from: at(from),
+            to: at(to),
+        }
+    }
+}
