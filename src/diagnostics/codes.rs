@@ -151,6 +151,8 @@ codes! {
     ScallopOverLimit = "VC0403", Error, "scallop above the limit";
     /// Uncut material in the way of the blade's body.
     BladeBlocked = "VC0404", Error, "blade blocked by uncut material";
+    /// The body of a blade that comes into the work.
+    BodyInWork = "VC0405", Error, "body of the blade in the work";
 
     /// A machine that is not in the catalogue.
     UnknownMachine = "VC0501", Error, "unknown machine";

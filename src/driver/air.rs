@@ -3,7 +3,7 @@
 
 use super::{Compiled, Finished, Outcome, Stage, internal, motions_broken, paced, rules_broken};
 use crate::air_cut::{least_gap, least_lift, lifted};
-use crate::checks::{Carried, Checks};
+use crate::checks::{Bodies, Carried, Checks};
 use crate::summary::air::{AirFigures, Mover, summary};
 use crate::summary::times::figures as time_figures;
 use vcutc_backend_api::ir::{Head, Program, Purpose};
@@ -222,7 +222,7 @@ fn told(job: &CheckedJob, cutting: &Compiled, program: Finished) -> Compiled {
     let carried = job.machine.as_ref().zip(program.reached());
     let carried = carried.map(|(machine, reached)| Carried { machine, reached });
     Compiled {
-        checks: Checks::of_air_cut(carried, paced.basis),
+        checks: Checks::of_air_cut(carried, paced.basis, Bodies::of(job)),
         parameters: cutting.parameters.clone(),
         not_followed: None,
         numbers: cutting.numbers.clone(),

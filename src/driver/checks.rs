@@ -11,7 +11,7 @@ mod words;
 pub use words::CheckFigure;
 
 use vcutc_backend_api::ir::Axis;
-use vcutc_job::Machine;
+use vcutc_job::{CheckedJob, Machine};
 use vcutc_machine::Model;
 use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::opw::Coupling;
@@ -67,8 +67,10 @@ pub enum Reason {
     NoPlaceForIt,
     /// The arm has no closed form, and its distance from singularities is not measured.
     NotMeasured,
-    /// Neither arm nor holder has a body.
+    /// Nothing states the shapes.
     NoBody,
+    /// The program cuts nothing.
+    AirCut,
     /// The target has no reader.
     NoReader,
 }
@@ -99,6 +101,27 @@ pub enum ReadBack {
     NoReader,
 }
 
+/// Whether the bodies of a job's blades are known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bodies {
+    /// Of all of them.
+    Stated,
+    /// Not of all of them.
+    Lacking,
+}
+
+impl Bodies {
+    /// Of the blades of a job.
+    #[must_use]
+    pub fn of(job: &CheckedJob) -> Self {
+        let mut blades = job.operations.iter().map(|operation| &operation.setup().blade);
+        match blades.all(|blade| blade.body.is_some()) {
+            true => Self::Stated,
+            false => Self::Lacking,
+        }
+    }
+}
+
 /// All checks of a compilation that came to a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checks(Vec<Checked>);
@@ -115,18 +138,32 @@ pub struct Carried<'a> {
 impl Checks {
     /// The checks of a job whose cuts are proven.
     #[must_use]
-    pub fn of(carried: Option<Carried<'_>>, basis: Basis) -> Self {
-        Self::after(vec![made(Check::Chips), made(Check::Part)], carried, basis)
+    pub fn of(carried: Option<Carried<'_>>, basis: Basis, bodies: Bodies) -> Self {
+        let holder = match bodies {
+            Bodies::Stated => made(Check::Holder),
+            Bodies::Lacking => not_made(Check::Holder, Reason::NoBody),
+        };
+        Self::after(
+            vec![made(Check::Chips), made(Check::Part)],
+            carried,
+            basis,
+            holder,
+        )
     }
 
     /// The checks of an air cut.
     #[must_use]
-    pub fn of_air_cut(carried: Option<Carried<'_>>, basis: Basis) -> Self {
-        Self::after(vec![made(Check::AboveStock)], carried, basis)
+    pub fn of_air_cut(carried: Option<Carried<'_>>, basis: Basis, bodies: Bodies) -> Self {
+        let reason = match bodies {
+            Bodies::Stated => Reason::AirCut,
+            Bodies::Lacking => Reason::NoBody,
+        };
+        let holder = not_made(Check::Holder, reason);
+        Self::after(vec![made(Check::AboveStock)], carried, basis, holder)
     }
 
     /// The checks of the cuts, and those of what carries them out.
-    fn after(mut all: Vec<Checked>, carried: Option<Carried<'_>>, basis: Basis) -> Self {
+    fn after(mut all: Vec<Checked>, carried: Option<Carried<'_>>, basis: Basis, holder: Checked) -> Self {
         match carried {
             Some(carried) => all.extend(of_machine(carried)),
             None => all.extend(without_machine()),
@@ -138,7 +175,7 @@ impl Checks {
             Some(_) => not_made(Check::Accelerations, Reason::NotStated),
             None => not_made(Check::Accelerations, Reason::NoMachine),
         });
-        all.push(not_made(Check::Holder, Reason::NoBody));
+        all.push(holder);
         all.push(not_made(Check::Collisions, Reason::NoBody));
         Self(all)
     }

@@ -31,7 +31,7 @@ pub use refusal::{Patience, Unhurried};
 pub use vcutc_job::sema::Typed;
 pub use vcutc_remedy::fallback::NotFollowed;
 
-use crate::checks::{Carried, Checks};
+use crate::checks::{Bodies, Carried, Checks};
 use crate::memory::Memory;
 use crate::numbers::Numbers;
 use crate::summary::chosen::{self, OperationFigures};
@@ -414,7 +414,7 @@ fn compiled(
     let carried = job.machine.as_ref().zip(program.reached());
     let carried = carried.map(|(machine, reached)| Carried { machine, reached });
     Compiled {
-        checks: Checks::of(carried, paced.basis),
+        checks: Checks::of(carried, paced.basis, Bodies::of(job)),
         parameters: chosen::figures(plan),
         numbers: Numbers::of(plan, &report),
         summary: summary(plan, &report, paced.basis, figures.as_ref()),

@@ -5,12 +5,14 @@ pub mod chosen;
 pub mod times;
 
 use crate::checks::Checks;
+use vcutc_backend_api::ir::Site;
 use vcutc_backend_api::script::duration_words;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::number::show;
 use vcutc_job::{Order, PlannedJob};
 use vcutc_motion::pace::Basis;
 use vcutc_motion::summary::{self as reach_summary, ReachFigures};
+use vcutc_simulation::body::Passage;
 use vcutc_simulation::report::Report;
 
 /// Most layers whose cuts are listed one by one.
@@ -61,12 +63,25 @@ pub fn summary(
         show(longest_blade(plan).to_mm()),
     );
     lines.push(row("edge", &format!("{edge} of {blade} mm used at most")));
+    lines.extend(report.body.map(|nearest| row("body", &body(nearest))));
     if reach.is_some() {
         lines.push(row("in hand", IN_HAND));
     }
     let reach = reach.into_iter().flat_map(reach_summary::lines);
     lines.extend(reach.map(|(name, text)| row(name, &text)));
     lines
+}
+
+/// `at least 3.20 mm above the stock in cuts, nearest in layer 7, cut 12`.
+fn body(nearest: Passage) -> String {
+    let place = match nearest.site {
+        Site::Cut { layer, cut, .. } => format!(", nearest in layer {layer}, cut {cut}"),
+        Site::Program | Site::Operation(_) | Site::Layer { .. } => String::new(),
+    };
+    format!(
+        "at least {:.2} mm above the stock in cuts{place}",
+        nearest.clearance.to_mm()
+    )
 }
 
 /// The lines that say what is proven and what is not checked.

@@ -3,10 +3,12 @@
 //! A suggestion is only made after the job has been planned and proven again with it: what the help line offers works.
 
 mod attempts;
+mod bodies;
 
 use crate::lower;
 use crate::plan::plan_while;
 use attempts::Attempts;
+pub use bodies::headline as body_in_work;
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
@@ -19,6 +21,7 @@ use vcutc_job::operation::{Operation, WorksThere};
 use vcutc_job::planned::Balance;
 use vcutc_job::search::{RouteSet, SearchSpace};
 use vcutc_job::{CheckedJob, PlannedJob, PlannedOperation, Sourced};
+use vcutc_simulation::body::{self, Bodies};
 use vcutc_simulation::prove::{self, Bound, CutFault, Finding, Findings, Release, Replay};
 use vcutc_simulation::report::{Report, report};
 use vcutc_simulation::surface::Surface;
@@ -31,8 +34,18 @@ pub struct Proven {
     pub program: VerifiedProgram,
     /// What is wrong with its cuts.
     pub findings: Findings,
+    /// How the bodies of its blades pass the work.
+    pub bodies: Bodies,
     /// Its figures.
     pub report: Report,
+}
+
+impl Proven {
+    /// Whether nothing is wrong.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        self.findings == Findings::default() && self.bodies.contact.is_none()
+    }
 }
 
 /// Writes a plan down as a program and proves it.
@@ -44,12 +57,21 @@ pub fn prove(plan: &PlannedJob, sources: &SourceMap) -> Result<Proven, Vec<Fault
     let replay = replay(plan, &program);
     let findings = replay.findings.clone();
     let timing = timing(&program);
-    let report = report(replay, plan.stock, &plan.profile, timing);
+    let mut report = report(replay, plan.stock, &plan.profile, timing);
+    let bodies = bodies(plan, &program);
+    report.body = bodies.nearest;
     Ok(Proven {
         program,
         findings,
+        bodies,
         report,
     })
+}
+
+/// How the bodies of a program's blades pass the work.
+#[must_use]
+pub fn bodies(plan: &PlannedJob, program: &VerifiedProgram) -> Bodies {
+    body::bodies(program, &bounds(plan))
 }
 
 /// Replays the cuts of a program, each operation compared with what the plan keeps it out of.
@@ -98,6 +120,11 @@ pub fn diagnose_while(
         };
         let mut trials = Attempts::new(job, wanted, finding.operation, &mut effort);
         diagnostics.push(planned.explain(finding, count, &mut trials, works_there));
+    }
+    if let Some(found) = proven.bodies.contact {
+        let (_, contact) = found;
+        let mut trials = Attempts::new(job, wanted, contact.passage.operation, &mut effort);
+        diagnostics.extend(bodies::explained(plan, proven, found, &mut trials, works_there));
     }
     if diagnostics.is_empty()
         && let Some((operation, limit)) = scallop_excess(plan, &proven.report)
@@ -239,7 +266,7 @@ fn planned_and_proven(job: &CheckedJob, wanted: &Wanted, routes: RouteSet) -> Op
     let plan = || plan_while(job, SearchSpace::along(routes), wanted);
     let plan = wanted.answer(plan).ok()?.ok()?;
     let proven = prove(&plan, &SourceMap::default()).ok()?;
-    (proven.findings == Findings::default()).then_some((plan, proven))
+    proven.is_sound().then_some((plan, proven))
 }
 
 /// The operation with the tightest scallop limit, if the machined contour is above it.

@@ -341,6 +341,7 @@ impl Read<'_> {
             .iter()
             .filter_map(|(count, finding)| self.finding(count, &finding, is_reported))
             .collect();
+        found.extend(self.bodies(verified));
         if found.is_empty() && !is_reported {
             let report = report(replay, plan.stock, &plan.profile, timing(verified));
             let excess = verdict::scallop_excess(plan, &report);
@@ -363,6 +364,23 @@ impl Read<'_> {
             }));
         }
         found
+    }
+
+    /// The body of a blade that enters the stock.
+    fn bodies(&self, verified: &VerifiedProgram) -> Option<Diagnostic> {
+        let (count, contact) = verdict::bodies(self.checker.plan, verified).contact?;
+        let passage = contact.passage;
+        let operation = self.program().operation(passage.operation)?;
+        let label = format!(
+            "deepest at x {} mm, z {} mm",
+            show(passage.at.x),
+            show(passage.at.z)
+        );
+        let message = verdict::body_in_work(&operation.blade.name, contact);
+        let diagnostic = self
+            .at(Code::ProgramCuts, message, passage.op, label)
+            .help("restore the changed motions");
+        Some(and_more(diagnostic, count - 1))
     }
 
     fn finding(&self, count: usize, finding: &Finding, is_reported: bool) -> Option<Diagnostic> {

@@ -4,7 +4,7 @@ use super::Material;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{AxisKind, Edges, Ready, Registered};
 use vcutc_diagnostics::number::show;
-use vcutc_job::{Blade, CheckedJob, Machine, Setup};
+use vcutc_job::{Blade, Body, CheckedJob, Machine, Setup};
 
 /// A name and a value, as plain text.
 pub(super) type Fact = (&'static str, String);
@@ -69,13 +69,23 @@ fn words(blade: &Blade) -> String {
         Edges::Single => "single",
         Edges::Double => "double",
     };
+    let body = blade.body.as_ref().map_or_else(String::new, body);
     format!(
-        "{}: {edges} edge {} mm long, half apex {} deg, {} mm thick",
+        "{}: {edges} edge {} mm long, half apex {} deg, {} mm thick{body}",
         blade.name,
         show(blade.cutting_length.value.to_mm()),
         show(blade.half_apex.value.to_deg()),
         show(blade.thickness.value.to_mm())
     )
+}
+
+/// `; body of radius 8 mm from 40 mm on, 30 mm from 90 mm on`.
+fn body(body: &Body) -> String {
+    let stages = body.stages.iter().map(|stage| {
+        let (from, radius) = (stage.from.value.to_mm(), stage.radius.value.to_mm());
+        format!("{} mm from {} mm on", show(radius), show(from))
+    });
+    format!("; body of radius {}", stages.collect::<Vec<_>>().join(", "))
 }
 
 /// Where x, y and z of a tool point, seen from the flange.

@@ -1,5 +1,6 @@
 //! The figures of a proven program: what people want to see before they run it.
 
+use super::body::Passage;
 use super::contour::{Sampled, Scallop, farthest};
 use super::prove::Replay;
 use super::timing::Times;
@@ -30,6 +31,8 @@ pub struct Report {
     /// The point of the part farthest from the machined contour. Over a hollow that no cut reaches it is farther away than
     /// any point of the machined contour is from the part.
     pub deepest: Scallop,
+    /// Where a blade's body comes nearest above the work in a cut, where one is stated and looked at.
+    pub body: Option<Passage>,
 }
 
 impl Report {
@@ -76,6 +79,7 @@ pub fn report(replay: Replay, stock: Stock, part: &Profile, times: Times) -> Rep
         longest_edge: replay.longest_edge,
         correlation: Sampled::of(&corners, part.points()).correlation(),
         deepest,
+        body: None,
     }
 }
 

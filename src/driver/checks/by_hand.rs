@@ -70,6 +70,7 @@ impl Reason {
             Self::NoPlaceForIt => "a machine's description has no field for the range",
             Self::NotMeasured => "not measured for an arm without a closed-form solution",
             Self::NoBody => "the compiler does not know their shapes",
+            Self::AirCut => "an air cut is compared with nothing but the top of the stock",
             Self::NoReader => "this target's programs are not read back",
         }
     }

@@ -31,6 +31,9 @@ impl Checks {
         if self.is_made(&Check::AboveStock) {
             parts.push("the tip stays above the stock".to_owned());
         }
+        if self.is_made(&Check::Holder) {
+            parts.push("the body of the blade stays out of the stock".to_owned());
+        }
         if self.is_made(&Check::AxisLimits) {
             parts.push(self.of_motions());
         }
@@ -187,6 +190,7 @@ impl Reason {
             Self::NoPlaceForIt => "no_place_for_it",
             Self::NotMeasured => "not_measured",
             Self::NoBody => "no_body",
+            Self::AirCut => "air_cut",
             Self::NoReader => "no_reader",
         }
     }
@@ -199,6 +203,7 @@ impl Reason {
             Self::NoPlaceForIt => "descriptions of machines cannot state its range",
             Self::NotMeasured => "not measured for an arm without a closed-form solution",
             Self::NoBody => "their shapes are not known",
+            Self::AirCut => "an air cut is compared with nothing but the top of the stock",
             Self::NoReader => "the target has no reader",
         }
     }

@@ -9,6 +9,8 @@
 //! | words for summary, report and editor | `summary`, `tables` |
 
 pub mod asked;
+#[cfg(test)]
+mod bodies;
 mod check;
 pub mod choice;
 mod lower;

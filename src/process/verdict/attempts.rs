@@ -39,6 +39,15 @@ impl<'a> Attempts<'a> {
     }
 }
 
+impl Attempts<'_> {
+    /// Takes the work of a replay of so many cuts, if there is any left.
+    pub(super) const fn spend(&mut self, cuts: usize) -> bool {
+        let is_left = !self.effort.is_spent();
+        self.effort.spend(cuts);
+        is_left
+    }
+}
+
 impl Trials for Attempts<'_> {
     fn proves(&mut self, change: &dyn Fn(&mut dyn Operation)) -> bool {
         if self.effort.is_spent() {
@@ -47,10 +56,12 @@ impl Trials for Attempts<'_> {
         let Some(changed) = changed(self.job, self.operation, change) else {
             return false;
         };
-        if let Some(answer) = is_plannable(&changed, self.effort, self.wanted) {
-            return answer;
+        match is_plannable(&changed, self.effort, self.wanted) {
+            // Bodies are looked at in whole programs only.
+            Some(true) if has_body(&changed) => {}
+            Some(answer) => return answer,
+            None => self.effort.spend(WHOLE_JOB),
         }
-        self.effort.spend(WHOLE_JOB);
         planned_and_proven(&changed, self.wanted, RouteSet::Full)
             .is_some_and(|(plan, proven)| scallop_excess(&plan, &proven.report).is_none())
     }
@@ -61,6 +72,12 @@ impl Trials for Attempts<'_> {
         let place = usize::from(self.operation.0);
         (place < plan.operations.len()).then(|| plan.operations.swap_remove(place))
     }
+}
+
+/// Whether a blade of a job states its body.
+fn has_body(job: &CheckedJob) -> bool {
+    let mut setups = job.operations.iter().map(|operation| operation.setup());
+    setups.any(|setup| setup.blade.body.is_some())
 }
 
 /// The job with a change of one operation.

@@ -9,7 +9,6 @@ use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::CheckedJob;
 use vcutc_process::plan::plan;
 use vcutc_process::verdict;
-use vcutc_simulation::prove::Findings;
 use vcutc_vcut::plan::parameters::VcutParameters;
 use vcutc_vcut::{PlannedVcut, RoughVcut};
 
@@ -85,7 +84,7 @@ fn planned(job: &CheckedJob) -> Option<Plan> {
     let plan = plan?;
     let proven = verdict::prove(&plan, &SourceMap::default()).ok()?;
     let vcut = PlannedVcut::of(plan.operation(OperationId(0))?)?;
-    (proven.findings == Findings::default()).then(|| Plan {
+    proven.is_sound().then(|| Plan {
         parameters: vcut.parameters.clone(),
         time: proven.report.times.all.total(),
         cuts: vcut.cuts.len(),

@@ -1,0 +1,224 @@
+//! A blade's body that enters the work, in the user's words, and which change keeps it out.
+//!
+//! At most one change of each kind is offered: a smaller swing, a steeper rake, a body that begins higher. Each was tried: the
+//! first two planned and proven again, the last replayed on the same program.
+
+use super::attempts::Attempts;
+use super::{Proven, bodies, point};
+use vcutc_backend_api::ir::{BodyStage, Program, Site};
+use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::verify::{VerifiedProgram, verify};
+use vcutc_diagnostics::number::show;
+use vcutc_diagnostics::source::Span;
+use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_geometry::grid;
+use vcutc_job::operation::{Operation, Trials, Variation, WorksThere};
+use vcutc_job::{Body, PlannedJob, PlannedOperation};
+use vcutc_simulation::body::{Contact, During};
+
+/// By how many degrees the rake is made steeper, one after the other.
+const STEEPER: [f64; 4] = [5.0, 10.0, 15.0, 20.0];
+
+/// How often the height that a body begins at is doubled or halved in search of one that is clear.
+const MOST_HEIGHTS: usize = 16;
+
+/// What is wrong, with what helps; so many motions take a body into the work.
+pub(super) fn explained(
+    plan: &PlannedJob,
+    proven: &Proven,
+    (count, contact): (usize, Contact),
+    attempts: &mut Attempts<'_>,
+    works_there: &mut WorksThere<'_>,
+) -> Option<Diagnostic> {
+    let planned = plan.operation(contact.passage.operation)?;
+    let told = told(planned.asked(), count, contact)?;
+    let told = with_smaller_swing(told, planned, attempts, works_there);
+    let told = with_steeper_rake(told, planned.asked(), attempts, works_there);
+    let told = with_higher_body(told, plan, proven, contact, attempts);
+    Some(if told.fixes.is_empty() && told.help.is_empty() {
+        told.help("use a blade with a longer or thinner shank")
+    } else {
+        told
+    })
+}
+
+fn told(asked: &dyn Operation, count: usize, contact: Contact) -> Option<Diagnostic> {
+    let setup = asked.setup();
+    let body = setup.blade.body.as_ref()?;
+    let stage = body.stages.get(contact.passage.stage)?;
+    let place = stage.radius.span.unwrap_or(body.span);
+    let diagnostic = Diagnostic::new(
+        Code::BodyInWork,
+        headline(&setup.blade.name, contact),
+        stage.from.span.map_or(place, |from| from.to(place)),
+        format!("this stage goes deepest at {}", point(contact.passage.at)),
+    )
+    .and(setup.head_span, "this operation holds the blade like that");
+    let diagnostic = match contact.in_part {
+        Some(depth) => diagnostic.note(format!(
+            "there it enters the part or its allowance by {} mm",
+            show(depth.to_mm())
+        )),
+        None => diagnostic,
+    };
+    Some(match count {
+        0 | 1 => diagnostic,
+        2 => diagnostic.note("one more motion takes the body into the stock"),
+        _ => diagnostic.note(format!("{} more motions take the body into the stock", count - 1)),
+    })
+}
+
+/// `the body of `dagger` enters the stock by 3.2 mm in layer 7, cut 12`.
+#[must_use]
+pub fn headline(blade: &str, contact: Contact) -> String {
+    let depth = show(-contact.passage.clearance.to_mm());
+    let place = match (contact.during, contact.passage.site) {
+        (During::Cut, Site::Cut { layer, cut, .. }) => format!("in layer {layer}, cut {cut}"),
+        (During::Way, Site::Cut { layer, cut, .. }) => format!("on the way to layer {layer}, cut {cut}"),
+        (_, Site::Layer { layer, .. }) => format!("on the way to or from layer {layer}"),
+        (_, Site::Program | Site::Operation(_)) => "on the way to or from the work".to_owned(),
+    };
+    format!("the body of `{blade}` enters the stock by {depth} mm {place}")
+}
+
+fn with_smaller_swing(
+    told: Diagnostic,
+    planned: &dyn PlannedOperation,
+    attempts: &mut Attempts<'_>,
+    works_there: &mut WorksThere<'_>,
+) -> Diagnostic {
+    let variants = planned.asked().variants(planned, Variation::SmallerSwing);
+    let works = variants.into_iter().find(|variant| {
+        attempts.proves(&|operation| operation.assign(&*variant.operation))
+            && (variant.edits.is_empty() || works_there(&variant.edits))
+    });
+    match works {
+        Some(variant) if variant.edits.is_empty() => told.help(variant.advice),
+        Some(variant) => told.fix_all(variant.advice, &variant.edits),
+        None => told,
+    }
+}
+
+fn with_steeper_rake(
+    told: Diagnostic,
+    asked: &dyn Operation,
+    attempts: &mut Attempts<'_>,
+    works_there: &mut WorksThere<'_>,
+) -> Diagnostic {
+    let rake = asked.setup().rake;
+    let Some(span) = rake.span else {
+        return told;
+    };
+    let rakes = STEEPER.map(|more| Angle::deg(rake.value.to_deg().round() + more));
+    let text = |rake: Angle| format!("{} deg", show(rake.to_deg()));
+    let works = rakes
+        .into_iter()
+        .filter(|steeper| steeper.to_deg() <= 90.0)
+        .find(|&steeper| {
+            attempts.proves(&|operation| operation.setup_mut().rake.value = steeper)
+                && works_there(&[(span, text(steeper))])
+        });
+    match works {
+        Some(rake) => told.fix(format!("use a `rake` of {}", text(rake)), span, text(rake)),
+        None => told,
+    }
+}
+
+/// With the least height that the body may begin at, where one is clear of the work.
+fn with_higher_body(
+    told: Diagnostic,
+    plan: &PlannedJob,
+    proven: &Proven,
+    contact: Contact,
+    attempts: &mut Attempts<'_>,
+) -> Diagnostic {
+    let body = plan
+        .operation(contact.passage.operation)
+        .and_then(|planned| planned.asked().setup().blade.body.as_ref());
+    let name = (proven.program.program())
+        .operation(contact.passage.operation)
+        .map(|operation| operation.blade.name.clone());
+    let (Some(body), Some(name)) = (body, name) else {
+        return told;
+    };
+    let mut is_clear = |stages: &[BodyStage]| {
+        if !attempts.spend(plan.cuts()) {
+            return false;
+        }
+        with_body(proven.program.program(), &name, stages)
+            .is_some_and(|program| bodies(plan, &program).contact.is_none())
+    };
+    let Some(stages) = least_clear(body, Length::ZERO - contact.passage.clearance, &mut is_clear) else {
+        return told;
+    };
+    let text = |height: Length| format!("{} mm", show(height.to_mm()));
+    let given = body.stages.iter().zip(&stages);
+    let edits: Option<Vec<(Span, String)>> = given
+        .map(|(stage, higher)| Some((stage.from.span?, text(higher.from))))
+        .collect();
+    let heights: Vec<String> = stages.iter().map(|stage| text(stage.from)).collect();
+    let advice = match heights.as_slice() {
+        [only] => format!("use a longer blade, whose body begins at {only}"),
+        all => format!("use a longer blade, whose stages begin at {}", all.join(", ")),
+    };
+    match edits {
+        Some(edits) => told.fix_all(advice, &edits),
+        None => told.help(advice),
+    }
+}
+
+/// The stages of a body moved up the axis until they are clear: to a tenth of a millimetre or so, as they are written.
+fn least_clear(
+    body: &Body,
+    depth: Length,
+    is_clear: &mut dyn FnMut(&[BodyStage]) -> bool,
+) -> Option<Vec<BodyStage>> {
+    let (mut too_low, mut raise, mut found) = (Length::ZERO, depth.max(LEAST_RAISE), None);
+    for _ in 0..MOST_HEIGHTS {
+        let stages = raised(body, raise);
+        let next = if is_clear(&stages) {
+            found = Some((raise, stages));
+            (too_low + raise) / 2.0
+        } else {
+            too_low = raise;
+            match &found {
+                Some((clear, _)) => (raise + *clear) / 2.0,
+                None => raise * 2.0,
+            }
+        };
+        let is_near = |(clear, _): &(Length, Vec<BodyStage>)| *clear - too_low <= NEAR_ENOUGH;
+        if found.as_ref().is_some_and(is_near) {
+            break;
+        }
+        raise = next;
+    }
+    found.map(|(_, stages)| stages)
+}
+
+/// By how much a body is raised at first, at least.
+const LEAST_RAISE: Length = Length::mm(1.0);
+
+/// A gap between heights that is no wider than this is not halved.
+const NEAR_ENOUGH: Length = Length::mm(0.1);
+
+/// A body moved up the axis, its heights rounded up to a tenth of a millimetre.
+fn raised(body: &Body, by: Length) -> Vec<BodyStage> {
+    let stages = body.stages.iter();
+    stages
+        .map(|stage| BodyStage {
+            from: Length::mm(grid::up((stage.from.value + by).to_mm() * 0.01) * 100.0),
+            radius: stage.radius.value,
+        })
+        .collect()
+}
+
+/// A program with another body on all blades of that name.
+fn with_body(program: &Program, name: &str, stages: &[BodyStage]) -> Option<VerifiedProgram> {
+    let mut changed = program.clone();
+    for operation in &mut changed.operations {
+        if operation.blade.name == name {
+            operation.blade.body = Some(stages.to_vec());
+        }
+    }
+    verify(changed).ok()
+}
