@@ -176,7 +176,7 @@ impl<'p> Watcher<'p> {
     }
 
     fn motion(&mut self, segment: &Segment<'_>, surface: &mut Surface) {
-        let (Some(line), Some(operation)) = (segment.path.line(), segment.op.site.operation()) else {
+        let (Some(line), Some(operation)) = (segment.line(), segment.op.site.operation()) else {
             return;
         };
         let during = match segment.op.action {
@@ -188,7 +188,7 @@ impl<'p> Watcher<'p> {
             surface,
             piece: Vec::new(),
         };
-        let Some(near) = self.nearest(line, operation, during, &mut section) else {
+        let Some(near) = self.nearest(&line, operation, during, &mut section) else {
             return;
         };
         let passage = Passage {

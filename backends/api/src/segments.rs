@@ -165,7 +165,9 @@ impl LinearSegment {
     #[must_use]
     pub fn of(program: &Program, from: TipPose, action: &Action) -> Option<Self> {
         let to = action.leads_to(Some(from))?;
-        Self::with(program, [from, to], action, || angle(program, [from.orientation, to.orientation]))
+        Self::with(program, [from, to], action, || {
+            angle(program, [from.orientation, to.orientation])
+        })
     }
 
     /// The same with its end, and how far the blade turns, from elsewhere.

@@ -506,7 +506,10 @@ impl<'p> Walk<'p> {
     }
 
     fn rotation(&mut self, segment: &Segment<'_>) {
-        self.require(segment.turn().is_none_or(|turn| turn < LARGEST_TURN), Rule::AmbiguousTurn);
+        self.require(
+            segment.turn().is_none_or(|turn| turn < LARGEST_TURN),
+            Rule::AmbiguousTurn,
+        );
     }
 
     /// The tip's way through the air stays on one outer side of the stock (which is convex, so both ends tell).

@@ -85,9 +85,8 @@ fn sampled(verified: &VerifiedProgram, points: &[[f64; 3]]) -> Vec<(bool, f64)> 
     accompanied(verified, &mut |id, surface| {
         let segment = segments[id.0 as usize];
         if let Some(gap) = segment
-            .path
             .line()
-            .and_then(|line| lowest(program, line, points, surface))
+            .and_then(|line| lowest(program, &line, points, surface))
         {
             found.push((matches!(segment.op.action, Action::Cut { .. }), gap));
         }
