@@ -1,4 +1,4 @@
-//! Several programs in one run: compiled side by side, told in order, each written whole or not at all.
+//! Several programs in one run: compiled side by side, reported in order, each written whole or not at all.
 //!
 //! Nothing is written before all are compiled, since only then it is known whether two of them want the same file. Each job
 //! gets a thread; what its own proof does in parallel goes to the one pool that all share, so there are never more proofs at

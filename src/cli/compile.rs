@@ -207,7 +207,7 @@ pub(super) struct Carried<'a> {
     pub(super) memory: &'a mut Memory,
     /// The files that nothing is written over.
     pub(super) disk: &'a Disk,
-    /// Changes what is told of the outcome before anything is made of it, and may write files of its own.
+    /// Changes what is reported of the outcome before anything is made of it, and may write files of its own.
     pub(super) amend: &'a mut dyn FnMut(&mut Outcome) -> Result<Amended, Failure>,
 }
 

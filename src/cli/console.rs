@@ -43,7 +43,7 @@ pub(super) struct Console {
     help_budget: HelpBudget,
 }
 
-/// How much is told besides diagnostics.
+/// How much is printed besides diagnostics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Detail {
     DiagnosticsOnly,
@@ -497,7 +497,7 @@ impl Console {
     }
 }
 
-/// What was planned, and the verdict below it. Of several programs neither is told.
+/// What was planned, and the verdict below it. Of several programs neither is printed.
 fn lines(summary: &Summary<'_>) -> Vec<String> {
     let checks = summary.checks.as_ref().filter(|_| !summary.lines.is_empty());
     let verdict = checks.map(verdict).unwrap_or_default();
@@ -576,7 +576,7 @@ fn placed(files: &[Placed]) -> String {
     listed("wrote", &written) + &listed("unchanged:", &unchanged(files)) + &over
 }
 
-/// A line for each file; a program of many parts is told in one.
+/// A line for each file; a program of many parts gets one line.
 fn listed(what: &str, files: &[&str]) -> String {
     match files {
         [first, .., last] if files.len() > MOST_FILES_LISTED => {

@@ -1,6 +1,6 @@
 //! `vcutc fmt [FILE|FOLDER|-]...`: job files in the one layout.
 //!
-//! A file with mistakes is told of and left alone, and so is one that has the layout already; every other one is replaced whole
+//! A file with mistakes is reported and left alone, and so is one that has the layout already; every other one is replaced whole
 //! or not at all. One file in trouble does not keep the others from being formatted.
 
 use super::Exit;
@@ -223,7 +223,7 @@ fn within(folder: &Path, name: &str) -> PathBuf {
     }
 }
 
-/// The text of a file in the layout, or how the run ends because it has none, which has been told.
+/// The text of a file in the layout, or how the run ends because it has none, which has been reported.
 fn formatted(name: &str, bytes: Vec<u8>, console: &Console) -> Result<String, Exit> {
     let mut sources = SourceMap::default();
     let result: Result<String, Vec<Diagnostic>> = match text_from_bytes(bytes) {

@@ -1,6 +1,6 @@
 //! `vcutc lsp`: messages between standard input, the language server, and a thread that plans.
 //!
-//! Messages are taken in the order in which they come. When none waits, what has changed is looked at and told; when nothing
+//! Messages are taken in the order in which they come. When none waits, what has changed is checked and reported; when nothing
 //! changes for a moment, a job that is right so far goes to the thread that plans, one at a time. A job whose text changes
 //! meanwhile is planned no further.
 
@@ -23,7 +23,7 @@ use vcutc_lsp::wire::{self, Broken, Fault, Incoming};
 use vcutc_lsp::{Done, Ending, Server, Task, Workspace};
 use vcutc_registry::OPERATIONS;
 
-/// How long nothing must have been told, such as a change of a text, before a job is planned. Questions are no reason to wait.
+/// How long no message, such as a change of a text, must have come before a job is planned. Questions are no reason to wait.
 const PAUSE: Duration = Duration::from_millis(250);
 
 /// How long help with a refused job is looked for: who types on ends it sooner.
@@ -109,7 +109,7 @@ struct Conversation<'c> {
     waiting: VecDeque<Event>,
     tasks: Sender<Task>,
     planner: Planner,
-    /// When something was told last.
+    /// When the last message came.
     told: Instant,
     /// Standard error, which editors keep in a log.
     console: &'c Console,
@@ -167,7 +167,7 @@ impl Conversation<'_> {
         self.server.handle(message, &Disk)
     }
 
-    /// Waits for the next event; if nothing is told for a moment, a job is planned meanwhile, before others the one that was changed last.
+    /// Waits for the next event; if none comes for a moment, a job is planned meanwhile, before others the one that was changed last.
     fn wait(&mut self, events: &Receiver<Event>) -> Option<Event> {
         match events.recv_timeout(PAUSE.saturating_sub(self.told.elapsed())) {
             Ok(event) => return Some(event),

@@ -30,7 +30,7 @@ pub(super) fn machines(name: Option<&str>, console: &Console) -> Exit {
     }
 }
 
-/// The machine of a name of the catalogue or of a file. What is wrong has been told when there is none.
+/// The machine of a name of the catalogue or of a file. What is wrong has been reported when there is none.
 pub(super) fn load(name: &str, console: &Console) -> Result<Model, Exit> {
     description(name, console).map(|description| description.model)
 }

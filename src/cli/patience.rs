@@ -1,7 +1,7 @@
 //! How long help with a refused job is waited for.
 //!
 //! The compiler reads no clock: a thread of its own drops the interest in help when the time is over. What was found by then is
-//! told, so the time decides which help lines appear, and nothing else.
+//! reported, so the time decides which help lines appear, and nothing else.
 
 use super::progress::Progress;
 use std::cell::RefCell;

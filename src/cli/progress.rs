@@ -87,7 +87,7 @@ impl Progress {
     }
 }
 
-/// What the line is told.
+/// What the line shows.
 enum Event {
     Stage(Stage),
     /// The job is refused, with this headline.

@@ -1,4 +1,4 @@
-//! Programs on their way into a folder: written, or held against what is there.
+//! Programs on their way into a folder: written, or compared with what is there.
 
 use super::files::load_program;
 use super::output::{Destination, Output, Placed};

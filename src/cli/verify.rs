@@ -1,4 +1,4 @@
-//! `vcutc verify JOB PROGRAM...`: a program held against the job that it was made from.
+//! `vcutc verify JOB PROGRAM...`: a program compared with the job that it was made from.
 
 use super::args::VerifyArgs;
 use super::console::{Console, Failure, Summary};

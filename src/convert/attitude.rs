@@ -15,7 +15,7 @@ use vcutc_diagnostics::Diagnostic;
 /// Cosine of the largest lean that is taken for rounding: a tenth of a degree.
 const UPRIGHT: f64 = 1.0 - 1.5e-6;
 
-/// The first motion below the blank's top with a tool that leans, told with where it last stood upright.
+/// The first motion below the blank's top with a tool that leans, and where it last stood upright.
 pub(super) fn leaning(milling: &Milling, axes: Axes, blank: Blank, tolerance: f64) -> Option<Diagnostic> {
     let top = blank.corner[2] + blank.height - SAME;
     let mut upright: Option<(&Move, UprightAxis)> = None;

@@ -13,7 +13,7 @@
 //! 3. `feeds` and `part` take speeds, the part and the least edge from the passes where the user gives none.
 //! 4. [`mod@write`] writes the job, and knows for every tip the line of the program that it stands for.
 //!
-//! What is not said by the user is taken from the program only where that leaves one possibility, and told
+//! What is not said by the user is taken from the program only where that leaves one possibility, and reported
 //! ([`Inference`]).
 
 pub mod arc;

@@ -19,7 +19,7 @@ pub struct Milling {
     pub settings: Vec<Span>,
     /// Statements with an effect that a conversion does not carry over.
     pub left_out: Vec<Span>,
-    /// What axes outside of the arm are told to be all along: their names and values, in mm or degrees.
+    /// What axes outside of the arm are stated to be all along: their names and values, in mm or degrees.
     pub external: Vec<(&'static str, f64)>,
     /// Where routines that are carried out break off without `END`.
     pub ends_early: Vec<Span>,
@@ -65,7 +65,7 @@ pub enum Way {
     Straight,
     /// On a circular arc: `CIRC`, `SCIRC`.
     Arc {
-        /// The arc, told as the motion's end is; none where nobody knows.
+        /// The arc, stated as the motion's end is; none where nobody knows.
         course: Option<CircularArc>,
     },
     /// As all axes like it: `PTP`, `SPTP`.

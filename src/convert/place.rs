@@ -1,8 +1,8 @@
 //! Where the blank lies in a milling program, and along which axis the program cuts.
 //!
 //! Programs do not say where their blank is. Three places are usual for their zero: a corner of the blank, the middle of it,
-//! and either at the bottom or at the top. Where the passes leave one of them only, that one is taken and told; where they
-//! leave several, the user is asked, and told which option says which of them.
+//! and either at the bottom or at the top. Where the passes leave one of them only, that one is taken and reported; where they
+//! leave several, the user is asked, with the option for each of them.
 
 use super::Inference;
 use super::asked::Asked;
@@ -301,7 +301,7 @@ fn too_short(milling: &Milling, passes: &[Run], [least, most]: [f64; 2], asked: 
     }])
 }
 
-/// What is told of a place that was found.
+/// The message about a place that was found.
 fn placed((side, xs): (End, [f64; 2]), (front, ys): (End, [f64; 2]), bottom: &Bottom) -> Inference {
     let returns = match bottom.returns {
         None => String::new(),

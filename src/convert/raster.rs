@@ -49,7 +49,7 @@ pub struct Raster {
 /// swing.
 ///
 /// # Errors
-/// Motions in the material that are no passes, told one by one.
+/// Motions in the material that are not passes, reported one by one.
 pub(super) fn recognise(
     milling: &Milling,
     axes: Axes,
@@ -135,7 +135,7 @@ impl Raster {
     }
 }
 
-/// Most motions that are told as no passes.
+/// Most motions that are reported as not being passes.
 const MOST_COMPLAINTS: usize = 5;
 
 struct Builder {

@@ -115,7 +115,7 @@ pub(super) struct Reader<'a> {
     pub(super) milling: Milling,
     pub(super) external: ExternalAxes,
     pub(super) speed: Option<Written>,
-    /// Statements that decide what is made, and are open; each with whether a motion in it was told.
+    /// Statements that decide what is made, and are open; each with whether a motion in it was reported.
     pub(super) forks: Vec<Fork>,
     pub(super) frames: Frames,
     complaints: Vec<Diagnostic>,
@@ -128,7 +128,7 @@ pub(super) struct Fork {
     pub(super) told: Told,
 }
 
-/// Whether a motion that depends on a statement was told.
+/// Whether a motion that depends on a statement was reported.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Told {
     Not,

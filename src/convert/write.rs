@@ -126,7 +126,7 @@ pub(super) fn job(material: &Material<'_>) -> JobText {
     writer.operation(material);
     let mut scratch = SourceMap::default();
     let file = scratch.add(String::new(), String::new());
-    // What cannot be laid out is as it was written, and its mistakes are told when it is compiled.
+    // What cannot be laid out is as it was written, and its mistakes are reported when it is compiled.
     let text = format(file, &writer.text).unwrap_or(writer.text);
     let origins = origins(file, &text, &material.raster.passes);
     JobText { text, origins }

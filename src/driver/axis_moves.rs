@@ -9,7 +9,7 @@ use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::CheckedJob;
 use vcutc_motion::solve::Reached;
 
-/// So few are told in the summary only.
+/// So few are reported in the summary only.
 const FEW: usize = 10;
 
 /// What there is to tell where more than a quarter of the travels, and more than [`FEW`], are made with all axes.

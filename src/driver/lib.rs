@@ -381,8 +381,8 @@ fn helped(
     told
 }
 
-/// What is told of a limit that no plan keeps offers what the fastest plan keeps; but its machine may follow only a slower one.
-/// So the job is compiled without these limits, and what is told is what that comes to.
+/// The message about a limit that no plan keeps offers what the fastest plan keeps; but its machine may follow only a slower one.
+/// So the job is compiled without these limits, and the message reports the result.
 fn with_limits_that_are_kept(
     job: &CheckedJob,
     (refused, at_once): (&Refused<'_>, &[Diagnostic]),

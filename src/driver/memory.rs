@@ -6,7 +6,7 @@
 //!
 //! A stale answer cannot be used. Questions are compared by value; only what is left out of them on purpose could mislead,
 //! and that is little: of a job the places and the options of targets, which the planner does not read and which the plan is
-//! given anew, and of a program the places that its operations come from. A motion that was kept is besides held against its
+//! given anew, and of a program the places that its operations come from. A motion that was kept is besides compared with its
 //! program once more before anybody gets the two ([`again`]).
 //!
 //! How much is kept is bounded by a number of cuts and ops in all. A memory without room keeps nothing, and costs nothing.

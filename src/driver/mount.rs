@@ -1,7 +1,7 @@
-//! Tool frames that no mount gives: what can be told of how the blade is clamped without seeing it.
+//! Tool frames that no mount gives: what can be known of how the blade is clamped without seeing it.
 //!
 //! Any turn of the blade about its own axis can be built, so nothing here judges which way edge and flat look: that is for people
-//! to check in the hand, with the figure in `docs/language.md` and the lines at the head of every program. What is told:
+//! to check in the hand, with the figure in `docs/language.md` and the lines at the head of every program. What is reported:
 //!
 //! - **A blade that points back at the flange.** The axis z of the frame leads from the shank out through the tip. Seen from the
 //!   flange a tip lies out along it, or to the side of it where the holder is bent; it does not lie the other way, with the shank

@@ -1,4 +1,4 @@
-//! The figures of a program as data: for other programs to read, and to be held against those of an earlier version.
+//! The figures of a program as data: for other programs to read, and to compare with those of an earlier version.
 //!
 //! All are rounded to the decimals that they are written with, so that a figure that was read back from a file equals the
 //! one that was written: what is compared is what people see in a diff.

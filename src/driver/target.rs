@@ -1,4 +1,4 @@
-//! Between a job and a target: options held against what the target takes, and the target's objections in words.
+//! Between a job and a target: options compared with what the target takes, and the target's objections in words.
 
 mod speeds;
 
@@ -64,7 +64,7 @@ impl From<Diagnostic> for Objection {
 }
 
 /// What the targets for which the job's machine has a block object to its program, so that it is known before anything is
-/// written. A block may stand there before the machine's signals and home are known: what is missing of those is told when the
+/// written. A block may stand there before the machine's signals and home are known: what is missing of those is reported when the
 /// program is written. Targets that are programs of their own are not run for it.
 pub(super) fn objections(job: &CheckedJob, compiled: &Compiled, request: Request<'_>) -> Vec<Objection> {
     let Some(reached) = compiled.program.reached() else {

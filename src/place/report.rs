@@ -9,7 +9,7 @@ use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_diagnostics::number::show;
 use vcutc_remedy::wording::frame_text;
 
-/// Most places that did not pass which are told of.
+/// Most places without room that the report lists.
 const MOST_REFUSED: usize = 3;
 
 /// A few lines, ending in the frame to paste.

@@ -1,6 +1,6 @@
 //! HTML from templates: files in `src/report/templates`, copied into the program, with `{name}` where something goes.
 //!
-//! What goes there is told apart by its type: [`Html`] is taken as it is, texts are escaped. `html!` is read when the compiler is
+//! What goes there is distinguished by its type: [`Html`] is taken as it is, texts are escaped. `html!` is read when the compiler is
 //! built, so a template that lacks a value, or a value without a place, does not compile.
 
 use core::ops::{Add, AddAssign};

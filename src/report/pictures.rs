@@ -193,7 +193,7 @@ struct Machined {
     surfaces: Vec<Vec<[f64; 2]>>,
 }
 
-/// Most surfaces that are kept: more layers could not be told apart.
+/// Most surfaces that are kept: more layers could not be distinguished.
 const MOST_SURFACES: usize = 60;
 /// Columns in which a surface is looked at.
 const COLUMNS: u32 = 2400;

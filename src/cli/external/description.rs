@@ -1,4 +1,4 @@
-//! What an outside program says that it is, held against what a backend may be.
+//! What an outside program says that it is, compared with what a backend may be.
 
 use super::fault::{fault, line};
 use vcutc_backend_api::backend::{Fault, OptionKind, OptionSpec};
@@ -159,7 +159,7 @@ fn readable(reads: &Reads, specs: &[OptionSpec]) -> Result<(), Fault> {
     }
 }
 
-/// Whether programs printed with that resolution can be told from each other.
+/// Whether programs printed with that resolution differ.
 ///
 /// # Errors
 /// Which of its values is too coarse, and how large it may be.

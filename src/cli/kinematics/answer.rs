@@ -18,7 +18,7 @@ pub(super) struct Reached<'m> {
     pub(super) pose_of: &'m str,
     pub(super) pose: Frame,
     pub(super) joints: Joints,
-    /// How the machine stands, where that can be told.
+    /// How the machine stands, where that is known.
     pub(super) branch: Option<Branch>,
 }
 

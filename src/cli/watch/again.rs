@@ -1,4 +1,4 @@
-//! A run of a job that is watched: compiled, made into its program and told, and made once more where something was in the way
+//! A run of a job that is watched: compiled, made into its program and reported, and made once more where something was in the way
 //! of its files.
 
 use super::stamps::{Asked, Recorder};
@@ -44,11 +44,11 @@ pub(super) enum Seen<'s> {
 
 /// How a run ended.
 pub(super) enum Came {
-    /// All is done and told.
+    /// All is done and reported.
     Told,
-    /// It was overtaken, and nothing is told.
+    /// It was overtaken, and nothing is reported.
     Needless,
-    /// All is told, but the program is not written.
+    /// All is reported, but the program is not written.
     Unwritten(Box<Unwritten>),
 }
 
@@ -84,7 +84,7 @@ impl<'a> Watched<'a> {
         &self.args.job
     }
 
-    /// Compiles the job once more. `see` gets to see what came of it before it is told.
+    /// Compiles the job once more. `see` gets to see what came of it before it is reported.
     pub(super) fn run(&self, means: Means<'_>, see: &dyn Fn(&Seen<'_>)) -> Came {
         let Means {
             asked,
@@ -138,7 +138,7 @@ impl<'a> Watched<'a> {
         }
     }
 
-    /// Tries once more to write a program. Nothing is told while the same is in its way.
+    /// Tries once more to write a program. Nothing is reported while the same is in its way.
     pub(super) fn write_again(
         &self,
         mut unwritten: Box<Unwritten>,

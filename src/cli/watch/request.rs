@@ -11,7 +11,7 @@ pub(super) const LONGEST_HEAD: usize = 8 << 10;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Asked {
     Page,
-    /// To be told when the page is no longer of this version.
+    /// To learn when the page is no longer of this version.
     Changes {
         version: String,
     },

@@ -1,7 +1,7 @@
 //! The report in a browser: a server for this machine alone, with a page that is loaded anew when the job has changed.
 //!
 //! It listens on 127.0.0.1, answers `GET` and `HEAD` of two addresses, and reads no file: all it can give away is the page. Requests
-//! are bounded in length and time, and so is how many are answered at once. A page asks `/changes` with its version and is told
+//! are bounded in length and time, and so is how many are answered at once. A page asks `/changes` with its version and learns
 //! of the next one by an event of the server ([HTML], section 9.2).
 //!
 //! [HTML]: https://html.spec.whatwg.org/multipage/server-sent-events.html
@@ -36,7 +36,7 @@ const BUSY: Drained = Drained {
     most: 2,
     each: Duration::from_millis(50),
 };
-/// How often a page that waits for changes is told that nothing has changed, which shows whether it is still there.
+/// How often a page that waits for changes learns that nothing has changed, which shows whether it is still there.
 const SIGN_OF_LIFE: Duration = Duration::from_secs(10);
 
 /// The page and its version.

@@ -1,4 +1,4 @@
-//! The tool and the base that targets are told in.
+//! The tool and the base that targets are stated in.
 //!
 //! One of each for all passes is the job's own frame, whichever it is. A change between them is not followed, so what counts is
 //! whether the frames of a motion are those of the first straight one. They may be set as `$TOOL` and `$BASE`, by number with
@@ -167,7 +167,7 @@ impl Reader<'_> {
             return;
         }
         if self.frames.first.is_none() {
-            // Positions told in other frames are none in these.
+            // Positions stated in other frames are none in these.
             for made in &mut self.milling.moves {
                 made.to = None;
             }
@@ -177,7 +177,7 @@ impl Reader<'_> {
     }
 
     /// Whether a motion, with what holds for it alone, has the frames of the first straight one. A straight motion that has not
-    /// is told, once for every change.
+    /// is reported, once for every change.
     pub(crate) fn frames_of(
         &mut self,
         context: Context<'_>,
@@ -227,7 +227,7 @@ impl Reader<'_> {
     }
 }
 
-/// Whether a motion is told in the frames of the first straight one.
+/// Whether a motion is stated in the frames of the first straight one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Framing {
     /// It is, or there is none so far.

@@ -25,7 +25,7 @@ use vcutc_diagnostics::source::Span;
 pub(crate) struct ExternalAxes {
     /// Where they are while the tool is led to points, and which motion said so first.
     held: Option<(Position, Span)>,
-    /// Where they were told to move, if that was said.
+    /// Where they were commanded to move, if the program states it.
     moved: Option<Span>,
 }
 
@@ -117,7 +117,7 @@ impl Reader<'_> {
         self.arrive(after, Way::Arc { course }, &arc.tail, place);
     }
 
-    /// Whether a motion is made is decided while the program runs: then it is told, once for what decides.
+    /// Whether a motion is made is decided while the program runs: then it is reported, once for what decides.
     fn depends(&mut self, place: Span) -> bool {
         let Some(fork) = self.forks.last_mut() else {
             return false;

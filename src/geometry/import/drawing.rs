@@ -92,7 +92,7 @@ pub struct Stroke {
     pub shapes: Vec<Shape>,
 }
 
-/// Something that a reader decided, to be told.
+/// Something that a reader decided, to be reported.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Remark {
     pub place: Place,

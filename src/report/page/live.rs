@@ -10,7 +10,7 @@ pub(super) const SCRIPT: &str = include_str!("../assets/live.js");
 pub struct Served {
     /// What sets this page apart from all others that were or will be shown at its address.
     pub version: String,
-    /// What went wrong besides the job, to be told at the top.
+    /// What went wrong besides the job, shown at the top.
     pub trouble: Option<String>,
 }
 

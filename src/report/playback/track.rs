@@ -1,9 +1,9 @@
 //! Where the axes are all along a program, thinned out.
 //!
 //! The axes at the end of every op are kept, and between them the fewest places (knots) from which the way of the axes can
-//! be told again. Between knots axes follow the cubic through the four nearest ones of the same op, its start among them; a
+//! be reproduced. Between knots axes follow the cubic through the four nearest ones of the same op, its start among them; a
 //! motion of all axes needs no knots of its own, a straight cut one or two. Knots are added until every sample of
-//! [`motions`] at [`SPACING`] is told again well within [`TURN_ERROR`] and [`WAY_ERROR`], so that closer samples are
+//! [`motions`] at [`SPACING`] is reproduced well within [`TURN_ERROR`] and [`WAY_ERROR`], so that closer samples are
 //! within them.
 //!
 //! Values are kept in 16 bits over the range that the axis uses, which the errors take into account.
@@ -20,7 +20,7 @@ use vcutc_motion::trajectory::{Motion, Spacing, motions};
 pub const TURN_ERROR: f64 = core::f64::consts::PI / 3600.0;
 /// Largest error of a linear axis, in mm.
 pub const WAY_ERROR: f64 = 0.2;
-/// How close the samples are that are told again: 10 mm of the tip's way, 2.5 deg of turning.
+/// How close the samples are that are reproduced: 10 mm of the tip's way, 2.5 deg of turning.
 pub const SPACING: Spacing = Spacing {
     way: 10.0,
     turn: core::f64::consts::PI / 72.0,
@@ -194,7 +194,7 @@ fn whole(value: f64) -> u16 {
     value.round().clamp(0.0, STEPS) as u16
 }
 
-/// The fewest of an op's samples, of those spread evenly over its way, from which the others can be told.
+/// The fewest of an op's samples, of those spread evenly over its way, from which the others can be computed.
 fn fewest(axes: &[Axis], from: Joints, samples: &[Knot]) -> Vec<Knot> {
     let start = Knot {
         done: 0.0,

@@ -142,7 +142,7 @@ impl Ways {
         }
     }
 
-    /// What is told where the ways change places by less than rounding.
+    /// The message where the ways change places by less than rounding.
     fn turn_at(&self, x: f64) -> RingError {
         let place = self
             .on

@@ -272,7 +272,7 @@ impl<'f, 't> Unfolding<'f, 't> {
     }
 }
 
-/// What is told of a spline that the file gives no control points of.
+/// The message about a spline without control points.
 const FITTED: &str = "this SPLINE has no control points; a natural cubic spline over the length of its chords is drawn \
                       through its fit points; another program may draw another curve";
 
