@@ -8,7 +8,8 @@
 use std::io::{self, Write};
 use vcutc_backend_api::ir::{Axis, AxisKind, Op, Site};
 use vcutc_job::CheckedJob;
-use vcutc_motion::solve::{Reached, rig};
+use vcutc_motion::rigs::Rigs;
+use vcutc_motion::solve::Reached;
 use vcutc_motion::trajectory::{Sample, Spacing, trajectory};
 
 /// Writes the rows, one after the other.
@@ -22,8 +23,8 @@ pub(super) fn write(job: &CheckedJob, reached: &Reached, out: &mut dyn Write) ->
         write!(out, ",{}_{}", axis.name, unit(axis))?;
     }
     writeln!(out)?;
-    let rig = rig(&machine.model, cell);
-    trajectory(&reached.program, &rig, &Spacing::CLOSE, |sample| {
+    let rigs = Rigs::of(&machine.model, cell, program);
+    trajectory(&reached.program, &rigs, &Spacing::CLOSE, |sample| {
         match program.ops.get(sample.op.0 as usize) {
             Some(op) => row(op, &sample, &cell.axes, out),
             None => Ok(()),

@@ -162,6 +162,12 @@ codes! {
     HomeOutsideLimits = "VC0503", Error, "home outside the axis limits";
     /// An orientation that is none.
     NotARotation = "VC0504", Error, "orientation that is not a rotation";
+    /// A blade that the machine has no tool for.
+    BladeWithoutTool = "VC0505", Error, "blade without a tool";
+    /// Several blades, and no word of how they are changed.
+    NoChange = "VC0506", Error, "blades that cannot be changed";
+    /// Two tools of the same place or number.
+    SamePlace = "VC0507", Error, "two tools in one place";
     /// A motion that the machine does not reach.
     OutOfReach = "VC0510", Error, "motion out of reach";
     /// A motion that takes an axis beyond its limit.

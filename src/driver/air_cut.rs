@@ -95,7 +95,7 @@ fn raised(
         Action::Turn { rate, .. } => *rate = rate_of(*rate),
         Action::Ultrasonic { state } => *state = Switch::Off,
         Action::AwaitReady => return None,
-        Action::Home | Action::Dwell { .. } | Action::ToolChange { .. } => {}
+        Action::Home | Action::ChangePlace | Action::Dwell { .. } | Action::ToolChange { .. } => {}
     }
     Some(action)
 }

@@ -22,7 +22,7 @@ const SAME_DEGREES: f64 = 1e-4;
 /// What is doubtful about the frame of the job's tool.
 pub(super) fn doubts(job: &CheckedJob) -> Option<Diagnostic> {
     let machine = job.machine.as_ref()?;
-    let frame = machine.tool.value.frame;
+    let frame = machine.tools.first().frame.value.frame;
     back(job, machine, frame).or_else(|| radians(job, machine, frame))
 }
 
@@ -30,7 +30,7 @@ fn diagnostic(job: &CheckedJob, machine: &Machine, message: String, label: &str)
     Diagnostic::new(
         Code::ToolFrame,
         message,
-        machine.tool.span.unwrap_or(job.name_span),
+        machine.tools.first().frame.span.unwrap_or(job.name_span),
         label,
     )
 }

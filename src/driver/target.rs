@@ -541,9 +541,9 @@ fn said_by_profile(block: &TargetOptions, key: &str) -> Option<Span> {
 fn machine_span(machine: Option<&Machine>, what: &str) -> Option<Span> {
     let machine = machine?;
     match what.split(' ').next()? {
-        "tool" => machine.tool.span,
+        "tool" => machine.tools.first().frame.span,
         "base" => machine.base.span,
-        "load" => machine.load.and_then(|load| load.span),
+        "load" => machine.tools.first().load.and_then(|load| load.span),
         "home" => machine.home.and_then(|home| home.span),
         "output" => machine.ultrasonic.and_then(|output| output.span),
         "input" | "time" => machine.ready.span,

@@ -8,15 +8,17 @@ pub mod operation;
 mod places;
 pub mod sema;
 pub mod setup;
+mod tools;
 
 pub use operation::planned::{self, PlannedJob, PlannedOperation};
 pub use operation::planning::PlanningJob;
 pub use operation::{Operation, search};
 pub use sema::part::Part;
 pub use setup::Setup;
+pub use tools::{HeldChange, HeldTool, HeldTools};
 
 use std::sync::Arc;
-use vcutc_backend_api::ir::{self, AxisValues, Edges, Load, PlacedFrame, Ready, Registered, Stock};
+use vcutc_backend_api::ir::{self, AxisValues, Edges, PlacedFrame, Ready, Stock};
 use vcutc_backend_api::profile::Profile as Habits;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::source::{Span, Spanned};
@@ -190,14 +192,14 @@ pub struct Machine {
     pub model_span: Span,
     /// Where the file of the machine states the limits of its axes; empty for machines of the catalogue.
     pub limit_spans: Vec<LimitPlaces>,
-    /// Blade frame seen from the flange.
-    pub tool: Sourced<PlacedFrame>,
+    /// How it holds the blades.
+    pub tools: HeldTools,
     /// Workpiece frame seen from the machine's root.
     pub base: Sourced<PlacedFrame>,
-    /// What the flange carries.
-    pub load: Option<Sourced<Registered<Load>>>,
     /// Where the axes are at home.
     pub home: Option<Sourced<AxisValues>>,
+    /// How blades are changed.
+    pub change: Option<HeldChange>,
     /// Output that runs the generator.
     pub ultrasonic: Option<Sourced<u32>>,
     /// How readiness is known. Default: 0.5 s after switching on.

@@ -79,9 +79,11 @@ fn machine(machine: &mut Machine, place: Span) {
     machine.head_span = place;
     machine.model_span = place;
     machine.limit_spans.clear();
-    machine.tool.forget_place(place);
+    machine.tools.forget_places(place);
+    if let Some(change) = &mut machine.change {
+        change.span = place;
+    }
     machine.base.forget_place(place);
-    optional(&mut machine.load, place);
     optional(&mut machine.home, place);
     optional(&mut machine.ultrasonic, place);
     machine.ready.forget_place(place);

@@ -40,6 +40,7 @@ pub mod session;
 pub mod setup;
 mod stock;
 pub mod study;
+mod tools;
 pub mod units;
 pub mod vocabulary;
 pub mod written;
@@ -242,6 +243,18 @@ fn whole(
         Some(machine) => options::over(machine, said.options, scope, session).map(Some),
         None => Ok(None),
     });
+    let machine = match (machine, &operations) {
+        (Ok(Some(machine)), Ok(operations)) => {
+            let blades: Vec<&Blade> = operations
+                .iter()
+                .map(|operation| &operation.setup().blade)
+                .collect();
+            tools::used(machine, &blades)
+                .map(Some)
+                .map_err(|fault| session.reports.push(*fault))
+        }
+        (machine, _) => machine,
+    };
     let (name, stock) = (name?, stock?);
     Ok(CheckedJob {
         name: name.node.clone(),

@@ -13,7 +13,7 @@ use super::values::{Begun, Place};
 use lsp_types::CompletionItemKind;
 use vcutc_backend_api::backend::Backend;
 use vcutc_job::sema::kind::Operations;
-use vcutc_job::sema::vocabulary::{self, BlockSpec, FieldSpec, Form, Inner, Need};
+use vcutc_job::sema::vocabulary::{self, BlockSpec, FieldSpec, Form, Need};
 use vcutc_machine::catalogue;
 
 /// What is offered, and the bytes that it replaces.
@@ -135,7 +135,7 @@ impl Desk<'_> {
             return Vec::new();
         };
         let mut offers = self.fields(spec, innermost);
-        if spec.inner == Inner::TargetOptions {
+        if spec.inner.takes_target_options() {
             let missing = self
                 .targets
                 .iter()

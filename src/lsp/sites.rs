@@ -5,7 +5,7 @@
 
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_job::sema::kind::Operations;
-use vcutc_job::sema::vocabulary::{self, BlockSpec, FieldSpec, Inner, Leaving, RESERVED, Takes};
+use vcutc_job::sema::vocabulary::{self, BlockSpec, FieldSpec, Leaving, RESERVED, Takes};
 use vcutc_syntax::ast::{ArcBy, Argument, Ast, Block, Curve, Entry, Expr, HeadPart, Item, Point};
 
 /// A place and what is there.
@@ -226,7 +226,7 @@ impl<'a> Row<'a> {
             field,
             ..place
         };
-        let is_target = outer.is_some_and(|spec| spec.inner == Inner::TargetOptions);
+        let is_target = outer.is_some_and(|spec| spec.inner.takes_target_options());
         if let Some(spec) = field.and_then(FieldSpec::inner) {
             self.push(*span, Kind::Block, within(place.block));
             self.entries(&inner.entries, Some(spec), within(word));

@@ -14,6 +14,7 @@ pub mod pace;
 pub mod path;
 pub mod reorient;
 pub mod rig;
+pub mod rigs;
 mod runs;
 pub mod solve;
 mod stands;

@@ -26,8 +26,7 @@ mod track;
 
 use crate::moves::paths;
 use crate::path::{Course, Followed};
-use crate::rig::Rig;
-use crate::solve::rig;
+use crate::rigs::Rigs;
 use chebyshev::Weights;
 use profile::Bounds;
 use rayon::prelude::*;
@@ -97,7 +96,7 @@ pub fn paced(reached: &ReachableProgram, model: &Model) -> Paced {
     };
     let clock = Clock {
         reached,
-        rig: rig(model, cell),
+        rigs: Rigs::of(model, cell, reached.program()),
         maker: cell.maker,
         axes: axis_bounds(&model.axes),
         path: model.path,
@@ -118,7 +117,7 @@ pub fn paced(reached: &ReachableProgram, model: &Model) -> Paced {
         match (path, known) {
             (Path::Still, _) => {}
             (_, Some(seconds)) => *time = Duration::s(seconds),
-            (Path::Home | Path::Axes(_), None) => paced.basis.untimed += 1,
+            (Path::Home | Path::Change | Path::Axes(_), None) => paced.basis.untimed += 1,
             (Path::Linear(_), None) => paced.basis.unfollowed += 1,
         }
     }
@@ -138,7 +137,7 @@ fn axis_bounds(axes: &[Axis]) -> [Bounds; MOST_AXES] {
 /// All that times depend on.
 struct Clock<'r> {
     reached: &'r ReachableProgram,
-    rig: Rig<'r>,
+    rigs: Rigs<'r>,
     maker: Maker,
     axes: [Bounds; MOST_AXES],
     path: PathLimits,
@@ -174,7 +173,9 @@ impl Clock<'_> {
         let start = self.reached.axes_before(op).map(|start| start.0);
         match path {
             Path::Still => None,
-            Path::Home | Path::Axes(_) => self.by_axes(&start?, &self.reached.axes_after(op)?.0),
+            Path::Home | Path::Change | Path::Axes(_) => {
+                self.by_axes(&start?, &self.reached.axes_after(op)?.0)
+            }
             Path::Linear(line) => match self.kept() {
                 Kept::Speeds => Some(line.duration().to_s()),
                 Kept::Accelerations | Kept::Jerks => self.along(op, line, &start?),
@@ -211,7 +212,7 @@ impl Clock<'_> {
         let end = self.reached.axes_after(op)?.0;
         let course = Course::of(self.reached.program(), line)?;
         let branch = self.reached.branch_after(op)?;
-        let followed = Followed::new(&self.rig, &course, branch, [start, &end])?;
+        let followed = Followed::new(self.rigs.during(op), &course, branch, [start, &end])?;
         let mut near = *start;
         let mut seconds = 0.0;
         for ends in self.stops(op).windows(2) {

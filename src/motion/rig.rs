@@ -34,7 +34,11 @@ impl<'m> Rig<'m> {
     /// The machine of a job.
     #[must_use]
     pub fn of(machine: &'m Machine) -> Self {
-        Self::new(&machine.model, machine.tool.value.frame, machine.base.value.frame)
+        Self::new(
+            &machine.model,
+            machine.tools.first().frame.value.frame,
+            machine.base.value.frame,
+        )
     }
 
     /// Where the flange is in the root when the blade is there in the work.

@@ -8,6 +8,7 @@ use core::ops::Range;
 use vcutc_backend_api::ir::{Action, OpId, Program};
 use vcutc_backend_api::segments::{LinearSegment, Path};
 use vcutc_backend_api::state::TipPose;
+use vcutc_machine::kinematics::Joints;
 
 /// A stretch of a program, beginning with the op that leads to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +22,9 @@ pub(super) struct Station {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum StationKind {
     /// The machine is at home.
-    Home,
+    Home(Joints),
+    /// It is where its blade is changed.
+    Change(Joints),
     /// A run that is reached by an axis move.
     Run(TipPose),
     /// A run that is reached along a course, which an axis move could take the place of.
@@ -43,10 +46,18 @@ impl Station {
         OpId(u32::try_from(self.ops.start).unwrap_or(u32::MAX))
     }
 
+    /// Where the axes are, if its place is given by their values.
+    pub(super) const fn stands(&self) -> Option<Joints> {
+        match self.kind {
+            StationKind::Home(joints) | StationKind::Change(joints) => Some(joints),
+            StationKind::Run(_) | StationKind::Joined(_) => None,
+        }
+    }
+
     /// The pose with which a run begins.
     pub(super) const fn begins(&self) -> Option<TipPose> {
         match self.kind {
-            StationKind::Home => None,
+            StationKind::Home(_) | StationKind::Change(_) => None,
             StationKind::Run(taught) => Some(taught),
             StationKind::Joined(line) => Some(line.to),
         }
@@ -56,9 +67,13 @@ impl Station {
 /// Takes a program apart. Ops before the first station belong to none: they move nothing.
 pub(super) fn split(program: &Program, paths: &[Path], split: Split) -> Vec<Station> {
     let mut stations: Vec<Station> = Vec::new();
+    let cell = program.cell.as_ref();
+    let home = cell.and_then(|cell| cell.home).map(|home| home.0);
+    let change = cell.and_then(|cell| cell.change).map(|change| change.at.0);
     for (op, path) in numbered(paths) {
         let kind = match (path, split) {
-            (Path::Home, _) => Some(StationKind::Home),
+            (Path::Home, _) => home.map(StationKind::Home),
+            (Path::Change, _) => change.map(StationKind::Change),
             (&Path::Axes(taught), _) => Some(StationKind::Run(taught)),
             (Path::Linear(line), Split::AtDetours) if may_move_axes(program, op, line) => {
                 Some(StationKind::Joined(*line))

@@ -22,6 +22,7 @@ use super::ladder::{Stuck, climb};
 use super::moves::paths;
 use super::path::{Clearance, Proof};
 use super::rig::Rig;
+use super::rigs::{Rigs, Turn, turns};
 use super::runs::{Split, Station, StationKind, split};
 use super::stands::Stands;
 use super::survey::{Survey, middles, moved, opened};
@@ -32,7 +33,7 @@ use super::ways::{OnBranch, Ways};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Frame;
-use vcutc_backend_api::ir::{Action, Axis, AxisValues, Cell, OpId, Program};
+use vcutc_backend_api::ir::{Action, Axis, AxisValues, OpId, Program, ToolId};
 use vcutc_backend_api::motion::{Branch, Motion, MotionFault, MotionRule, ReachableProgram, Stretch};
 use vcutc_backend_api::segments::Path;
 use vcutc_backend_api::state::TipPose;
@@ -162,50 +163,64 @@ pub fn solve_while(
         let what = MotionRule::Machine;
         return Err(Unreached::Motion(vec![MotionFault { op: None, what }]));
     };
+    let rigs = Rigs::of(model, cell, program.program());
     let paths = paths(program.program());
-    let rig = rig(model, cell);
-    let open = opened(&model.axes);
-    let middle = middles(&model.axes);
-    let survey = Survey {
-        program: program.program(),
-        paths: &paths,
-        open: Rig {
-            axes: &open,
-            ..rig.clone()
-        },
-        rig: rig.clone(),
-        followed: Stands::of(&rig, program.program(), &paths, &middle, wanted),
-        middle,
-        least: *least,
-        wanted,
-    };
-    let home = cell.home.map(|home| home.0);
-    let bounds = screen(&survey);
-    let solved = match on_one_branch(&survey, &bounds, home) {
-        Some(solved) => Ok(solved),
-        // What is wrong with it takes its time to find out, too.
-        None if wanted.is_needless() => Err(Box::new(Trouble::Nowhere)),
-        None => match trouble::too_fast(&survey, &bounds) {
-            Some(trouble) => Err(Box::new(trouble)),
-            None => match changes {
-                Changes::InTheAir | Changes::InTheAirOrElse => by_changes(&survey, &bounds, home, changes),
-                Changes::Never => Err(Box::new(trouble::first(&survey, &bounds))),
+    let mut solved: Option<Solved> = None;
+    for turn in turns(program.program()) {
+        let paths = turn.alone(&paths);
+        let rig = rigs.with(turn.tool);
+        let open = opened(&model.axes);
+        let middle = middles(&model.axes);
+        let survey = Survey {
+            program: program.program(),
+            paths: &paths,
+            tool: turn.tool,
+            open: Rig {
+                axes: &open,
+                ..rig.clone()
             },
-        },
-    };
+            rig: rig.clone(),
+            followed: Stands::of(rig, program.program(), &paths, &middle, wanted),
+            middle,
+            least: *least,
+            wanted,
+        };
+        match surveyed(&survey, changes) {
+            Ok(more) => {
+                solved = Some(match solved {
+                    Some(before) => before.and(more, &turn, &model.axes),
+                    None => more,
+                });
+            }
+            Err(trouble) => {
+                return Err(Unreached::Unreachable(Box::new(Unreachable {
+                    program,
+                    trouble: *trouble,
+                })));
+            }
+        }
+    }
     match solved {
-        Ok(solved) => finish(program, &rig, solved),
-        Err(trouble) => Err(Unreached::Unreachable(Box::new(Unreachable {
-            program,
-            trouble: *trouble,
-        }))),
+        Some(solved) => finish(program, &rigs, solved),
+        None => Err(Unreached::Motion(Vec::new())),
     }
 }
 
-/// A machine as a program's cell sets it up.
-#[must_use]
-pub fn rig<'m>(model: &'m Model, cell: &Cell) -> Rig<'m> {
-    Rig::new(model, cell.tool.frame, cell.base.frame)
+/// Finds how a machine carries out what it does with one blade at hand.
+fn surveyed(survey: &Survey<'_>, changes: Changes) -> Result<Solved, Box<Trouble>> {
+    let bounds = screen(survey);
+    match on_one_branch(survey, &bounds) {
+        Some(solved) => Ok(solved),
+        // What is wrong with it takes its time to find out, too.
+        None if survey.wanted.is_needless() => Err(Box::new(Trouble::Nowhere)),
+        None => match trouble::too_fast(survey, &bounds) {
+            Some(trouble) => Err(Box::new(trouble)),
+            None => match changes {
+                Changes::InTheAir | Changes::InTheAirOrElse => by_changes(survey, &bounds, changes),
+                Changes::Never => Err(Box::new(trouble::first(survey, &bounds))),
+            },
+        },
+    }
 }
 
 /// Joins what was found for a program to the same one: the same ops, postures, speeds and cell. That the machine is then where
@@ -221,13 +236,14 @@ pub fn again(program: VerifiedProgram, model: &Model, found: Found) -> Result<Re
         }]));
     };
     let program = changed(program, &found.report.changes)?;
-    joined_to(program, &rig(model, &cell), found)
+    let rigs = Rigs::of(model, &cell, program.program());
+    joined_to(program, &rigs, found)
 }
 
 /// Checks the motion and joins it to the program.
-fn finish(program: VerifiedProgram, rig: &Rig<'_>, solved: Solved) -> Result<Reached, Unreached> {
+fn finish(program: VerifiedProgram, rigs: &Rigs<'_>, solved: Solved) -> Result<Reached, Unreached> {
     let program = changed(program, &solved.report.changes)?;
-    if let Some(sweep) = swept(&program, rig, &solved.ends) {
+    if let Some(sweep) = swept(&program, rigs, &solved.ends) {
         let trouble = Trouble::Sweep(sweep);
         return Err(Unreached::Unreachable(Box::new(Unreachable { program, trouble })));
     }
@@ -236,16 +252,16 @@ fn finish(program: VerifiedProgram, rig: &Rig<'_>, solved: Solved) -> Result<Rea
         stretches: solved.report.stretches.clone(),
         waypoints: Vec::new(),
     };
-    motion.waypoints = waypoints(program.program(), rig, &motion);
+    motion.waypoints = waypoints(program.program(), rigs, &motion);
     let report = solved.report;
-    joined_to(program, rig, Found { motion, report })
+    joined_to(program, rigs, Found { motion, report })
 }
 
 /// A motion that sweeps the blade through the work, where rotary axes are interpolated. About one axis, as arms turn it, the
 /// extension of the cuts keeps it clear.
-fn swept(program: &VerifiedProgram, rig: &Rig<'_>, ends: &[Joints]) -> Option<Sweep> {
-    match rig.mechanism {
-        Mechanism::FiveAxis(_) => sweep::clear(program, rig, ends).err(),
+fn swept(program: &VerifiedProgram, rigs: &Rigs<'_>, ends: &[Joints]) -> Option<Sweep> {
+    match rigs.first().mechanism {
+        Mechanism::FiveAxis(_) => sweep::clear(program, rigs, ends).err(),
         Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => None,
     }
 }
@@ -258,9 +274,10 @@ fn changed(program: VerifiedProgram, changes: &[OpId]) -> Result<VerifiedProgram
     verify(with_changes(program.program(), changes)).map_err(Unreached::Rules)
 }
 
-fn joined_to(program: VerifiedProgram, rig: &Rig<'_>, found: Found) -> Result<Reached, Unreached> {
+fn joined_to(program: VerifiedProgram, rigs: &Rigs<'_>, found: Found) -> Result<Reached, Unreached> {
     let Found { motion, report } = found;
-    let blade_in_work = |values: &AxisValues| Frame::from(rig.blade_in_work(&values.0));
+    let blade_in_work =
+        |tool: ToolId, values: &AxisValues| Frame::from(rigs.with(tool).blade_in_work(&values.0));
     let program = ReachableProgram::assemble(program, motion, &blade_in_work).map_err(Unreached::Motion)?;
     Ok(Reached { program, report })
 }
@@ -282,6 +299,33 @@ fn with_changes(program: &Program, changes: &[OpId]) -> Program {
 struct Solved {
     ends: Vec<Joints>,
     report: ReachReport,
+}
+
+impl Solved {
+    /// The same with what was found for the turn of another blade, which comes next.
+    fn and(mut self, more: Self, turn: &Turn, axes: &[Axis]) -> Self {
+        self.ends.truncate(turn.ops.start);
+        self.ends.extend(more.ends.into_iter().skip(turn.ops.start));
+        let (report, more) = (&mut self.report, more.report);
+        report.changes.extend(more.changes);
+        // A turn that leads to no pose asks nothing of the machine.
+        match (report.stretches.is_empty(), more.stretches.is_empty()) {
+            (_, true) => {}
+            (true, false) => (report.first, report.demand) = (more.first, more.demand),
+            (false, false) => report.demand = report.demand.and(&more.demand),
+        }
+        for stretch in more.stretches {
+            if report
+                .stretches
+                .last()
+                .is_none_or(|last| last.branch != stretch.branch)
+            {
+                report.stretches.push(stretch);
+            }
+        }
+        report.margin = report.demand.margin(axes);
+        self
+    }
 }
 
 /// A branch, and its margin at taught poses; none where it does not reach all of them.
@@ -321,7 +365,7 @@ fn screen(survey: &Survey<'_>) -> Vec<Bound> {
 const SCREENED: usize = 1024;
 
 /// The branch that carries the whole program with the largest margin.
-fn on_one_branch(survey: &Survey<'_>, bounds: &[Bound], home: Option<Joints>) -> Option<Solved> {
+fn on_one_branch(survey: &Survey<'_>, bounds: &[Bound]) -> Option<Solved> {
     let stations = split(survey.program, survey.paths, Split::AtAxisMoves);
     let mut by_bound: Vec<(Branch, f64)> = bounds
         .iter()
@@ -342,7 +386,7 @@ fn on_one_branch(survey: &Survey<'_>, bounds: &[Bound], home: Option<Joints>) ->
         let Some(carried) = on_branch(survey, &stations, branch) else {
             continue;
         };
-        let mut ways = Ways::new(survey, &stations, &carried, home);
+        let mut ways = Ways::new(survey, &stations, &carried);
         let Ok(way) = climb(&mut ways) else { continue };
         let solved = solved(survey, &stations, &ways, &way);
         if best
@@ -393,7 +437,7 @@ fn on_branch(survey: &Survey<'_>, stations: &[Station], branch: Branch) -> Optio
     stations
         .iter()
         .map(|station| match station.kind {
-            StationKind::Home => Some(Vec::new()),
+            StationKind::Home(_) | StationKind::Change(_) => Some(Vec::new()),
             StationKind::Run(_) | StationKind::Joined(_) => {
                 let carried = survey.carried(station, branch)?;
                 Some(vec![OnBranch {
@@ -407,12 +451,7 @@ fn on_branch(survey: &Survey<'_>, stations: &[Station], branch: Branch) -> Optio
 }
 
 /// The best way with changes of the branch in the air.
-fn by_changes(
-    survey: &Survey<'_>,
-    bounds: &[Bound],
-    home: Option<Joints>,
-    changes: Changes,
-) -> Result<Solved, Box<Trouble>> {
+fn by_changes(survey: &Survey<'_>, bounds: &[Bound], changes: Changes) -> Result<Solved, Box<Trouble>> {
     let stations = split(survey.program, survey.paths, Split::AtDetours);
     let found = |carried: &[Vec<OnBranch>], stuck: usize| {
         let branches: Vec<Branch> = bounds.iter().map(|&(branch, _)| branch).collect();
@@ -425,13 +464,13 @@ fn by_changes(
         }
         carried.par_extend(some.par_iter().map(|station| carrying(survey, station, bounds)));
         let stuck = (stations.iter().zip(&carried))
-            .position(|(station, carrying)| carrying.is_empty() && station.kind != StationKind::Home);
+            .position(|(station, carrying)| carrying.is_empty() && station.stands().is_none());
         if let (Some(stuck), Changes::InTheAirOrElse) = (stuck, changes) {
             carried.truncate(stuck + 1);
             return Err(Box::new(found(&carried, stuck)));
         }
     }
-    let mut ways = Ways::new(survey, &stations, &carried, home);
+    let mut ways = Ways::new(survey, &stations, &carried);
     match climb(&mut ways) {
         Ok(way) => Ok(solved(survey, &stations, &ways, &way)),
         Err(Stuck::At(station)) => Err(Box::new(found(&carried, station))),
@@ -444,7 +483,7 @@ const STATIONS_AT_ONCE: usize = 32;
 
 /// The branches that carry a station, in their order; none at home.
 fn carrying(survey: &Survey<'_>, station: &Station, bounds: &[Bound]) -> Vec<OnBranch> {
-    if station.kind == StationKind::Home {
+    if station.stands().is_some() {
         return Vec::new();
     }
     let on_branch = |&(branch, _): &Bound| {
@@ -459,7 +498,7 @@ fn carrying(survey: &Survey<'_>, station: &Station, bounds: &[Bound]) -> Vec<OnB
 
 fn joined(survey: &Survey<'_>, station: &Station, branch: Branch) -> Option<Proof> {
     match &station.kind {
-        StationKind::Home | StationKind::Run(_) => None,
+        StationKind::Home(_) | StationKind::Change(_) | StationKind::Run(_) => None,
         StationKind::Joined(line) => survey.line(line, branch).ok(),
     }
 }
@@ -498,7 +537,7 @@ fn solved(survey: &Survey<'_>, stations: &[Station], ways: &Ways<'_>, way: &[usi
         match (station.kind, ways.join(index, from, rung)) {
             (StationKind::Joined(_), Some(join)) => add(join),
             (StationKind::Joined(_), None) => changes.push(station.entry()),
-            (StationKind::Home | StationKind::Run(_), _) => {}
+            (StationKind::Home(_) | StationKind::Change(_) | StationKind::Run(_), _) => {}
         }
         from = rung;
     }

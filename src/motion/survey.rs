@@ -14,7 +14,7 @@ use super::runs::Station;
 use super::stands::Stands;
 use core::f64::consts::TAU;
 use rayon::prelude::*;
-use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES, OpId, Program};
+use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES, OpId, Program, ToolId};
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::segments::{LinearSegment, Path};
 use vcutc_backend_api::state::TipPose;
@@ -26,6 +26,8 @@ use vcutc_machine::kinematics::{Joints, Solutions};
 pub(super) struct Survey<'s> {
     pub(super) program: &'s Program,
     pub(super) paths: &'s [Path],
+    /// The blade at hand.
+    pub(super) tool: ToolId,
     /// The machine as it is.
     pub(super) rig: Rig<'s>,
     /// The machine with the limits of axes that can make a full turn left open.

@@ -19,6 +19,7 @@
 
 use super::moves::{numbered, paths};
 use super::rig::Rig;
+use super::rigs::Rigs;
 use glam::{DMat3, DVec3};
 use vcutc_backend_api::ir::{Blade, OpId, Program, Stock};
 use vcutc_backend_api::segments::{LinearSegment, Path};
@@ -81,10 +82,10 @@ pub enum Cure {
 ///
 /// # Errors
 /// The first motion that does.
-pub(super) fn clear(program: &VerifiedProgram, rig: &Rig<'_>, ends: &[Joints]) -> Result<(), Sweep> {
+pub(super) fn clear(program: &VerifiedProgram, rigs: &Rigs<'_>, ends: &[Joints]) -> Result<(), Sweep> {
     let paths = paths(program.program());
     let mut turns = numbered(&paths)
-        .filter_map(|(op, path)| Turn::of(program.program(), rig, ends, op, path))
+        .filter_map(|(op, path)| Turn::of(program.program(), rigs.during(op), ends, op, path))
         .peekable();
     let mut found: Option<Sweep> = None;
     prove::accompanied(program, &mut |op, surface| {
@@ -235,7 +236,7 @@ impl<'t, 'm> Turn<'t, 'm> {
         let index = op.0 as usize;
         let axes = [*ends.get(index.checked_sub(1)?)?, *ends.get(index)?];
         let operation = program.op(op)?.site.operation()?;
-        let blade = &program.operation(operation)?.blade;
+        let blade = program.blade_of(operation)?;
         Some(Self {
             op,
             rig,

@@ -3,6 +3,7 @@
 use super::moves::{numbered, paths};
 use super::path::{Course, Followed};
 use super::rig::Rig;
+use super::rigs::Rigs;
 use rayon::prelude::*;
 use vcutc_backend_api::ir::{Axis, AxisKind, OpId};
 use vcutc_backend_api::motion::ReachableProgram;
@@ -67,12 +68,12 @@ pub struct Motion {
 /// What `take` returns.
 pub fn trajectory<E>(
     reached: &ReachableProgram,
-    rig: &Rig<'_>,
+    rigs: &Rigs<'_>,
     spacing: &Spacing,
     mut take: impl FnMut(Sample) -> Result<(), E>,
 ) -> Result<(), E> {
     let samples = |motion: Motion| motion.samples;
-    motions(reached, rig, spacing, samples, |samples| {
+    motions(reached, rigs, spacing, samples, |samples| {
         samples.into_iter().try_for_each(&mut take)
     })
 }
@@ -83,7 +84,7 @@ pub fn trajectory<E>(
 /// What `take` returns.
 pub fn motions<T: Send, E>(
     reached: &ReachableProgram,
-    rig: &Rig<'_>,
+    rigs: &Rigs<'_>,
     spacing: &Spacing,
     make: impl Fn(Motion) -> T + Sync,
     mut take: impl FnMut(T) -> Result<(), E>,
@@ -94,7 +95,7 @@ pub fn motions<T: Send, E>(
     let mut flush = |batch: &mut Vec<Moved<'_>>| -> Result<(), E> {
         let made: Vec<T> = batch
             .par_drain(..)
-            .map(|moved| make(moved.sampled(reached, rig)))
+            .map(|moved| make(moved.sampled(reached, rigs.during(moved.op))))
             .collect();
         made.into_iter().try_for_each(&mut take)
     };
@@ -106,7 +107,7 @@ pub fn motions<T: Send, E>(
             continue;
         }
         let start = reached.axes_before(op).map(|start| start.0);
-        let moved = Moved::of(rig, spacing, (op, path), start, end);
+        let moved = Moved::of(rigs.during(op), spacing, (op, path), start, end);
         held += moved.steps;
         batch.push(moved);
         if held >= HELD {
@@ -136,7 +137,9 @@ impl<'l> Moved<'l> {
         end: Joints,
     ) -> Self {
         let steps = match (path, start) {
-            (Path::Home | Path::Axes(_), Some(start)) => axis_steps(rig.axes, spacing, &start, &end),
+            (Path::Home | Path::Change | Path::Axes(_), Some(start)) => {
+                axis_steps(rig.axes, spacing, &start, &end)
+            }
             (Path::Linear(line), Some(_)) => course_steps(spacing, line),
             (Path::Still, _) | (_, None) => 1.0,
         };
@@ -152,7 +155,7 @@ impl<'l> Moved<'l> {
     fn sampled(&self, reached: &ReachableProgram, rig: &Rig<'_>) -> Motion {
         let &Self { op, start, end, .. } = self;
         let mut samples = match (self.path, start) {
-            (Path::Home | Path::Axes(_), Some(start)) => fractions(self.steps)
+            (Path::Home | Path::Change | Path::Axes(_), Some(start)) => fractions(self.steps)
                 .map(|done| Sample {
                     op,
                     done,

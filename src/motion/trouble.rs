@@ -106,6 +106,8 @@ pub enum Leads {
     /// From home or from another pose to a pose.
     ToPose,
     ToHome,
+    /// To where the blade is changed.
+    ToChange,
 }
 
 /// Says what is wrong with a station that has no way to stand.
@@ -160,7 +162,7 @@ pub(super) fn found(
 
 /// What the branches that do not carry a station fail on; nothing at home.
 fn failures(survey: &Survey<'_>, station: &Station, branches: &[Branch]) -> Vec<(Branch, Vec<Failure>)> {
-    if station.kind == StationKind::Home {
+    if station.stands().is_some() {
         return Vec::new();
     }
     let failing = |&branch: &Branch| Some((branch, survey.run(station, branch, Extent::Whole).err()?));
@@ -224,7 +226,7 @@ pub(super) fn too_fast(survey: &Survey<'_>, bounds: &[(Branch, Option<f64>)]) ->
         }
         let mut failures = Vec::new();
         for station in &stations {
-            if station.kind == StationKind::Home {
+            if station.stands().is_some() {
                 continue;
             }
             match survey.run(station, branch, Extent::OtherThanRates) {
@@ -271,7 +273,7 @@ pub(super) fn first(survey: &Survey<'_>, bounds: &[(Branch, Option<f64>)]) -> Tr
     let first_of = |branch: Branch| {
         let failures = stations
             .iter()
-            .filter(|station| station.kind != StationKind::Home)
+            .filter(|station| station.stands().is_none())
             .find_map(|station| survey.run(station, branch, Extent::FirstFailure).err())?;
         failures.first().map(|failure| (branch, *failure))
     };
@@ -446,7 +448,8 @@ pub(super) fn on_the_way(stations: &[Station], refused: Option<Refused>, stuck: 
         (Some(station), Some(refused)) => Trouble::Way {
             op: station.entry(),
             leads: match station.kind {
-                StationKind::Home => Leads::ToHome,
+                StationKind::Home(_) => Leads::ToHome,
+                StationKind::Change(_) => Leads::ToChange,
                 StationKind::Run(_) | StationKind::Joined(_) => Leads::ToPose,
             },
             obstacle: refused.obstacle,

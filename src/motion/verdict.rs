@@ -188,7 +188,7 @@ impl<'s> Scene<'s> {
         let taught = match path_of(self.program, failing.op)? {
             Path::Axes(pose) => [None, Some(pose)],
             Path::Linear(line) => [Some(line.from), Some(line.to)],
-            Path::Still | Path::Home => return None,
+            Path::Still | Path::Home | Path::Change => return None,
         };
         let place = self.place(failing.op);
         taught.into_iter().flatten().find_map(|pose| {
@@ -242,7 +242,7 @@ impl<'s> Scene<'s> {
         match (model.kind(), self.tip(op)) {
             (MachineKind::Robot, Some(tip)) => {
                 let there = Rig::of(self.machine).point_in_root(tip);
-                let tool = self.machine.tool.value.frame.origin;
+                let tool = self.machine.tools.first().frame.value.frame.origin;
                 let aside = libm::hypot(there.x, there.y);
                 // No arm stands higher than half its reach.
                 let (distance, within) = if there.z.abs() > 1.5 * reach {
@@ -423,6 +423,7 @@ impl<'s> Scene<'s> {
         let way = match leads {
             Leads::ToPose => format!("the axis move to {place}"),
             Leads::ToHome => "the axis move home".to_owned(),
+            Leads::ToChange => "the axis move to where the blade is changed".to_owned(),
         };
         let headline = match obstacle.lowest {
             Some(lowest) => format!(

@@ -42,15 +42,15 @@ fn stock(program: &Program) -> Block {
     }
 }
 
-/// Points of the blade frame T between which blade and tool lie: the tip, the ends of both edges of each blade, and the
+/// Points of the blade frame T between which blade and tool lie: the tip, the ends of both edges of the blade at hand, and the
 /// flange. The arm behind the flange is farther away from the work than these.
 fn outline(survey: &Survey<'_>) -> Vec<DVec3> {
-    let ends = survey.program.operations.iter().flat_map(|operation| {
+    let ends = survey.program.blade(survey.tool).into_iter().flat_map(|blade| {
         let Blade {
             cutting_length,
             half_apex,
             ..
-        } = &operation.blade;
+        } = blade;
         let (sin, cos) = libm::sincos(half_apex.to_rad());
         let (aside, up) = (cutting_length.to_mm() * sin, -cutting_length.to_mm() * cos);
         [DVec3::new(aside, 0.0, up), DVec3::new(-aside, 0.0, up)]

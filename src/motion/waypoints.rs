@@ -6,6 +6,7 @@
 
 use super::path::{Course, joints_on};
 use super::rig::Rig;
+use super::rigs::Rigs;
 use vcutc_backend_api::ir::{AxisValues, Maker, OpId, Program};
 use vcutc_backend_api::motion::{Branch, Motion, Waypoint};
 use vcutc_backend_api::segments::{LinearSegment, Path};
@@ -22,7 +23,7 @@ const SHORTEST: f64 = 1.0 / 1_048_576.0;
 
 /// The waypoints of a program's motion: for ABB's robots, whose controllers refuse to turn a wrist far in one move; none for
 /// others.
-pub(super) fn waypoints(program: &Program, rig: &Rig<'_>, motion: &Motion) -> Vec<Waypoint> {
+pub(super) fn waypoints(program: &Program, rigs: &Rigs<'_>, motion: &Motion) -> Vec<Waypoint> {
     let maker = program.cell.as_ref().map(|cell| cell.maker);
     match maker {
         Some(Maker::Abb) => {}
@@ -40,7 +41,13 @@ pub(super) fn waypoints(program: &Program, rig: &Rig<'_>, motion: &Motion) -> Ve
         if let (Path::Linear(line), Some(start), Some(branch)) = (segment.path(), before, branch)
             && wrist::turn(&start, end) > wrist::FAR
         {
-            found.extend(on_the_way(program, rig, (op, &line), branch, [&start.0, &end.0]));
+            found.extend(on_the_way(
+                program,
+                rigs.during(op),
+                (op, &line),
+                branch,
+                [&start.0, &end.0],
+            ));
         }
         before = Some(*end);
     }

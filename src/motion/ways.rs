@@ -54,19 +54,14 @@ pub(super) struct Ways<'w> {
 }
 
 impl<'w> Ways<'w> {
-    /// Gathers the ways. `carried` has for each station the branches that carry it, in their order; nothing for home.
-    pub(super) fn new(
-        survey: &'w Survey<'w>,
-        stations: &'w [Station],
-        carried: &'w [Vec<OnBranch>],
-        home: Option<Joints>,
-    ) -> Self {
+    /// Gathers the ways. `carried` has for each station the branches that carry it, in their order; nothing where axis values are given.
+    pub(super) fn new(survey: &'w Survey<'w>, stations: &'w [Station], carried: &'w [Vec<OnBranch>]) -> Self {
         let axes = survey.rig.axes;
         let rungs: Vec<Vec<Rung>> = stations
             .iter()
             .zip(carried)
             .map(|(station, carried)| match station.kind {
-                StationKind::Home => home.into_iter().map(at_home).collect(),
+                StationKind::Home(joints) | StationKind::Change(joints) => vec![standing(joints)],
                 StationKind::Run(_) | StationKind::Joined(_) => (0..)
                     .zip(carried)
                     .flat_map(|(on, run)| rungs_of(on, &run.carried, axes))
@@ -129,7 +124,7 @@ const FREE: Cost = Cost {
     travel: 0.0,
 };
 
-fn at_home(home: Joints) -> Rung {
+fn standing(home: Joints) -> Rung {
     Rung {
         on: None,
         by: [0.0; MOST_AXES],
@@ -209,7 +204,7 @@ impl Ladder for Ways<'_> {
             travel: travel(axes, &before.end, &after.start),
         };
         match self.stations.get(run)?.kind {
-            StationKind::Home | StationKind::Run(_) => Some(by_axes(0)),
+            StationKind::Home(_) | StationKind::Change(_) | StationKind::Run(_) => Some(by_axes(0)),
             StationKind::Joined(_) => match self.join(run, from, to) {
                 Some(demand) => Some(Cost {
                     margin: demand.margin(axes),

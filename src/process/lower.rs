@@ -32,7 +32,9 @@ fn written<'p>(
     machine: Option<&Machine>,
     operations: impl IntoIterator<Item = (&'p dyn PlannedOperation, SourceRef)>,
 ) -> Program {
-    let mut builder = ProgramBuilder::new(name, stock, machine.map(cell));
+    let operations: Vec<(&dyn PlannedOperation, SourceRef)> = operations.into_iter().collect();
+    let cell = machine.map(|machine| cell(machine, &blades(&operations)));
+    let mut builder = ProgramBuilder::new(name, stock, cell);
     builder.op(Site::Program, Action::Home);
     for (planned, source) in operations {
         planned.lower(source, &mut builder);
@@ -41,17 +43,29 @@ fn written<'p>(
     builder.finish()
 }
 
-fn cell(machine: &Machine) -> Cell {
+/// The names of the blades, each once, in the order in which they are first used.
+fn blades<'p>(operations: &[(&'p dyn PlannedOperation, SourceRef)]) -> Vec<&'p str> {
+    let mut names: Vec<&str> = Vec::new();
+    for (planned, _) in operations {
+        let name = planned.asked().setup().blade.name.as_str();
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+fn cell(machine: &Machine, blades: &[&str]) -> Cell {
     Cell {
         name: machine.name.clone(),
         kind: machine.model.kind(),
         maker: machine.model.maker,
         model: machine.model.name.clone(),
         axes: machine.model.axes.to_vec(),
-        tool: machine.tool.value,
+        tools: machine.tools.in_program(blades.iter().copied()),
         base: machine.base.value,
-        load: machine.load.map(|load| load.value),
         home: machine.home.map(|home| home.value),
+        change: machine.change.map(|held| held.change),
         ultrasonic: machine.ultrasonic.map(|output| output.value),
         ready: machine.ready.value,
     }

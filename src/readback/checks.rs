@@ -250,7 +250,7 @@ impl Read<'_> {
             .operation()
             .map_or(0, |operation| usize::from(operation.0));
         let bound = bounds.get(operation)?;
-        let blade = &program.operations.get(operation)?.blade;
+        let blade = program.blade(program.operations.get(operation)?.tool)?;
         let LinearSegment { from, to, .. } = cut.line;
         let held = program.orientation(to.orientation)?;
         deepest(bound, edge(blade, held), from.tip, to.tip)
@@ -370,13 +370,13 @@ impl Read<'_> {
     fn bodies(&self, verified: &VerifiedProgram) -> Option<Diagnostic> {
         let (count, contact) = verdict::bodies(self.checker.plan, verified).contact?;
         let passage = contact.passage;
-        let operation = self.program().operation(passage.operation)?;
+        let blade = self.program().blade_of(passage.operation)?;
         let label = format!(
             "deepest at x {} mm, z {} mm",
             show(passage.at.x),
             show(passage.at.z)
         );
-        let message = verdict::body_in_work(&operation.blade.name, contact);
+        let message = verdict::body_in_work(&blade.name, contact);
         let diagnostic = self
             .at(Code::ProgramCuts, message, passage.op, label)
             .help("restore the changed motions");
@@ -482,6 +482,9 @@ const fn rule_words(rule: Rule) -> &'static str {
         Rule::Ending => "the program does not end at home with the generator off",
         Rule::CutPair => "a V is not made of one left and one right flank",
         Rule::AirCut => "an air cut comes down to the stock, or starts the generator",
+        Rule::Tools => "the machine has not one tool and one place for each blade",
+        Rule::ChangeAway => "the blade is changed away from the change place, or with the generator on",
+        Rule::OtherBlade => "the blade at hand is not that of the operation",
         Rule::Order => "operations are out of order, or a layer's cuts are not all there",
     }
 }
@@ -491,6 +494,7 @@ const fn rule_label(rule: Rule) -> &'static str {
         Rule::AirMoveThroughStock | Rule::TurnInStock => "through the stock",
         Rule::SilentCut | Rule::ReadyNotAwaited => "without vibration, or too early",
         Rule::Ending => "the program ends here",
+        Rule::ChangeAway => "changed here",
         Rule::Version
         | Rule::TableReference
         | Rule::Number
@@ -502,6 +506,8 @@ const fn rule_label(rule: Rule) -> &'static str {
         | Rule::CutPosture
         | Rule::CutPair
         | Rule::AirCut
+        | Rule::Tools
+        | Rule::OtherBlade
         | Rule::Order => "in this line",
     }
 }

@@ -392,7 +392,7 @@ impl Reporter<'_> {
             let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.');
             numbers.filter_map(|number| number.parse::<f64>().ok())
         });
-        let load = machine.load.and_then(|load| match load.value {
+        let load = machine.tools.first().load.and_then(|load| match load.value {
             Registered::Value(value) => Some((value.mass.to_kg(), load.span)),
             Registered::Number(_) => None,
         });
@@ -582,6 +582,9 @@ impl Reporter<'_> {
             (Some(Mismatch::Input { .. }), _) | (_, Action::AwaitReady) => {
                 machine.and_then(|machine| machine.ready.span)
             }
+            (_, Action::ChangePlace | Action::ToolChange { .. }) => machine
+                .and_then(|machine| machine.change)
+                .map(|change| change.span),
             (_, Action::Home) => machine
                 .and_then(|machine| machine.home)
                 .and_then(|home| home.span),
@@ -592,7 +595,7 @@ impl Reporter<'_> {
 
     fn frame_span(&self, effect: &Effect) -> Option<Span> {
         let of = |machine: &Machine| match effect {
-            Effect::Frame(FrameRole::Tool, _) => machine.tool.span,
+            Effect::Frame(FrameRole::Tool, _) => machine.tools.first().frame.span,
             Effect::Frame(FrameRole::Base, _) => machine.base.span,
             _ => None,
         };

@@ -41,7 +41,8 @@ use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{FileId, SourceMap};
 use vcutc_job::CheckedJob;
 use vcutc_job::PlannedJob;
-use vcutc_motion::solve::{Reached, rig};
+use vcutc_motion::rigs::Rigs;
+use vcutc_motion::solve::Reached;
 
 /// A job's program as it is written now, and who can read it.
 #[derive(Clone, Copy)]
@@ -211,8 +212,9 @@ impl<'a> Reference<'a> {
         let Some(machine) = &self.fresh.job.machine else {
             return Checked::NotMade;
         };
-        let rig = rig(&machine.model, self.fresh.cell);
-        let rebuilt = match rebuild(comparison, steps, &rig) {
+        let program = self.fresh.program.program();
+        let rigs = Rigs::of(&machine.model, self.fresh.cell, program);
+        let rebuilt = match rebuild(comparison, steps, &rigs) {
             Ok(rebuilt) => rebuilt,
             Err(obstacle) => return Checked::Wrong(vec![left_out(comparison, obstacle)]),
         };

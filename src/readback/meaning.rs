@@ -7,9 +7,11 @@ pub(super) fn meaning(command: &Command) -> String {
     match command {
         Command::AxesToPose(target) => format!("to {}", target_meaning(target)),
         Command::Straight { to, pace, end } => format!("straight {} {pace:?} {end:?}", target_meaning(to)),
-        Command::Axes(_) | Command::Switch { .. } | Command::AwaitInput(_) | Command::Wait(_) => {
-            format!("{command:?}")
-        }
+        Command::Axes(_)
+        | Command::Switch { .. }
+        | Command::AwaitInput(_)
+        | Command::Wait(_)
+        | Command::ChangeTool(_) => format!("{command:?}"),
     }
 }
 

@@ -10,7 +10,7 @@ use super::steps::Step;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::{
     Action, AxisKind, AxisValues, Cell, FeedId, Flank, Op, OpId, OrientationId, Program, RateId, Ready, Site,
-    Switch,
+    Switch, ToolId,
 };
 use vcutc_backend_api::readback::{
     Command, Effect, FrameRole, Held, Mismatch, Moment, Pace, Target, rotary_way,
@@ -18,7 +18,7 @@ use vcutc_backend_api::readback::{
 use vcutc_backend_api::state::{Generator, State, TipPose};
 use vcutc_backend_api::swivel::Apart;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Speed};
-use vcutc_motion::rig::Rig;
+use vcutc_motion::rigs::Rigs;
 
 /// A program as it was read.
 pub(super) struct Rebuilt {
@@ -54,13 +54,13 @@ const MOST_KINDS: usize = 4096;
 pub(super) fn rebuild(
     comparison: &Comparison<'_>,
     steps: &[Step],
-    rig: &Rig<'_>,
+    rigs: &Rigs<'_>,
 ) -> Result<Rebuilt, Obstacle> {
     let fresh = comparison.program();
     let mut differs = None;
     let mut builder = Builder {
         comparison,
-        rig,
+        rigs,
         moments: comparison.moments(),
         program: Program {
             ops: Vec::with_capacity(fresh.ops.len()),
@@ -124,7 +124,7 @@ enum Order {
 
 struct Builder<'b> {
     comparison: &'b Comparison<'b>,
-    rig: &'b Rig<'b>,
+    rigs: &'b Rigs<'b>,
     /// The moments before the ops of the fresh program.
     moments: Vec<Moment>,
     program: Program,
@@ -162,7 +162,7 @@ impl Builder<'_> {
             Effect::Frame(role, setting) => {
                 let cell = self.program.cell.as_ref();
                 let job = cell.map(|cell| match role {
-                    FrameRole::Tool => cell.tool,
+                    FrameRole::Tool => cell.tools.at(self.state.tool).frame,
                     FrameRole::Base => cell.base,
                 });
                 if job.is_some_and(|job| self.comparison.comparator.is_frame(setting, &job)) {
@@ -222,6 +222,11 @@ impl Builder<'_> {
             Command::Switch { output, state } => self.switch(*output, *state),
             Command::AwaitInput(input) => self.await_input(*input),
             Command::Wait(time) => self.wait(*time, partner.as_ref()),
+            Command::ChangeTool(place) => {
+                let tool = self.tool(*place, partner.as_ref());
+                let tool = tool.ok_or(Obstacle::NotUnderstood(given))?;
+                Some(Action::ToolChange { tool })
+            }
         };
         if let Some(action) = action {
             self.site = site;
@@ -239,7 +244,7 @@ impl Builder<'_> {
         }
     }
 
-    /// An axis move: home, or to the pose that they give.
+    /// An axis move: home, to the change place, or to the pose that they give.
     fn axes(
         &mut self,
         axes: &AxisValues,
@@ -252,10 +257,12 @@ impl Builder<'_> {
         {
             return Ok(op.action);
         }
-        if self.is_home(axes) {
-            return Ok(Action::Home);
+        for action in [Action::Home, Action::ChangePlace] {
+            if self.is_at(action, axes) {
+                return Ok(action);
+            }
         }
-        let blade = Frame::from(self.rig.blade_in_work(&axes.0));
+        let blade = Frame::from(self.rigs.with(self.state.tool).blade_in_work(&axes.0));
         let orientation = self.orientation(blade.orientation, given)?;
         Ok(Action::AxisTravel {
             to: blade.origin,
@@ -263,16 +270,30 @@ impl Builder<'_> {
         })
     }
 
-    fn is_home(&self, axes: &AxisValues) -> bool {
+    /// Whether axis values are those of an action, home or the change place.
+    fn is_at(&self, action: Action, axes: &AxisValues) -> bool {
         let ops = &self.comparison.program().ops;
-        let home = ops.iter().position(|op| op.action == Action::Home);
-        let home = home.and_then(|home| self.moments.get(home));
-        home.is_some_and(|home| {
+        let there = ops.iter().position(|op| op.action == action);
+        let there = there.and_then(|there| self.moments.get(there));
+        there.is_some_and(|there| {
             self.comparison
                 .comparator
-                .mismatches(*home, &Command::Axes(*axes))
+                .mismatches(*there, &Command::Axes(*axes))
                 .is_empty()
         })
+    }
+
+    /// The tool that a change puts in: the one that is kept at a place. By hand it is the one that the job says.
+    fn tool(&self, place: Option<u32>, partner: Option<&Partner>) -> Option<ToolId> {
+        let cell = self.program.cell.as_ref()?;
+        match (place, partner.map(|partner| partner.op.action)) {
+            (Some(_), _) => {
+                let mut tools = cell.tools.iter();
+                tools.find(|(_, tool)| tool.place == place).map(|(id, _)| id)
+            }
+            (None, Some(Action::ToolChange { tool })) => Some(tool),
+            (None, Some(_) | None) => None,
+        }
     }
 
     /// The pose of a target: exact where it is that of its partner within what is printed.
@@ -299,7 +320,9 @@ impl Builder<'_> {
             Some(_) | None => {
                 let orientation = match target.held {
                     Held::Orientation(orientation, _) => orientation,
-                    Held::Rotary(rotary) => Frame::from(self.rig.blade_in_work(&rotary.0)).orientation,
+                    Held::Rotary(rotary) => {
+                        Frame::from(self.rigs.with(self.state.tool).blade_in_work(&rotary.0)).orientation
+                    }
                 };
                 self.orientation(orientation, given)?
             }

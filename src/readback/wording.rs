@@ -31,7 +31,11 @@ pub(super) fn op_words(program: &Program, op: OpId) -> String {
         Action::Ultrasonic { state: Switch::Off } => format!("switching the generator off after {site}"),
         Action::AwaitReady => format!("waiting for the generator before {site}"),
         Action::Dwell { .. } => format!("a wait in {site}"),
-        Action::ToolChange { .. } => format!("the tool change before {site}"),
+        Action::ChangePlace => "the move to where the blade is changed".to_owned(),
+        Action::ToolChange { tool } => match program.blade(tool) {
+            Some(blade) => format!("the change to blade `{}`", blade.name),
+            None => "the change of the blade".to_owned(),
+        },
     }
 }
 
@@ -46,13 +50,15 @@ pub(super) fn command_words(command: &Command) -> String {
         Command::Switch { output, state } => format!("output {output} is switched {}", switch(*state)),
         Command::AwaitInput(input) => format!("the program waits for input {input}"),
         Command::Wait(time) => format!("the program waits for {} s", show(time.to_s())),
+        Command::ChangeTool(Some(place)) => format!("the blade of place {place} is put in"),
+        Command::ChangeTool(None) => "the program stops for a blade to be put in by hand".to_owned(),
     }
 }
 
 /// What a statement is, where it is no command.
 pub(super) const fn kind_words(effect: &Effect) -> &'static str {
     match effect {
-        Effect::Command(_) => "a motion, a switch or a wait",
+        Effect::Command(_) => "a motion, a switch, a wait or a change of the blade",
         Effect::Frame(FrameRole::Tool, _) => "the tool frame",
         Effect::Frame(FrameRole::Base, _) => "the base frame",
         Effect::Setting => "a setting",
@@ -136,10 +142,21 @@ pub(super) fn mismatch_words(mismatch: &Mismatch, cell: Option<&Cell>) -> String
                 switch(should.1)
             )
         }
+        Mismatch::ToolPlace { is, should } => {
+            format!(
+                "the blade comes {}, the job says {}",
+                from_place(is),
+                from_place(should)
+            )
+        }
         Mismatch::Input { is, should } => {
             format!("the program waits for input {is}, the job says input {should}")
         }
     }
+}
+
+fn from_place(place: Option<u32>) -> String {
+    place.map_or("by hand".to_owned(), |place| format!("from place {place}"))
 }
 
 /// Only the coordinates that differ.

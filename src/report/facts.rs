@@ -53,7 +53,7 @@ pub(super) fn tool(machine: Option<&Machine>) -> Vec<Fact> {
     let Some(machine) = machine else {
         return Vec::new();
     };
-    let tool = &machine.tool.value.frame;
+    let tool = &machine.tools.first().frame.value.frame;
     let [edge, flat, tip] = axes(tool);
     vec![
         ("tool frame", frame(tool)),
@@ -126,7 +126,7 @@ pub(super) fn control(machine: Option<&Machine>) -> Vec<Fact> {
         Ready::After(time) => format!("ready {} s after switching on", show(time.to_s())),
     };
     let mut list = vec![("generator", format!("{output}, {ready}"))];
-    list.extend(machine.load.map(|load| match load.value {
+    list.extend(machine.tools.first().load.map(|load| match load.value {
         Registered::Number(number) => ("load", format!("number {number} of the controller")),
         Registered::Value(load) => {
             let [x, y, z] = [load.centre.x, load.centre.y, load.centre.z].map(show);

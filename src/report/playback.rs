@@ -16,13 +16,14 @@ use bodies::{Body, bodies};
 use timeline::Timeline;
 use track::Track;
 use vcutc_backend_api::geometry::{Orientation, Point3};
-use vcutc_backend_api::ir::{self, Axis, Operation, Stock};
+use vcutc_backend_api::ir::{self, Axis, Blade, Stock};
 use vcutc_driver::{Compiled, Finished};
 use vcutc_geometry::curve::Point2;
 use vcutc_job::PlannedJob;
 use vcutc_machine::kinematics::linkage::Linkage;
 use vcutc_machine::kinematics::pose::Pose;
-use vcutc_motion::solve::{Reached, rig};
+use vcutc_motion::rigs::Rigs;
+use vcutc_motion::solve::Reached;
 
 /// Most ops that are played, some 100,000 cuts: pages with more would be too large for browsers.
 pub const MOST_OPS: usize = 400_000;
@@ -33,8 +34,8 @@ pub struct Playback<'a> {
     pub stock: Stock,
     /// The part's contour, from left to right, in W.
     pub part: &'a [Point2],
-    /// The operations, for their blades.
-    pub operations: &'a [Operation],
+    /// The blade of each operation.
+    pub blades: Vec<&'a Blade>,
     /// How the blade is held.
     pub orientations: &'a [Orientation],
     /// What happens when.
@@ -69,7 +70,9 @@ impl<'a> Playback<'a> {
         Self {
             stock: program.stock,
             part: plan.profile.points(),
-            operations: &program.operations,
+            blades: (program.operations.iter())
+                .filter_map(|operation| program.blade(operation.tool))
+                .collect(),
             orientations: &program.orientations,
             timeline: Timeline::of(program, &compiled.op_times),
             cell,
@@ -80,7 +83,8 @@ impl<'a> Playback<'a> {
 fn cell<'a>(plan: &'a PlannedJob, reached: &'a Reached) -> Option<Cell<'a>> {
     let model = &plan.machine.as_ref()?.model;
     let cell: &ir::Cell = reached.program.program().cell.as_ref()?;
-    let rig = rig(model, cell);
+    let rigs = Rigs::of(model, cell, reached.program.program());
+    let rig = rigs.first();
     let linkage = Linkage::from(&model.mechanism);
     let bodies = bodies(&linkage, &model.axes, &corners(plan.stock, &rig.work_in_root));
     Some(Cell {
@@ -89,7 +93,7 @@ fn cell<'a>(plan: &'a PlannedJob, reached: &'a Reached) -> Option<Cell<'a>> {
         blade_in_flange: rig.flange_in_blade.inverse(),
         work_in_mount: rig.work_in_root,
         bodies,
-        track: Track::of(&reached.program, &rig),
+        track: Track::of(&reached.program, &rigs),
     })
 }
 

@@ -76,10 +76,7 @@ pub enum During {
 /// Whether a program has a blade whose body is known.
 #[must_use]
 pub fn is_stated(program: &Program) -> bool {
-    program
-        .operations
-        .iter()
-        .any(|operation| operation.blade.body.is_some())
+    program.blades.iter().any(|blade| blade.body.is_some())
 }
 
 /// How the bodies of a program's blades pass the work. `bounds` are the operations' own, in order.
@@ -164,7 +161,8 @@ struct Watcher<'p> {
 impl<'p> Watcher<'p> {
     fn new(program: &'p Program, bounds: &'p [Bound<'p>]) -> Self {
         let stages = program.operations.iter().map(|operation| {
-            let stages = operation.blade.body.as_deref().unwrap_or_default();
+            let blade = program.blade(operation.tool);
+            let stages = blade.and_then(|blade| blade.body.as_deref()).unwrap_or_default();
             Cylinder::all(stages)
         });
         Self {

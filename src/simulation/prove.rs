@@ -15,7 +15,7 @@ use super::surface::{Side, Surface, Vee};
 use core::num::NonZeroU32;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::geometry::Orientation;
-use vcutc_backend_api::ir::{Action, Flank, Op, OpId, Operation, OperationId, OrientationId, Program, Site};
+use vcutc_backend_api::ir::{Action, Blade, Flank, Op, OpId, OperationId, OrientationId, Program, Site};
 use vcutc_backend_api::state::{State, TipPose};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_backend_api::verify::VerifiedProgram;
@@ -311,7 +311,7 @@ impl<'p> Player<'p> {
     /// The blade's edge, or what of it may be used.
     fn usable_edge(&self) -> Option<f64> {
         let operation = self.operation?;
-        let blade = self.program.operation(operation)?.blade.cutting_length;
+        let blade = self.program.blade_of(operation)?.cutting_length;
         let limit = self.bounds.get(usize::from(operation.0));
         let limit = limit.and_then(|bound| bound.edge);
         Some(limit.map_or(blade, |limit| limit.min(blade)).to_mm())
@@ -402,14 +402,14 @@ impl<'p> Player<'p> {
 
 /// How flanks lie in each of a program's orientations, cut with an operation's blade.
 fn flanks(program: &Program, operation: OperationId) -> Vec<FlankGeometry> {
-    let Some(operation) = program.operation(operation) else {
+    let Some(blade) = program.blade_of(operation) else {
         return Vec::new();
     };
     let orientations = program.orientations.iter();
-    orientations.map(|held| flank(operation, *held)).collect()
+    orientations.map(|held| flank(blade, *held)).collect()
 }
 
-fn flank(operation: &Operation, held: Orientation) -> FlankGeometry {
+fn flank(blade: &Blade, held: Orientation) -> FlankGeometry {
     let m = held.matrix();
     // Tip to shank is -z_t: its slope in the x-z plane is the flank's, its angle to y the rake.
     let (x, y, z) = (-m[0][2], -m[1][2], -m[2][2]);
@@ -417,7 +417,7 @@ fn flank(operation: &Operation, held: Orientation) -> FlankGeometry {
     let cos_swing = z / libm::hypot(x, z);
     FlankGeometry {
         slope: z / x.abs(),
-        edge_per_height: 1.0 / (cos_swing * (rake - operation.blade.half_apex).sin()),
+        edge_per_height: 1.0 / (cos_swing * (rake - blade.half_apex).sin()),
     }
 }
 

@@ -20,6 +20,7 @@ pub struct Timing {
     pub travel: Duration,
     /// Moves of all axes: to and from home, and to another way to stand.
     pub axes: Duration,
+    /// For the generator, or for a blade to be changed.
     pub waiting: Duration,
 }
 
@@ -54,9 +55,9 @@ impl Kind {
             Action::Cut { .. } => Self::Cutting,
             Action::Turn { .. } => Self::Turning,
             Action::Travel { .. } | Action::Approach { .. } | Action::Retract { .. } => Self::Travel,
-            Action::AwaitReady | Action::Dwell { .. } => Self::Waiting,
-            Action::Home | Action::AxisTravel { .. } => Self::Axes,
-            Action::Ultrasonic { .. } | Action::ToolChange { .. } => return None,
+            Action::AwaitReady | Action::Dwell { .. } | Action::ToolChange { .. } => Self::Waiting,
+            Action::Home | Action::ChangePlace | Action::AxisTravel { .. } => Self::Axes,
+            Action::Ultrasonic { .. } => return None,
         })
     }
 }
@@ -122,6 +123,7 @@ pub fn op_times(program: &VerifiedProgram) -> Vec<Duration> {
 
 fn op_time(program: &Program, segment: &Segment<'_>) -> Duration {
     let ready = program.cell.as_ref().map(|cell| cell.ready);
+    let change = program.cell.as_ref().and_then(|cell| cell.change);
     match (segment.line(), segment.op.action) {
         (Some(line), _) => line.duration(),
         (None, Action::Dwell { time }) => time,
@@ -129,6 +131,7 @@ fn op_time(program: &Program, segment: &Segment<'_>) -> Duration {
             Some(Ready::After(time)) => time,
             Some(Ready::Input(_)) | None => Duration::ZERO,
         },
+        (None, Action::ToolChange { .. }) => change.map_or(Duration::ZERO, |change| change.time),
         (None, _) => Duration::ZERO,
     }
 }

@@ -8,6 +8,12 @@ use vcutc::diagnostics::Code;
 /// Codes that no job can bring about, with the test that does and why there is no job.
 const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
     (
+        Code::Unsupported,
+        "backends/gcode/tests/it/refusals.rs",
+        "changes_of_the_blade",
+        "only one target lacks anything",
+    ),
+    (
         Code::Overcut,
         "src/operations/vcut/replayed.rs",
         "a_cut_into_the_part_is_found_with_its_place_and_depth",

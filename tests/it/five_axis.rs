@@ -4,7 +4,7 @@ use crate::pipeline::{Files, compile, compile_on, numbers, told};
 use crate::repository::{read, root};
 use glam::{DMat3, DVec3};
 use vcutc::diagnostics::Code;
-use vcutc::motion::solve::rig;
+use vcutc::motion::rigs::Rigs;
 use vcutc::motion::trajectory::{Spacing, trajectory};
 use vcutc::vcut::PlannedVcut;
 use vcutc_backend_api::ir::Action;
@@ -83,10 +83,11 @@ fn the_axes_shown_go_on_without_a_jump() {
         .cell
         .clone()
         .expect("the program has it too");
-    let rig = rig(&machine.model, &cell);
+    let rigs = Rigs::of(&machine.model, &cell, reached.program.program());
+    let rig = rigs.first();
     let mut last: Option<[f64; 6]> = None;
     let mut rows = 0;
-    trajectory(&reached.program, &rig, &Spacing::CLOSE, |sample| {
+    trajectory(&reached.program, &rigs, &Spacing::CLOSE, |sample| {
         rows += 1;
         for (axis, value) in rig.axes.iter().zip(sample.joints) {
             assert!(
@@ -137,13 +138,14 @@ fn no_turn_takes_an_edge_over_the_work() {
         let reached = compiled.program.reached().unwrap();
         let program = reached.program.program();
         let cell = program.cell.clone().unwrap();
-        let rig = rig(model, &cell);
-        let blade = &program.operations[0].blade;
+        let rigs = Rigs::of(model, &cell, program);
+        let rig = rigs.first();
+        let blade = &program.blades[0];
         let (sin, cos) = libm::sincos(blade.half_apex.to_rad());
         let length = blade.cutting_length.to_mm();
         let stock = program.stock;
         let (mut turning, mut nearest) = (0, f64::INFINITY);
-        trajectory(&reached.program, &rig, &Spacing::CLOSE, |sample| {
+        trajectory(&reached.program, &rigs, &Spacing::CLOSE, |sample| {
             let turns = matches!(program.ops[sample.op.0 as usize].action, Action::Turn { .. });
             if turns {
                 turning += 1;
@@ -191,13 +193,14 @@ fn no_turn_is_faster_than_the_job_asks_for() {
         let compiled = outcome.compiled.as_ref().unwrap_or_else(|| panic!("{machine}"));
         let reached = compiled.program.reached().unwrap();
         let program = reached.program.program();
-        let rig = rig(model, program.cell.as_ref().unwrap());
+        let rigs = Rigs::of(model, program.cell.as_ref().unwrap(), program);
+        let rig = rigs.first();
         let durations: Vec<f64> = program
             .segments()
             .map(|segment| segment.line().map_or(0.0, |line| line.duration().to_s()))
             .collect();
         let (mut fastest, mut before) = (0.0_f64, None);
-        trajectory(&reached.program, &rig, &Spacing::CLOSE, |sample| {
+        trajectory(&reached.program, &rigs, &Spacing::CLOSE, |sample| {
             let held = rig.blade_in_work(&sample.joints).rotation;
             let duration = durations[sample.op.0 as usize];
             if let Some((op, done, was)) = before

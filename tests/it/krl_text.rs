@@ -40,7 +40,7 @@ pub(crate) fn check(outcome: &Outcome, bundle: &Bundle) {
     let cell = program.program().cell.as_ref().unwrap();
     for event in &got {
         match event {
-            Event::Tool(setting) => assert_frame(setting, cell.tool, rounding),
+            Event::Tool(setting) => assert_frame(setting, cell.tools.first().frame, rounding),
             Event::Base(setting) => assert_frame(setting, cell.base, rounding),
             Event::Axes(_)
             | Event::Point { .. }

@@ -8,7 +8,7 @@ use crate::shop::{compiling, folder};
 use serde_json::Value;
 use std::convert::Infallible;
 use vcutc::driver::Outcome;
-use vcutc::motion::solve::rig;
+use vcutc::motion::rigs::Rigs;
 use vcutc::motion::trajectory::{Spacing, trajectory};
 use vcutc::report::playback::section;
 
@@ -104,6 +104,7 @@ fn name(action: &Action) -> &'static str {
         Action::Ultrasonic { .. } => "ultrasonic",
         Action::AwaitReady => "await_ready",
         Action::Dwell { .. } => "dwell",
+        Action::ChangePlace => "change_place",
         Action::ToolChange { .. } => "tool_change",
     }
 }
@@ -169,9 +170,9 @@ fn axes_are_told_again_all_along_the_program() {
             let reached = outcome.compiled.as_ref().unwrap().program.reached().unwrap();
             let cell = program(&outcome).cell.as_ref().unwrap();
             let machine = outcome.job.as_ref().unwrap().machine.as_ref().unwrap();
-            let rig = rig(&machine.model, cell);
+            let rigs = Rigs::of(&machine.model, cell, program(&outcome));
             let taken: Result<(), Infallible> =
-                trajectory(&reached.program, &rig, &Spacing::CLOSE, |sample| {
+                trajectory(&reached.program, &rigs, &Spacing::CLOSE, |sample| {
                     let told = between(&knots[sample.op.0 as usize], sample.done);
                     for (axis, (told, joint)) in cell.axes.iter().zip(told.iter().zip(sample.joints)) {
                         let most = match axis.kind {

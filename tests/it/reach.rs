@@ -11,7 +11,8 @@ use vcutc::motion::demand::Demand;
 use vcutc::motion::moves::{above_first_pose, paths};
 use vcutc::motion::path::{Course, prove};
 use vcutc::motion::rig::Rig;
-use vcutc::motion::solve::{Changes, LEAST_CLEARANCE, Reached, rig, solve};
+use vcutc::motion::rigs::Rigs;
+use vcutc::motion::solve::{Changes, LEAST_CLEARANCE, Reached, solve};
 use vcutc::process::lower::lower;
 use vcutc::process::plan::plan;
 use vcutc_backend_api::ir::{Action, OpId, Program};
@@ -146,8 +147,8 @@ fn no_branch_and_no_turn_is_better() {
         let machine = job.machine.as_ref().unwrap();
         let program = program(job);
         let cell = program.program().cell.clone().unwrap();
-        let rig = rig(&machine.model, &cell);
-        let best = best_of_all(program.program(), &rig);
+        let rigs = Rigs::of(&machine.model, &cell, program.program());
+        let best = best_of_all(program.program(), rigs.first());
         let found = outcome.compiled.as_ref().map(|_| solved(&outcome).report.margin);
         match (found, best) {
             (Some(found), Some(best)) => {
@@ -217,7 +218,8 @@ fn the_branch_changes_in_the_air_where_it_has_to() {
     let machine = job.machine.as_ref().unwrap();
     let cell = program.cell.clone().unwrap();
     let straight = self::program(job);
-    assert_eq!(best_of_all(straight.program(), &rig(&machine.model, &cell)), None);
+    let rigs = Rigs::of(&machine.model, &cell, straight.program());
+    assert_eq!(best_of_all(straight.program(), rigs.first()), None);
     assert!(emit(&outcome).is_ok());
 }
 
@@ -228,11 +230,11 @@ fn sampled_axes_join_and_stay_within_what_is_told() {
     let job = outcome.job.as_ref().unwrap();
     let program = reached.program.program();
     let cell = program.cell.clone().unwrap();
-    let rig = rig(&job.machine.as_ref().unwrap().model, &cell);
+    let rigs = Rigs::of(&job.machine.as_ref().unwrap().model, &cell, program);
     let mut last: Option<Joints> = None;
     let taken = vcutc::motion::trajectory::trajectory(
         &reached.program,
-        &rig,
+        &rigs,
         &vcutc::motion::trajectory::Spacing::CLOSE,
         |sample| {
             for (index, axis) in cell.axes.iter().enumerate() {

@@ -38,7 +38,7 @@ use vcutc::simulation::surface::Vee;
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{self, Action, Flank, OperationKind, Site, SourceRef, Stock, Switch};
+use vcutc_backend_api::ir::{Action, Flank, OperationKind, Site, SourceRef, Stock, Switch};
 use vcutc_backend_api::units::{Angle, Area, Duration, Length};
 
 #[derive(Debug)]
@@ -220,11 +220,7 @@ impl PlannedOperation for Marked {
 
     fn lower(&self, source: SourceRef, builder: &mut ProgramBuilder) {
         let setup = &self.asked.setup;
-        let operation = builder.operation(ir::Operation {
-            kind: KIND,
-            blade: setup.blade.in_program(),
-            source,
-        });
+        let operation = builder.operation(KIND, setup.blade.in_program(), source);
         let (layer, cut) = (NonZeroU32::MIN, NonZeroU32::MIN);
         let (site, way) = (
             Site::Cut {

@@ -48,12 +48,27 @@ fn orientation_of(op: &Op) -> Option<OrientationId> {
 
 /// Where the machine is after some ops.
 fn place_after(ops: &[Op]) -> Place {
-    let home = ops.iter().rposition(|op| op.action == Action::Home);
-    let since = &ops[home.map_or(0, |home| home + 1)..];
+    let loses_tip = |op: &Op| {
+        matches!(
+            op.action,
+            Action::Home | Action::ChangePlace | Action::ToolChange { .. }
+        )
+    };
+    let lost = ops.iter().rposition(loses_tip);
+    let since = &ops[lost.map_or(0, |lost| lost + 1)..];
     // Only an op that states both leads from home, or from nowhere, to a pose.
     let states_both = |op: &Op| tip_of(op).is_some() && orientation_of(op).is_some();
     let Some(first) = since.iter().position(states_both) else {
-        return home.map_or(Place::Unknown, |_| Place::Home);
+        return match lost.map(|lost| (ops[lost].action, &ops[..lost])) {
+            Some((Action::Home, _)) => Place::Home,
+            Some((Action::ChangePlace, _)) => Place::Change,
+            // A change of the blade moves no axis.
+            Some((_, before)) => match place_after(before) {
+                Place::Pose(_) => Place::Unknown,
+                place => place,
+            },
+            None => Place::Unknown,
+        };
     };
     let posed = &since[first..];
     Place::Pose(TipPose {
@@ -140,7 +155,7 @@ fn is_as_walked(program: &Program, index: usize, segment: &Segment<'_>) {
     );
     let before = segment.before.place;
     match (op.action, before.pose(), segment.path()) {
-        (Action::Home, _, Path::Home) => {}
+        (Action::Home, _, Path::Home) | (Action::ChangePlace, _, Path::Change) => {}
         (Action::AxisTravel { to: tip, orientation }, _, Path::Axes(to))
         | (
             Action::Travel {

@@ -6,8 +6,8 @@ use vcutc::driver::Outcome;
 use vcutc::driver::checks::Standing;
 use vcutc::machine::kinematics::Mechanism;
 use vcutc::machine::kinematics::pose::Pose;
-use vcutc::motion::rig::Rig;
-use vcutc::motion::solve::{Reached, rig};
+use vcutc::motion::rigs::Rigs;
+use vcutc::motion::solve::Reached;
 
 const JOB: &str = "job.vcut";
 
@@ -83,7 +83,8 @@ fn the_axes_bring_the_blade_where_the_program_has_it() {
     assert!(matches!(model.mechanism, Mechanism::Serial(_)));
     let program = reached.program.program();
     let cell = program.cell.clone().unwrap();
-    let rig: Rig<'_> = rig(model, &cell);
+    let rigs = Rigs::of(model, &cell, program);
+    let rig = rigs.first();
     let mut checked = 0;
     for (segment, end) in program.segments().zip(&reached.program.motion().ends) {
         let Some(to) = segment.target() else { continue };
@@ -98,7 +99,7 @@ fn the_axes_bring_the_blade_where_the_program_has_it() {
     let mut last = None;
     let jumps = vcutc::motion::trajectory::trajectory(
         &reached.program,
-        &rig,
+        &rigs,
         &vcutc::motion::trajectory::Spacing::CLOSE,
         |sample| {
             let from = last.replace(sample.joints).unwrap_or(sample.joints);

@@ -18,7 +18,7 @@ use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::{
     Action, AxisValues, Cell, IR_VERSION, Maker, Op, OpId, OrientationId, PlacedFrame, Program, Purpose,
-    Ready, Site, Stock,
+    Ready, Site, Stock, Tool, Tools,
 };
 use vcutc_backend_api::motion::{Motion, ReachableProgram, Stretch};
 use vcutc_backend_api::units::{Angle, Duration, Length};
@@ -64,10 +64,14 @@ fn cell(model: &Model) -> Cell {
         maker: model.maker,
         model: model.name.clone(),
         axes: model.axes.clone(),
-        tool: placed(tool()),
+        tools: Tools::one(Tool {
+            frame: placed(tool()),
+            load: None,
+            place: None,
+        }),
         base: placed(base()),
-        load: None,
         home: Some(AxisValues(home)),
+        change: None,
         ultrasonic: Some(1),
         ready: Ready::After(Duration::s(1.0)),
     }
@@ -101,6 +105,7 @@ fn program(model: &Model, solution: &Solution) -> ReachableProgram {
             height: side,
         },
         cell: Some(cell),
+        blades: Vec::new(),
         operations: Vec::new(),
         orientations: vec![orientation],
         feeds: Vec::new(),
@@ -115,7 +120,7 @@ fn program(model: &Model, solution: &Solution) -> ReachableProgram {
         }],
         waypoints: Vec::new(),
     };
-    ReachableProgram::assemble(verify(program).unwrap(), motion, &blade_in_work).unwrap()
+    ReachableProgram::assemble(verify(program).unwrap(), motion, &|_, axes| blade_in_work(axes)).unwrap()
 }
 
 /// `S` and `T` as the program's text has them.

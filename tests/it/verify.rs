@@ -211,7 +211,7 @@ fn no_slit_of_a_proven_program_enters_the_part() {
             let op = segment.op;
             if let (Action::Cut { .. }, Some(line)) = (op.action, segment.line()) {
                 let operation = usize::from(op.site.operation().unwrap().0);
-                let blade = &program.operations[operation].blade;
+                let blade = program.blade(program.operations[operation].tool).unwrap();
                 let edge = edge(blade, program.orientation(line.to.orientation).unwrap());
                 assert_eq!(
                     deepest(&bounds[operation], edge, line.from.tip, line.to.tip),
@@ -305,7 +305,7 @@ fn every_op_has_its_place_in_the_text() {
     for (op, place) in program.ops.iter().zip(places) {
         let text = &bench.files()[place.file as usize].text[place.start as usize..place.end as usize];
         let word = match op.action {
-            Action::Home | Action::AxisTravel { .. } => "PTP ",
+            Action::Home | Action::ChangePlace | Action::AxisTravel { .. } => "PTP ",
             Action::Travel { .. } | Action::Approach { .. } | Action::Retract { .. } => "LIN ",
             Action::Cut { .. } | Action::Turn { .. } => "LIN {",
             Action::Ultrasonic { .. } => "$OUT[12]=",

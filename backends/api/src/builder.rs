@@ -2,8 +2,8 @@
 
 use crate::geometry::Orientation;
 use crate::ir::{
-    Action, Cell, FeedId, IR_VERSION, Op, Operation, OperationId, OrientationId, Program, Purpose, RateId,
-    Site, Stock,
+    Action, Blade, Cell, FeedId, IR_VERSION, Op, Operation, OperationId, OperationKind, OrientationId,
+    Program, Purpose, RateId, Site, SourceRef, Stock, ToolId,
 };
 use crate::state::State;
 use crate::units::{AngularSpeed, Speed};
@@ -28,6 +28,7 @@ impl ProgramBuilder {
                 head: None,
                 stock,
                 cell,
+                blades: Vec::new(),
                 operations: Vec::new(),
                 orientations: Vec::new(),
                 feeds: Vec::new(),
@@ -59,12 +60,13 @@ impl ProgramBuilder {
         self.program.orientations.get(index as usize).copied()
     }
 
-    /// Appends an op; leaves out what the cell does not have (home angles, a generator).
+    /// Appends an op; leaves out what the cell does not have (home angles, a place for changes, a generator).
     #[inline]
     pub fn op(&mut self, site: Site, action: Action) {
         let cell = self.program.cell.as_ref();
         let exists = match &action {
             Action::Home => cell.is_some_and(|cell| cell.home.is_some()),
+            Action::ChangePlace => cell.is_some_and(|cell| cell.change.is_some()),
             Action::Ultrasonic { .. } | Action::AwaitReady => {
                 cell.is_some_and(|cell| cell.ultrasonic.is_some())
             }
@@ -76,9 +78,14 @@ impl ProgramBuilder {
         }
     }
 
-    /// Adds an operation, and says what ops refer to it by.
-    pub fn operation(&mut self, operation: Operation) -> OperationId {
-        self.program.operations.push(operation);
+    /// Adds an operation, and says what ops refer to it by. Its blade is put in where another one is at hand.
+    pub fn operation(&mut self, kind: OperationKind, blade: Blade, source: SourceRef) -> OperationId {
+        let tool = ToolId(id(find_or_push(&mut self.program.blades, blade)));
+        if self.state.tool != tool {
+            self.op(Site::Program, Action::ChangePlace);
+            self.op(Site::Program, Action::ToolChange { tool });
+        }
+        self.program.operations.push(Operation { kind, tool, source });
         OperationId(id(self.program.operations.len() - 1))
     }
 

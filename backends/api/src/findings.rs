@@ -5,7 +5,7 @@
 
 use crate::backend::{BackendIssue, Exceeded, MachineMismatch};
 use crate::geometry::Point3;
-use crate::ir::{Action, Cell, Op, OpId, OperationId, Program};
+use crate::ir::{Action, Cell, OpId};
 use crate::motion::ReachableProgram;
 use crate::script::trimmed_text;
 use crate::units::Duration;
@@ -133,28 +133,22 @@ impl Findings {
         }
     }
 
-    /// An op may not change the blade or wait for longer than a day.
-    pub fn op(&mut self, program: &Program, id: OpId, op: &Op) {
-        if let Some(operation) = op.site.operation() {
-            self.blade(program, id, operation);
-        }
-        match op.action {
-            Action::Dwell { time } => self.wait(Some(id), "waiting time", time),
-            Action::ToolChange { .. } => {
-                let what = "a tool change within the program";
-                self.tell(what, BackendIssue::Unsupported { op: id, what });
-            }
+    /// An op may not wait for longer than a day, nor change the blade.
+    pub fn op(&mut self, id: OpId, action: &Action) {
+        match action {
+            Action::Dwell { time } => self.wait(Some(id), "waiting time", *time),
             _ => {}
         }
     }
 
-    /// An operation must not have another blade than the first: the tool frame of the machine is that of one blade, and
-    /// nothing in the program would stop for another.
-    fn blade(&mut self, program: &Program, op: OpId, operation: OperationId) {
-        let blade_of = |place: usize| program.operations.get(place).map(|operation| &operation.blade);
-        if blade_of(usize::from(operation.0)) != blade_of(0) {
-            let what = "a change of the blade within the program";
-            self.tell(what, BackendIssue::Unsupported { op, what });
+    /// No op may change the blade, in a dialect that does not say how.
+    pub fn one_blade(&mut self, op: OpId, action: &Action) {
+        match action {
+            Action::ChangePlace | Action::ToolChange { .. } => {
+                let what = "a change of the blade within the program";
+                self.tell(what, BackendIssue::Unsupported { op, what });
+            }
+            _ => {}
         }
     }
 

@@ -4,8 +4,10 @@
 //! that old readers would misread raises [`IR_VERSION`].
 
 mod op;
+mod tools;
 
 pub use op::{Action, ActionKind, Flank, Op, Site, Switch};
+pub use tools::{Change, Changer, NoTools, Tool, ToolId, Tools};
 
 use crate::geometry::{Frame, Orientation, Point3};
 use crate::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
@@ -13,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
 /// Version of the exchange form that this crate reads and writes.
-pub const IR_VERSION: u32 = 2;
+pub const IR_VERSION: u32 = 3;
 
 /// A whole program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,6 +35,8 @@ pub struct Program {
     pub stock: Stock,
     /// The machine, when the job names one. Without it the program can be checked and shown, not emitted.
     pub cell: Option<Cell>,
+    /// The blades in the order in which the operations first cut with them. The program begins with the first one at hand.
+    pub blades: Vec<Blade>,
     /// What the ops belong to, in order of work.
     pub operations: Vec<Operation>,
     /// Orientations of T in W that the ops refer to.
@@ -75,6 +79,18 @@ impl Program {
     #[must_use]
     pub fn operation(&self, id: OperationId) -> Option<&Operation> {
         self.operations.get(usize::from(id.0))
+    }
+
+    /// A blade by its number.
+    #[must_use]
+    pub fn blade(&self, id: ToolId) -> Option<&Blade> {
+        self.blades.get(usize::from(id.0))
+    }
+
+    /// The blade that an operation cuts with.
+    #[must_use]
+    pub fn blade_of(&self, operation: OperationId) -> Option<&Blade> {
+        self.blade(self.operation(operation)?.tool)
     }
 
     /// An orientation by its number.
@@ -143,14 +159,15 @@ pub struct Cell {
     pub model: String,
     /// Its axes in the controller's order; at most [`MOST_AXES`].
     pub axes: Vec<Axis>,
-    /// Blade frame T seen from the flange.
-    pub tool: PlacedFrame,
+    /// How the machine holds each of the program's blades, in their order.
+    pub tools: Tools,
     /// Workpiece frame W seen from the machine's root.
     pub base: PlacedFrame,
-    /// What the flange carries, when the job states it.
-    pub load: Option<Registered<Load>>,
     /// Where the axes are when the program starts and ends, when the job states it.
     pub home: Option<AxisValues>,
+    /// How blades are changed, when the job states it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub change: Option<Change>,
     /// Digital output that runs the ultrasonic generator.
     pub ultrasonic: Option<u32>,
     /// How the program knows that the blade vibrates.
@@ -272,8 +289,8 @@ pub enum Ready {
 pub struct Operation {
     /// What is done.
     pub kind: OperationKind,
-    /// The blade that does it.
-    pub blade: Blade,
+    /// The blade that does it: its place in [`Program::blades`].
+    pub tool: ToolId,
     /// Where the job says so.
     pub source: SourceRef,
 }

@@ -10,7 +10,7 @@
 mod tests;
 
 use crate::geometry::Frame;
-use crate::ir::{Action, AxisValues, Cell, Head, OpId, Program};
+use crate::ir::{Action, AxisValues, Cell, Head, OpId, Program, ToolId};
 use crate::state::TipPose;
 use crate::verify::VerifiedProgram;
 use core::fmt;
@@ -168,15 +168,15 @@ const SAME_ATTITUDE: f64 = 1e-7;
 const AT_LIMIT: f64 = 1e-9;
 
 impl ReachableProgram {
-    /// Joins a program and its motion. `blade_in_work` gives the pose of the blade frame T in the workpiece frame W for axis
-    /// values; it is asked for every op.
+    /// Joins a program and its motion. `blade_in_work` gives the pose of the blade frame T in the workpiece frame W for the
+    /// blade at hand and axis values; it is asked for every op.
     ///
     /// # Errors
     /// All broken promises, in the order of the ops.
     pub fn assemble(
         verified: VerifiedProgram,
         motion: Motion,
-        blade_in_work: &dyn Fn(&AxisValues) -> Frame,
+        blade_in_work: &dyn Fn(ToolId, &AxisValues) -> Frame,
     ) -> Result<Self, Vec<MotionFault>> {
         let faults = faults(verified.program(), &motion, blade_in_work);
         if faults.is_empty() {
@@ -243,7 +243,7 @@ impl ReachableProgram {
 fn faults(
     program: &Program,
     motion: &Motion,
-    blade_in_work: &dyn Fn(&AxisValues) -> Frame,
+    blade_in_work: &dyn Fn(ToolId, &AxisValues) -> Frame,
 ) -> Vec<MotionFault> {
     let whole = |what| vec![MotionFault { op: None, what }];
     let Some(cell) = &program.cell else {
@@ -267,11 +267,15 @@ fn faults(
         }
         let is_there = |pose: TipPose| {
             let should = program.frame(pose);
-            should.is_some_and(|should| is_there(&blade_in_work(&values), &should))
+            should.is_some_and(|should| is_there(&blade_in_work(segment.before.tool, &values), &should))
         };
         let broken = match (segment.op.action, segment.target()) {
             (_, Some(to)) => (!is_there(to)).then_some(MotionRule::Pose),
             (Action::Home, None) => (cell.home != Some(values)).then_some(MotionRule::Pose),
+            (Action::ChangePlace, None) => {
+                let should = cell.change.map(|change| change.at);
+                (should != Some(values)).then_some(MotionRule::Pose)
+            }
             (_, None) => before
                 .is_some_and(|before| before != values)
                 .then_some(MotionRule::Still),
@@ -286,7 +290,7 @@ fn faults(
 fn waypoint_faults(
     program: &Program,
     motion: &Motion,
-    blade_in_work: &dyn Fn(&AxisValues) -> Frame,
+    blade_in_work: &dyn Fn(ToolId, &AxisValues) -> Frame,
 ) -> Vec<MotionFault> {
     let Some(cell) = &program.cell else {
         return Vec::new();
@@ -306,7 +310,10 @@ fn waypoint_faults(
                 .is_some_and(|should| is_there(&waypoint.frame, &should));
             let held = waypoint.axes.0.iter().all(|value| value.is_finite())
                 && within_limits(cell, &waypoint.axes)
-                && is_there(&blade_in_work(&waypoint.axes), &waypoint.frame);
+                && is_there(
+                    &blade_in_work(segment.before.tool, &waypoint.axes),
+                    &waypoint.frame,
+                );
             if !(in_order && on_the_way && held) {
                 faults.push(MotionFault {
                     op: Some(segment.id),

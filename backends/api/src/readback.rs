@@ -216,6 +216,8 @@ pub enum Command {
     AwaitInput(u32),
     /// Waits.
     Wait(Duration),
+    /// Another blade is put in: from this place, or by hand where there is none.
+    ChangeTool(Option<u32>),
 }
 
 impl Command {
@@ -224,7 +226,7 @@ impl Command {
     pub const fn is_motion(&self) -> bool {
         match self {
             Self::Axes(_) | Self::AxesToPose(_) | Self::Straight { .. } => true,
-            Self::Switch { .. } | Self::AwaitInput(_) | Self::Wait(_) => false,
+            Self::Switch { .. } | Self::AwaitInput(_) | Self::Wait(_) | Self::ChangeTool(_) => false,
         }
     }
 }

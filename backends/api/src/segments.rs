@@ -34,6 +34,8 @@ pub enum Path {
     Still,
     /// All axes to their home values.
     Home,
+    /// All axes to where the cell changes blades.
+    Change,
     /// All axes to a pose of the blade, each straight to its value.
     Axes(TipPose),
     /// The blade, its tip on a straight line.
@@ -107,7 +109,8 @@ impl Segment<'_> {
     pub fn path(&self) -> Path {
         match (&self.op.action, self.start(), self.to) {
             (Action::Home, ..) => Path::Home,
-            // Before the first pose the blade is at home or somewhere unknown, so the motion has no line to follow.
+            (Action::ChangePlace, ..) => Path::Change,
+            // Without a pose the blade is at home, where it was changed or somewhere unknown, so the motion has no line to follow.
             (Action::AxisTravel { .. }, _, Some(to)) | (_, None, Some(to)) => Path::Axes(to),
             (_, Some(from), Some(to)) => {
                 let line = LinearSegment::with(self.program, [from, to], &self.op.action, || self.turn);
@@ -123,19 +126,19 @@ impl Segment<'_> {
     pub fn line(&self) -> Option<LinearSegment> {
         match self.path() {
             Path::Linear(line) => Some(line),
-            Path::Still | Path::Home | Path::Axes(_) => None,
+            Path::Still | Path::Home | Path::Change | Path::Axes(_) => None,
         }
     }
 }
 
 impl Path {
-    /// The pose to which it leads; none for home.
+    /// The pose to which it leads; none for axis values.
     #[must_use]
     pub const fn target(&self) -> Option<TipPose> {
         match self {
             Self::Axes(to) => Some(*to),
             Self::Linear(line) => Some(line.to),
-            Self::Still | Self::Home => None,
+            Self::Still | Self::Home | Self::Change => None,
         }
     }
 
@@ -145,7 +148,7 @@ impl Path {
     pub const fn line(&self) -> Option<&LinearSegment> {
         match self {
             Self::Linear(line) => Some(line),
-            Self::Still | Self::Home | Self::Axes(_) => None,
+            Self::Still | Self::Home | Self::Change | Self::Axes(_) => None,
         }
     }
 
@@ -153,7 +156,7 @@ impl Path {
     #[must_use]
     pub const fn is_of_axes(&self) -> bool {
         match self {
-            Self::Home | Self::Axes(_) => true,
+            Self::Home | Self::Change | Self::Axes(_) => true,
             Self::Still | Self::Linear(_) => false,
         }
     }

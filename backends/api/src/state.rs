@@ -1,7 +1,7 @@
 //! What the machine is doing between two ops: where it is, and whether the blade vibrates.
 
 use crate::geometry::Point3;
-use crate::ir::{Action, OrientationId, Switch};
+use crate::ir::{Action, OrientationId, Switch, ToolId};
 
 /// A pose of the blade frame T in the workpiece frame W, as a program states it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +19,8 @@ pub enum Place {
     Unknown,
     /// At the home angles.
     Home,
+    /// Where the cell changes blades.
+    Change,
     /// With the blade in a pose.
     Pose(TipPose),
 }
@@ -41,6 +43,8 @@ pub struct State {
     pub place: Place,
     /// Whether the blade vibrates.
     pub generator: Generator,
+    /// The blade at hand.
+    pub tool: ToolId,
 }
 
 impl State {
@@ -48,6 +52,7 @@ impl State {
     pub const START: Self = Self {
         place: Place::Unknown,
         generator: Generator::Off,
+        tool: ToolId::FIRST,
     };
 
     /// After an action. One that moves nothing leaves the machine where it is.
@@ -62,6 +67,15 @@ impl State {
     pub(crate) const fn led(mut self, action: &Action, to: Option<TipPose>) -> Self {
         match action {
             Action::Home => self.place = Place::Home,
+            Action::ChangePlace => self.place = Place::Change,
+            Action::ToolChange { tool } => {
+                self.tool = *tool;
+                // The tip is another one.
+                self.place = match self.place {
+                    Place::Home | Place::Change => self.place,
+                    Place::Unknown | Place::Pose(_) => Place::Unknown,
+                };
+            }
             Action::Ultrasonic { state: Switch::On } => self.generator = Generator::Starting,
             Action::Ultrasonic { state: Switch::Off } => self.generator = Generator::Off,
             Action::AwaitReady => self.generator = Generator::Running,
@@ -82,7 +96,7 @@ impl Place {
     pub const fn pose(self) -> Option<TipPose> {
         match self {
             Self::Pose(pose) => Some(pose),
-            Self::Unknown | Self::Home => None,
+            Self::Unknown | Self::Home | Self::Change => None,
         }
     }
 }

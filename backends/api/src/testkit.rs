@@ -8,11 +8,13 @@ mod conformance;
 mod pretend;
 mod pretend_five_axis;
 mod recipe;
+mod two_blades;
 
 pub use conformance::{conformance, conformance_with};
 pub use pretend::{axes, axes_at, blade_in_work, reachable};
 pub use pretend_five_axis::five_axes;
 pub use recipe::{CellRecipe, Crossing, Passes, Recipe};
+pub use two_blades::two_blades;
 
 use crate::geometry::{Frame, Orientation, Point3};
 use crate::ir::{AxisValues, Edges, Maker, PlacedFrame, Ready, Registered};

@@ -7,6 +7,7 @@
 //! and the two flanks of every V are there once.
 
 mod capability;
+mod sound;
 #[cfg(test)]
 #[cfg(feature = "testkit")]
 mod tests;
@@ -15,12 +16,12 @@ pub use capability::{Capabilities, Capability};
 
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{
-    Action, Axis, BodyStage, Cell, Edges, Flank, Head, IR_VERSION, MOST_AXES, Op, OpId, Operation,
-    OperationId, OrientationId, Program, Purpose, Ready, Registered, Site, Switch,
+    Action, Blade, BodyStage, Edges, Flank, Head, IR_VERSION, Op, OpId, OperationId, OrientationId, Program,
+    Purpose, Ready, Site, Switch, ToolId,
 };
 use crate::segments::Segment;
 use crate::state::{Generator, Place, State};
-use crate::units::{Angle, Duration, Length, Mass};
+use crate::units::{Angle, Length};
 use core::fmt;
 use core::num::NonZeroU32;
 
@@ -81,7 +82,7 @@ pub enum Rule {
     TableReference,
     /// Every number is finite, every length, speed and time that must be positive is.
     Number,
-    /// The machine has at least one axis and at most [`MOST_AXES`], each with a range, and rates that are positive.
+    /// The machine has at least one axis and at most [`MOST_AXES`](crate::ir::MOST_AXES), each with a range, and rates that are positive.
     Axes,
     /// The first motion is `Home` where there is a cell with a home, and the first to a pose is an `AxisTravel`: the way of
     /// a straight move from axis values would depend on the arm.
@@ -108,6 +109,12 @@ pub enum Rule {
     CutPair,
     /// In an air cut the blade stays above the stock, all along and by half its thickness at least, and the generator off.
     AirCut,
+    /// The machine has a tool for every blade, and a changer that is told places has one of its own for each.
+    Tools,
+    /// Blades are changed at the change place, with the generator off.
+    ChangeAway,
+    /// A motion of the blade serves an operation of the blade at hand.
+    OtherBlade,
     /// Operations come in order, and the cuts of each layer are numbered from 1 without gaps. In which order an operation
     /// visits them is for the proof to judge.
     Order,
@@ -132,6 +139,9 @@ impl fmt::Display for Rule {
             Self::Ending => "the program does not end at home with the generator off",
             Self::CutPair => "a V-cut without exactly one left and one right flank",
             Self::AirCut => "an air cut lets the blade down to the stock, or starts the generator",
+            Self::Tools => "the machine has not one tool and one place for each blade",
+            Self::ChangeAway => "the blade is changed away from the change place, or with the generator on",
+            Self::OtherBlade => "an operation has another blade at hand than its own",
             Self::Order => "operations are out of order, or a layer's cuts are not all there",
         })
     }
@@ -188,23 +198,18 @@ struct Walk<'p> {
     half_thickness: f64,
 }
 
-/// How far the edges of an operation's blade lie along y in a posture: a program has a handful of postures for all its ops.
-struct Overhangs(Vec<((OperationId, OrientationId), [Length; 2])>);
+/// How far the edges of a blade lie along y in a posture: a program has a handful of postures for all its ops.
+struct Overhangs(Vec<((ToolId, OrientationId), [Length; 2])>);
 
 impl Overhangs {
     /// Programs of more postures than a few compute the rest anew, so that looking never takes long.
     const MOST: usize = 32;
 
-    fn of(
-        &mut self,
-        key: (OperationId, OrientationId),
-        operation: &Operation,
-        held: Orientation,
-    ) -> [Length; 2] {
+    fn of(&mut self, key: (ToolId, OrientationId), blade: &Blade, held: Orientation) -> [Length; 2] {
         if let Some((_, known)) = self.0.iter().find(|(known, _)| *known == key) {
             return *known;
         }
-        let found = overhangs(operation, held);
+        let found = overhangs(blade, held);
         if self.0.len() < Self::MOST {
             self.0.push((key, found));
         }
@@ -249,8 +254,7 @@ impl<'p> Walk<'p> {
             broken.push(Rule::Version);
         }
         let stock = positive(p.stock.width) && positive(p.stock.depth) && positive(p.stock.height);
-        let blades = p.operations.iter().all(|operation| {
-            let blade = &operation.blade;
+        let blades = p.blades.iter().all(|blade| {
             let apex = (Angle::ZERO..Angle::deg(90.0)).contains(&blade.half_apex);
             positive(blade.cutting_length)
                 && apex
@@ -261,11 +265,21 @@ impl<'p> Walk<'p> {
         let speeds = p.feeds.iter().all(|f| f.is_finite() && f.to_mm_per_s() > 0.0)
             && p.rates.iter().all(|r| r.is_finite() && r.to_rad_per_s() > 0.0);
         let cell = p.cell.as_ref();
-        if !(stock && blades && speeds && cell.is_none_or(has_sound_numbers)) {
+        if !(stock && blades && speeds && cell.is_none_or(sound::has_sound_numbers)) {
             broken.push(Rule::Number);
         }
-        if !cell.is_none_or(|cell| has_sound_axes(&cell.axes)) {
+        if !cell.is_none_or(|cell| sound::has_sound_axes(&cell.axes)) {
             broken.push(Rule::Axes);
+        }
+        if !cell.is_none_or(|cell| sound::has_a_tool_for_each(cell, p.blades.len())) {
+            broken.push(Rule::Tools);
+        }
+        if !p
+            .operations
+            .iter()
+            .all(|operation| p.blade(operation.tool).is_some())
+        {
+            broken.push(Rule::TableReference);
         }
         self.faults
             .extend(broken.into_iter().map(|rule| Fault { op: None, rule }));
@@ -275,6 +289,7 @@ impl<'p> Walk<'p> {
         let (op, before) = (segment.op, segment.before);
         self.current = segment.id;
         self.site(op.site);
+        self.blade_at_hand(segment);
         match self.program.purpose {
             Purpose::Work => {}
             Purpose::AirCut { .. } => self.require(self.is_of_an_air_cut(segment), Rule::AirCut),
@@ -296,8 +311,40 @@ impl<'p> Walk<'p> {
                 self.needs = self.needs.with(Capability::Dwell);
                 self.require(time.is_finite() && time.to_s() >= 0.0, Rule::Number);
             }
-            Action::ToolChange { .. } => self.needs = self.needs.with(Capability::ToolChange),
+            Action::ChangePlace => self.change_place(before.place),
+            Action::ToolChange { tool } => self.tool_change(before, tool),
         }
+    }
+
+    /// Motions of an operation have its blade at hand.
+    fn blade_at_hand(&mut self, segment: &Segment<'_>) {
+        let operation = segment
+            .op
+            .site
+            .operation()
+            .and_then(|id| self.program.operation(id));
+        let at_hand = segment.before.tool;
+        let is_its_own = operation.is_none_or(|operation| operation.tool == at_hand);
+        self.require(is_its_own || segment.target().is_none(), Rule::OtherBlade);
+    }
+
+    fn change_place(&mut self, from: Place) {
+        self.needs = self
+            .needs
+            .with(Capability::JointMove)
+            .with(Capability::ToolChange);
+        let cell = self.program.cell.as_ref();
+        self.require(cell.is_some_and(|cell| cell.change.is_some()), Rule::ChangeAway);
+        self.require(from != Place::Unknown || !self.has_home(), Rule::KnownStart);
+        self.leaves_for_axis_values(from);
+    }
+
+    fn tool_change(&mut self, before: State, tool: ToolId) {
+        self.needs = self.needs.with(Capability::ToolChange);
+        self.require(self.program.blade(tool).is_some(), Rule::TableReference);
+        // Without a machine there is no place for changes, and nothing to be at.
+        let is_there = self.program.cell.is_none() || before.place == Place::Change;
+        self.require(is_there && before.generator == Generator::Off, Rule::ChangeAway);
     }
 
     /// Every id refers to an entry of its table.
@@ -350,6 +397,11 @@ impl<'p> Walk<'p> {
     fn home(&mut self, from: Place) {
         self.needs = self.needs.with(Capability::JointMove);
         self.require(self.has_home(), Rule::HomeAngles);
+        self.leaves_for_axis_values(from);
+    }
+
+    /// A move to axis values begins outside of the stock.
+    fn leaves_for_axis_values(&mut self, from: Place) {
         let retracted = from.pose().is_none_or(|pose| self.is_outside(pose.tip));
         self.require(retracted, Rule::AirMoveThroughStock);
     }
@@ -375,7 +427,7 @@ impl<'p> Walk<'p> {
         let above = |tip: Point3| tip.z >= top - SAME;
         let from_above = match from {
             Place::Pose(from) => above(from.tip),
-            Place::Home => true,
+            Place::Home | Place::Change => true,
             Place::Unknown => {
                 self.require(!self.has_home(), Rule::KnownStart);
                 true
@@ -419,11 +471,10 @@ impl<'p> Walk<'p> {
             return;
         };
         let program = self.program;
-        if let (Some(operation), Some(held)) = (
-            program.operation(operation),
-            program.orientation(from.orientation),
-        ) {
-            let good = posture_fits(operation, held, flank, to.y - from.tip.y);
+        if let (Some(blade), Some(held)) =
+            (program.blade_of(operation), program.orientation(from.orientation))
+        {
+            let good = posture_fits(blade, held, flank, to.y - from.tip.y);
             self.require(good, Rule::CutPosture);
         }
         self.passes.push(Pass {
@@ -447,12 +498,15 @@ impl<'p> Walk<'p> {
     /// The blade is clear of the stock in all of the postures with its tip at that point.
     fn turns_clear(&mut self, site: Site, tip: Point3, postures: [OrientationId; 2]) {
         let program = self.program;
-        let operation = site.operation().and_then(|id| Some((id, program.operation(id)?)));
+        let blade = site.operation().and_then(|id| {
+            let tool = program.operation(id)?.tool;
+            Some((tool, program.blade(tool)?))
+        });
         let clear = postures
             .into_iter()
-            .all(|id| match (operation, program.orientation(id)) {
-                (Some((number, operation)), Some(held)) => {
-                    let overhangs = self.overhangs.of((number, id), operation, held);
+            .all(|id| match (blade, program.orientation(id)) {
+                (Some((tool, blade)), Some(held)) => {
+                    let overhangs = self.overhangs.of((tool, id), blade, held);
                     self.is_clear(tip, overhangs)
                 }
                 _ => true,
@@ -474,6 +528,7 @@ impl<'p> Walk<'p> {
         let rests = match end.place {
             Place::Unknown => true,
             Place::Home => self.has_home(),
+            Place::Change => false,
             Place::Pose(pose) => !self.has_home() && self.is_outside(pose.tip),
         };
         self.require(rests && end.generator == Generator::Off, Rule::Ending);
@@ -557,19 +612,16 @@ impl<'p> Walk<'p> {
 /// Half the thickness of a program's thickest blade: how far below its tip a blade hangs at most, held as it cuts or upright.
 #[must_use]
 pub fn half_thickness(program: &Program) -> Length {
-    let blades = program
-        .operations
-        .iter()
-        .map(|operation| operation.blade.thickness * 0.5);
+    let blades = program.blades.iter().map(|blade| blade.thickness * 0.5);
     blades.fold(Length::ZERO, Length::max)
 }
 
-/// How far the edges of an operation's blade lie along y in a posture.
-fn overhangs(operation: &Operation, held: Orientation) -> [Length; 2] {
+/// How far the edges of a blade lie along y in a posture.
+fn overhangs(blade: &Blade, held: Orientation) -> [Length; 2] {
     // The tool axis makes this angle with +y; both edges lie half the apex angle off it, in the blade's plane.
     let axis = libm::acos((-held.matrix()[1][2]).clamp(-1.0, 1.0));
-    let half_apex = operation.blade.half_apex.to_rad();
-    [axis - half_apex, axis + half_apex].map(|angle| operation.blade.cutting_length * libm::cos(angle))
+    let half_apex = blade.half_apex.to_rad();
+    [axis - half_apex, axis + half_apex].map(|angle| blade.cutting_length * libm::cos(angle))
 }
 
 /// Whether the stages of a body are round, and rise.
@@ -581,42 +633,8 @@ fn has_sound_stages(stages: &[BodyStage]) -> bool {
         && stages.is_sorted_by(|below, above| below.from < above.from)
 }
 
-/// Whether all numbers of a machine but those of its axes are ones that it can have.
-fn has_sound_numbers(cell: &Cell) -> bool {
-    let frames = [cell.tool, cell.base]
-        .into_iter()
-        .all(|placed| placed.frame.origin.is_finite() && placed.number.is_none_or(|number| number > 0));
-    let load = match cell.load {
-        Some(Registered::Value(load)) => {
-            load.mass.is_finite() && load.mass >= Mass::ZERO && load.centre.is_finite()
-        }
-        Some(Registered::Number(number)) => number > 0,
-        None => true,
-    };
-    let ready = match cell.ready {
-        Ready::Input(input) => input > 0,
-        Ready::After(time) => time.is_finite() && time >= Duration::ZERO,
-    };
-    let home = cell
-        .home
-        .is_none_or(|home| home.0.iter().all(|value| value.is_finite()));
-    frames && load && ready && home && cell.ultrasonic.is_none_or(|output| output > 0)
-}
-
-fn has_sound_axes(axes: &[Axis]) -> bool {
-    let positive = |value: Option<f64>| value.is_none_or(|value| value.is_finite() && value > 0.0);
-    (1..=MOST_AXES).contains(&axes.len())
-        && axes.iter().all(|axis| {
-            axis.min.is_finite()
-                && axis.max.is_finite()
-                && axis.min <= axis.max
-                && positive(axis.rate)
-                && positive(axis.acceleration)
-        })
-}
-
 /// Whether a cut along `dy` holds the blade as its flank wants, with an edge in front.
-fn posture_fits(operation: &Operation, held: Orientation, flank: Flank, dy: f64) -> bool {
+fn posture_fits(blade: &Blade, held: Orientation, flank: Flank, dy: f64) -> bool {
     let m = held.matrix();
     // Tip to shank is -z_t.
     let (lean_x, lean_y, lean_z) = (-m[0][2], -m[1][2], -m[2][2]);
@@ -624,7 +642,7 @@ fn posture_fits(operation: &Operation, held: Orientation, flank: Flank, dy: f64)
         Flank::Left => lean_x < 0.0,
         Flank::Right => lean_x > 0.0,
     };
-    let edge_leads = match operation.blade.edges {
+    let edge_leads = match blade.edges {
         Edges::Double => true,
         Edges::Single => m[1][0] * dy > 0.0,
     };

@@ -30,6 +30,12 @@ impl<'a> Job<'a> {
 
     /// The number of the tool in the controller's table.
     pub(crate) fn tool(&self) -> u32 {
-        self.source.cell.tool.number.unwrap_or(self.settings.tool_number)
+        self.source
+            .cell
+            .tools
+            .first()
+            .frame
+            .number
+            .unwrap_or(self.settings.tool_number)
     }
 }

@@ -128,10 +128,10 @@ fn machine(cell: &Cell, settings: &Settings<'_>, found: &mut Findings) {
 
 /// The control knows of the tool one length, along the spindle.
 fn tool(cell: &Cell, settings: &Settings<'_>, found: &mut Findings) {
-    let number = cell.tool.number.unwrap_or(settings.tool_number);
+    let number = cell.tools.first().frame.number.unwrap_or(settings.tool_number);
     let what = settings.facts().tool_number_name;
     found.number(what, number, 1..=settings.facts().most_tools);
-    let Point3 { x, y, z } = cell.tool.frame.origin;
+    let Point3 { x, y, z } = cell.tools.first().frame.frame.origin;
     let half_a_unit = settings.common.lengths.half_unit();
     for (what, value) in [("tool X", x), ("tool Y", y)] {
         let unit = "mm";
@@ -162,9 +162,10 @@ fn numbers(settings: &Settings<'_>, parts: &[Part], found: &mut Findings) {
 fn ops(job: &Job<'_>, found: &mut Findings) {
     let program = job.source.program();
     for segment in program.segments() {
-        found.op(program, segment.id, segment.op);
+        found.op(segment.id, &segment.op.action);
+        found.one_blade(segment.id, &segment.op.action);
         match segment.path() {
-            Path::Home | Path::Axes(_) => axes(job, segment.id, found),
+            Path::Home | Path::Change | Path::Axes(_) => axes(job, segment.id, found),
             Path::Linear(line) => self::line(job, segment.id, &line, found),
             Path::Still => {}
         }

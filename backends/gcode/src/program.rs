@@ -85,7 +85,7 @@ impl GcodeDialect<'_, '_, '_> {
             "",
         )?;
         self.comment(&format!("X {x} Y {y} Z {z} mm from the mount"), "")?;
-        let length = trimmed_text(cell.tool.frame.origin.z);
+        let length = trimmed_text(cell.tools.first().frame.frame.origin.z);
         let tool = controller.tool_name(self.job.tool());
         self.comment(&format!("{tool}: length {length} mm"), "")?;
         match controller.facts().note_of_axis_moves {

@@ -2,7 +2,7 @@
 
 use crate::attitude::Attitudes;
 use crate::configuration::StatusAndTurn;
-use crate::keywords::HOME;
+use crate::keywords::{CHANGE, HOME};
 use crate::options::Settings;
 use crate::turns::{Rates, Turns, rounded_down};
 use core::num::NonZeroU32;
@@ -80,6 +80,7 @@ impl Dialect for KrlDialect<'_, '_, '_> {
         self.text.put(b" ");
         let pose = match motion.to {
             JointTarget::Home => return Ok(self.text.line(HOME)?),
+            JointTarget::Change => return Ok(self.text.line(CHANGE)?),
             JointTarget::Pose(pose) => pose,
         };
         let branch = self.source.reachable.branch_after(motion.op);

@@ -22,6 +22,9 @@ pub(crate) const MOST_PARTS: usize = 9999;
 /// Name of the variable in a data list that holds the home angles.
 pub(crate) const HOME: &str = "XVC_HOME";
 
+/// Name of the variable there that holds the angles at which the blade is changed.
+pub(crate) const CHANGE: &str = "XVC_CHANGE";
+
 const RULES: NameRules = NameRules {
     max_length: LONGEST_MAIN_NAME,
     prefix: "VC_",
@@ -91,8 +94,8 @@ const RESERVED: &[&str] = &[
     // Names that DOS and Windows keep for devices: no file of a controller can be called so.
     "AUX", "COM1", "COM2", "COM3", "COM4", "COM5", "COM6", "COM7", "COM8", "COM9", "CON", "LPT1", "LPT2", "LPT3",
     "LPT4", "LPT5", "LPT6", "LPT7", "LPT8", "LPT9", "NUL", "PRN",
-    // Our own variable.
-    HOME,
+    // Our own variables.
+    HOME, CHANGE,
 ];
 
 #[cfg(test)]

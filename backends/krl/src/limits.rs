@@ -76,7 +76,7 @@ fn machine(cell: &Cell, found: &mut Findings) {
         None => found.tell("home", HOME_MISSING),
     }
     frame(
-        cell.tool,
+        cell.tools.first().frame,
         ["tool X", "tool Y", "tool Z"],
         ("tool number", TOOLS),
         found,
@@ -87,7 +87,7 @@ fn machine(cell: &Cell, found: &mut Findings) {
         ("base number", BASES),
         found,
     );
-    match cell.load {
+    match cell.tools.first().load {
         Some(Registered::Value(load)) => found.load(load, &LIMITS),
         Some(Registered::Number(number)) => found.number("load number", number, 1..=TOOLS),
         None => {}

@@ -80,9 +80,9 @@ impl KrlDialect<'_, '_, '_> {
     fn motion_setup(&mut self) -> Written {
         let (cell, settings) = (self.source.cell, self.settings);
         self.text.line(";FOLD SETUP")?;
-        self.frame("TOOL", cell.tool)?;
+        self.frame("TOOL", cell.tools.first().frame)?;
         self.frame("BASE", cell.base)?;
-        match cell.load {
+        match cell.tools.first().load {
             Some(Registered::Value(load)) => self.load(load)?,
             Some(Registered::Number(number)) => self.text.line(&format!("$LOAD=LOAD_DATA[{number}]"))?,
             None => self

@@ -1,6 +1,6 @@
 //! How a program is put in RAPID.
 
-use crate::keywords::{AXES_SPEED, HOME, SPEED, ZONE};
+use crate::keywords::{AXES_SPEED, CHANGE, HOME, SPEED, ZONE};
 use crate::options::Settings;
 use crate::orient::Quaternion;
 use crate::speeds::Speeds;
@@ -34,7 +34,7 @@ pub(crate) enum AxisTarget {
 
 impl AxisTarget {
     const fn of(cell: &Cell) -> Self {
-        match (cell.tool.number, cell.base.number) {
+        match (cell.tools.first().frame.number, cell.base.number) {
             (None, None) => Self::Axes,
             (Some(_), _) | (_, Some(_)) => Self::Pose,
         }
@@ -116,9 +116,12 @@ impl Dialect for RapidDialect<'_, '_, '_> {
 
     fn joint_move(&mut self, motion: &JointMove) -> Written {
         match (motion.to, AxisTarget::of(self.source.cell)) {
-            (JointTarget::Home, _) => {
+            (place @ (JointTarget::Home | JointTarget::Change), _) => {
                 self.begin(b"MoveAbsJ ");
-                self.text.put(HOME.as_bytes());
+                self.text.put(match place {
+                    JointTarget::Change => CHANGE.as_bytes(),
+                    JointTarget::Home | JointTarget::Pose(_) => HOME.as_bytes(),
+                });
                 self.text.put(b"\\NoEOffs");
                 self.turned = None;
             }

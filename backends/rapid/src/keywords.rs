@@ -21,6 +21,8 @@ pub(crate) const MOST_PARTS: usize = 9999;
 pub(crate) const MAIN: &str = "main";
 /// The jointtarget of home.
 pub(crate) const HOME: &str = "vc_home";
+/// The jointtarget at which the blade is changed.
+pub(crate) const CHANGE: &str = "vc_change";
 /// The speed of the moves of all axes.
 pub(crate) const AXES_SPEED: &str = "vc_axes";
 /// The zone of rounded corners.

@@ -183,9 +183,9 @@ fn machine(cell: &Cell, findings: &mut Findings) {
         findings.tell("home", HOME_MISSING);
     }
     findings.generator(cell);
-    if cell.tool.number.is_none() {
-        findings.frame(["tool X", "tool Y", "tool Z"], cell.tool, &LIMITS);
-        match cell.load {
+    if cell.tools.first().frame.number.is_none() {
+        findings.frame(["tool X", "tool Y", "tool Z"], cell.tools.first().frame, &LIMITS);
+        match cell.tools.first().load {
             Some(Registered::Value(carried)) => load(carried, findings),
             Some(Registered::Number(_)) | None => findings.tell("load", LOAD_MISSING),
         }

@@ -109,17 +109,17 @@ impl RapidDialect<'_, '_, '_> {
 
     fn tool(&mut self) -> Written {
         let name = self.settings.tool(self.source.cell);
-        if self.source.cell.tool.number.is_some() {
+        if self.source.cell.tools.first().frame.number.is_some() {
             return Ok(self
                 .text
                 .line(&format!("  ! tool and load as the controller has them in {name}"))?);
         }
-        let Some(Registered::Value(load)) = self.source.cell.load else {
+        let Some(Registered::Value(load)) = self.source.cell.tools.first().load else {
             return Err(EmitError::Internal("a tool without load was not refused"));
         };
         self.text
             .put(format!("  PERS tooldata {name}:=[TRUE,").as_bytes());
-        self.frame(self.source.cell.tool.frame)?;
+        self.frame(self.source.cell.tools.first().frame.frame)?;
         self.text.put(b",");
         self.load(load)?;
         Ok(self.text.line("];")?)

@@ -81,7 +81,7 @@ impl<'p> Settings<'p> {
 
     /// The name of the tooldata that the moves of a program refer to.
     pub(crate) fn tool(&self, cell: &Cell) -> String {
-        self.frame(TOOL_NAME, cell.tool, "tool", TOOL)
+        self.frame(TOOL_NAME, cell.tools.first().frame, "tool", TOOL)
     }
 
     /// The name of the wobjdata that the moves of a program refer to.

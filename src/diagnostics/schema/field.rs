@@ -199,10 +199,25 @@ impl BlockSpec {
 }
 
 /// What inner blocks that are not fields are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub enum Inner {
     /// They are unknown.
     Refused,
-    /// They are options for a target.
-    TargetOptions,
+    /// They are those of a machine: options for a target, or of what is named in their heads.
+    Machine {
+        /// The word before the name.
+        named: &'static str,
+        /// Their fields.
+        spec: &'static BlockSpec,
+    },
+}
+
+impl Inner {
+    /// Whether they are options for a target.
+    pub const fn takes_target_options(self) -> bool {
+        match self {
+            Self::Refused => false,
+            Self::Machine { .. } => true,
+        }
+    }
 }

@@ -63,6 +63,13 @@ enum Slot<'a> {
     Spoiled(Reported),
 }
 
+/// An inner block of what is named in its head.
+#[derive(Clone, Copy)]
+pub struct NamedBlock<'a> {
+    pub name: Spanned<&'a str>,
+    pub block: &'a Block,
+}
+
 /// The fields of one block.
 pub struct Fields<'a> {
     spec: &'static BlockSpec,
@@ -72,6 +79,8 @@ pub struct Fields<'a> {
     least: BTreeMap<&'static str, (Slot<'a>, Span)>,
     /// Inner blocks that are options for targets.
     pub targets: Vec<&'a Block>,
+    /// Inner blocks of what a second word names, such as `tool dagger { ... }`.
+    pub named: Vec<NamedBlock<'a>>,
     insertion: Insertion,
     damage: Option<Reported>,
     /// Fields that an unknown one perhaps is.
@@ -92,6 +101,7 @@ impl<'a> Fields<'a> {
             slots: BTreeMap::new(),
             least: BTreeMap::new(),
             targets: Vec::new(),
+            named: Vec::new(),
             insertion: Insertion::before_end_of(place.whole, session.sources),
             damage: session.damage_at(place.whole),
             misspelt: BTreeMap::new(),
@@ -132,6 +142,14 @@ impl<'a> Fields<'a> {
     }
 
     fn sort_block(&mut self, inner: &'a Block, reports: &mut Reports) {
+        if let ([first, second], Inner::Machine { named, .. }) = (inner.head.as_slice(), self.spec.inner)
+            && let (HeadPart::Word(word), HeadPart::Word(name)) = (&first.node, &second.node)
+            && word == named
+        {
+            let name = Spanned::new(name.as_str(), second.span);
+            self.named.push(NamedBlock { name, block: inner });
+            return;
+        }
         let [head] = inner.head.as_slice() else {
             let span = head_span(inner);
             reports.push(unknown_block(self.spec, "this", span));
@@ -141,7 +159,7 @@ impl<'a> Fields<'a> {
             HeadPart::Word(word) => {
                 let name = Spanned::new(word.clone(), head.span);
                 let is_field = self.spec.field(word).is_some();
-                if !is_field && self.spec.inner == Inner::TargetOptions {
+                if !is_field && self.spec.inner.takes_target_options() {
                     self.targets.push(inner);
                 } else if is_field {
                     self.put(Given::block(&name, inner), reports);

@@ -23,18 +23,22 @@ struct Place {
     span: Span,
 }
 
-/// The home of a machine of that model.
+/// The field that most places are given by.
+pub(crate) const HOME: &str = "home";
+
+/// Where the axes of a machine of that model are, as a field such as `home` says it.
 pub(crate) fn read(
+    field: &str,
     expr: &Spanned<Expr>,
     model: &Model,
     model_span: Span,
     reader: &mut Reader<'_>,
 ) -> Checked<AxisValues> {
     let places = match model.kind() {
-        MachineKind::Robot => joints(expr, reader)?,
-        MachineKind::FiveAxis => axes(expr, &model.axes, reader)?,
+        MachineKind::Robot => joints(field, expr, reader)?,
+        MachineKind::FiveAxis => axes(field, expr, &model.axes, reader)?,
     };
-    if let Some(diagnostic) = outside(&places, model, expr.span, model_span) {
+    if let Some(diagnostic) = outside(field, &places, model, expr.span, model_span) {
         return Err(reader.reports.push(diagnostic));
     }
     let mut values = [0.0; MOST_AXES];
@@ -45,8 +49,8 @@ pub(crate) fn read(
 }
 
 /// `joints(a1, a2, a3, a4, a5, a6)`.
-fn joints(expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Vec<Place>> {
-    let call = calls("home", expr, CALLS, reader.reports)?;
+fn joints(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Vec<Place>> {
+    let call = calls(field, expr, CALLS, reader.reports)?;
     let angles: [f64; 6] = call.listed(AXIS_ANGLE, "the angle of an axis", reader)?;
     let spans = call.all().iter().map(|argument| argument.value.span);
     Ok(angles
@@ -57,7 +61,7 @@ fn joints(expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Vec<Place>> 
 }
 
 /// `axes(x = , y = , z = , b = , a = )`, with the names of the machine's axes in small letters.
-fn axes(expr: &Spanned<Expr>, axes: &[Axis], reader: &mut Reader<'_>) -> Checked<Vec<Place>> {
+fn axes(field: &str, expr: &Spanned<Expr>, axes: &[Axis], reader: &mut Reader<'_>) -> Checked<Vec<Place>> {
     let names: Vec<String> = axes.iter().map(|axis| axis.name.to_lowercase()).collect();
     let parameters: Vec<Parameter<'_>> = axes
         .iter()
@@ -79,7 +83,7 @@ fn axes(expr: &Spanned<Expr>, axes: &[Axis], reader: &mut Reader<'_>) -> Checked
         .map(|parameter| format!("{} = {}", parameter.name, parameter.typical))
         .collect();
     let example = format!("axes({})", samples.join(", "));
-    let call = calls("home", expr, &[("axes", &example)], reader.reports)?;
+    let call = calls(field, expr, &[("axes", &example)], reader.reports)?;
     let values = call.read_all(&parameters, reader)?;
     let spans = names
         .iter()
@@ -93,7 +97,13 @@ fn axes(expr: &Spanned<Expr>, axes: &[Axis], reader: &mut Reader<'_>) -> Checked
 
 /// The diagnostic for a home that is not within the limits, with the nearest one that is and the usual one of the model. Whether the
 /// way from there to the work is clear is for the machine to try.
-fn outside(places: &[Place], model: &Model, whole: Span, model_span: Span) -> Option<Diagnostic> {
+fn outside(
+    field: &str,
+    places: &[Place],
+    model: &Model,
+    whole: Span,
+    model_span: Span,
+) -> Option<Diagnostic> {
     let mut beyond = model
         .axes
         .iter()
@@ -105,7 +115,8 @@ fn outside(places: &[Place], model: &Model, whole: Span, model_span: Span) -> Op
     let mut diagnostic = Diagnostic::new(
         Code::HomeOutsideLimits,
         format!(
-            "home has {} at {text}, {by} beyond its limit of {}",
+            "{} has {} at {text}, {by} beyond its limit of {}",
+            if field == HOME { HOME } else { "the change place" },
             axis.name,
             self::text(axis, limit)
         ),
@@ -130,6 +141,9 @@ fn outside(places: &[Place], model: &Model, whole: Span, model_span: Span) -> Op
     };
     let mut diagnostic = diagnostic.and(model_span, "the limits of this machine");
     diagnostic.fixes.push(Fix { title, edits });
+    if field != HOME {
+        return Some(diagnostic);
+    }
     let usual = usual_home(model);
     Some(diagnostic.fix(format!("the usual home of this model is `{usual}`"), whole, usual))
 }

@@ -2,7 +2,7 @@
 
 use super::arguments::{Parameter, calls};
 use super::eval::Scope;
-use super::fields::{BlockSpec, Fields, Inner, Place, Takes, value};
+use super::fields::{BlockSpec, Fields, Inner, Place, Takes, block, value};
 use super::frame::{self, FRAME, coordinate, table_number};
 use super::heads::Head;
 use super::home::{self, JOINTS};
@@ -12,6 +12,7 @@ use super::range::{MASS, SIGNAL, WAIT};
 use super::read::{Reader, default, sourced};
 use super::report::Checked;
 use super::session::{Described, Session};
+use super::tools;
 use crate::{Machine, Sourced};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Load, PlacedFrame, Ready, Registered};
@@ -19,10 +20,10 @@ use vcutc_backend_api::units::{Duration, Mass};
 use vcutc_diagnostics::source::Spanned;
 use vcutc_syntax::ast::{Block, Expr};
 
-const LOADS: &[(&str, &str)] = &[("load", LOAD), ("number", "number(2)")];
+pub(crate) const LOADS: &[(&str, &str)] = &[("load", LOAD), ("number", "number(2)")];
 const OUTPUTS: &[(&str, &str)] = &[("output", "output(12)")];
 const READY: &[(&str, &str)] = &[("input", "input(7)"), ("after", "after(0.5 s)")];
-const LOAD: &str = "load(mass = 8 kg, x = 0 mm, y = 0 mm, z = 120 mm)";
+pub(crate) const LOAD: &str = "load(mass = 8 kg, x = 0 mm, y = 0 mm, z = 120 mm)";
 
 pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`machine`",
@@ -36,10 +37,18 @@ pub(crate) const SPEC: BlockSpec = BlockSpec {
         .takes(Takes::Calls(frame::CALLS)),
         value("load", LOAD).takes(Takes::Calls(LOADS)),
         value("home", JOINTS).takes(Takes::Calls(home::CALLS)),
+        block(
+            "change",
+            "{ at = joints(90 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg), time = 60 s, by = hand }",
+        )
+        .takes(Takes::Fields(&tools::CHANGE)),
         value("ultrasonic", "output(12)").takes(Takes::Calls(OUTPUTS)),
         value("ready", "after(0.5 s)").takes(Takes::Calls(READY)),
     ],
-    inner: Inner::TargetOptions,
+    inner: Inner::Machine {
+        named: tools::TOOL,
+        spec: &tools::SPEC,
+    },
 };
 
 /// The values of a load.
@@ -69,14 +78,21 @@ pub(crate) fn check(
     let fields = Fields::sort(&SPEC, place, &block.entries, session);
     let targets = options::read(&fields.targets, scope, session);
     let model = model::resolve(head, session);
+    let tools = tools::check(&fields, scope, session);
+    let change = match (fields.block("change"), &model) {
+        (Ok(block), Ok(described)) => {
+            tools::change(block, (&described.model, head.model.span), scope, session)
+        }
+        (Err(reported), _) | (_, &Err(reported)) => Err(reported),
+    };
     let mut reader = Reader::new(scope, &mut session.reports);
-    let tool = required_frame(&fields, "tool", &mut reader);
     let base = required_frame(&fields, "base", &mut reader);
-    let load = optional(&fields, "load", &mut reader, load);
     let home = match (fields.value("home"), &model) {
         (Ok(None), _) => Ok(None),
-        (Ok(Some(expr)), Ok(described)) => home::read(expr, &described.model, head.model.span, &mut reader)
-            .map(|home| Some(sourced(home, expr.span))),
+        (Ok(Some(expr)), Ok(described)) => {
+            home::read(home::HOME, expr, &described.model, head.model.span, &mut reader)
+                .map(|home| Some(sourced(home, expr.span)))
+        }
         (Err(reported), _) | (_, &Err(reported)) => Err(reported),
     };
     let ultrasonic = optional(&fields, "ultrasonic", &mut reader, ultrasonic);
@@ -88,22 +104,26 @@ pub(crate) fn check(
         model,
         model_span: head.model.span,
         limit_spans: limits,
-        tool: tool?,
+        tools: tools?,
         base: base?,
-        load: load?,
         home: home?,
+        change: change?,
         ultrasonic: ultrasonic?,
         ready: ready?.unwrap_or(default(Ready::After(SETTLED))),
         targets: targets?,
     })
 }
 
-fn required_frame(fields: &Fields<'_>, name: &str, reader: &mut Reader<'_>) -> Checked<Sourced<PlacedFrame>> {
+pub(crate) fn required_frame(
+    fields: &Fields<'_>,
+    name: &str,
+    reader: &mut Reader<'_>,
+) -> Checked<Sourced<PlacedFrame>> {
     let expr = fields.required_value(name, reader.reports)?;
     Ok(sourced(frame::read(name, expr, reader)?, expr.span))
 }
 
-fn optional<T>(
+pub(crate) fn optional<T>(
     fields: &Fields<'_>,
     name: &str,
     reader: &mut Reader<'_>,
@@ -115,7 +135,7 @@ fn optional<T>(
     }
 }
 
-fn load(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Registered<Load>> {
+pub(crate) fn load(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Registered<Load>> {
     let call = calls(field, expr, LOADS, reader.reports)?;
     if call.function == "number" {
         let number = call.single(reader.reports)?;

@@ -36,7 +36,7 @@ fn diagnostic(machine: &Machine, five_axis: &FiveAxis, place: &str, turned: f64)
     let angle = show(turned.abs().to_degrees());
     let headline =
         format!("`{name}` cannot hold the blade for {place}: its plane would be turned by {angle} deg");
-    let tool = machine.tool.span.unwrap_or(machine.head_span);
+    let tool = machine.tools.first().frame.span.unwrap_or(machine.head_span);
     let base = machine.base.span.unwrap_or(machine.head_span);
     if five_axis.swings_then_rakes() {
         return Diagnostic::new(

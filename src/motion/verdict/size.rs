@@ -15,7 +15,7 @@ use vcutc_machine::kinematics::pose::Pose;
 pub fn too_large(job: &CheckedJob) -> Option<Diagnostic> {
     let machine = job.machine.as_ref()?;
     let model = &machine.model;
-    let tip = Pose::from(machine.tool.value.frame).position;
+    let tip = Pose::from(machine.tools.first().frame.value.frame).position;
     let tip_apart = model.mechanism.most_apart(&model.axes, tip)?;
     let blades = job.operations.iter().map(|operation| &operation.setup().blade);
     let edges = blades.map(|blade| blade.cutting_length.value.to_mm());

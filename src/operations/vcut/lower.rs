@@ -24,7 +24,7 @@ use postures::Postures;
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{
-    Action, FeedId, Flank, Operation, OperationId, OperationKind, RateId, Site, SourceRef, Switch,
+    Action, FeedId, Flank, OperationId, OperationKind, RateId, Site, SourceRef, Switch,
 };
 use vcutc_geometry::grid;
 use vcutc_job::{Direction, Order};
@@ -35,11 +35,7 @@ const KIND: OperationKind = OperationKind::named("rough_vcut").unwrap();
 
 /// Appends the ops of one operation.
 pub(crate) fn lower(planned: &PlannedVcut, source: SourceRef, builder: &mut ProgramBuilder) {
-    let operation = builder.operation(Operation {
-        kind: KIND,
-        blade: planned.asked.setup.blade.in_program(),
-        source,
-    });
+    let operation = builder.operation(KIND, planned.asked.setup.blade.in_program(), source);
     let mut writer = Writer::new(planned, operation, builder);
     let numbers = numbers(&planned.cuts);
     for run in &planned.runs {

@@ -5,7 +5,7 @@
 
 use super::attempts::Attempts;
 use super::{Proven, bodies, point};
-use vcutc_backend_api::ir::{BodyStage, Program, Site};
+use vcutc_backend_api::ir::{BodyStage, Program, Site, ToolId};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_diagnostics::number::show;
@@ -135,17 +135,17 @@ fn with_higher_body(
     let body = plan
         .operation(contact.passage.operation)
         .and_then(|planned| planned.asked().setup().blade.body.as_ref());
-    let name = (proven.program.program())
+    let tool = (proven.program.program())
         .operation(contact.passage.operation)
-        .map(|operation| operation.blade.name.clone());
-    let (Some(body), Some(name)) = (body, name) else {
+        .map(|operation| operation.tool);
+    let (Some(body), Some(tool)) = (body, tool) else {
         return told;
     };
     let mut is_clear = |stages: &[BodyStage]| {
         if !attempts.spend(plan.cuts()) {
             return false;
         }
-        with_body(proven.program.program(), &name, stages)
+        with_body(proven.program.program(), tool, stages)
             .is_some_and(|program| bodies(plan, &program).contact.is_none())
     };
     let Some(stages) = least_clear(body, Length::ZERO - contact.passage.clearance, &mut is_clear) else {
@@ -212,13 +212,9 @@ fn raised(body: &Body, by: Length) -> Vec<BodyStage> {
         .collect()
 }
 
-/// A program with another body on all blades of that name.
-fn with_body(program: &Program, name: &str, stages: &[BodyStage]) -> Option<VerifiedProgram> {
+/// A program with another body on one of its blades.
+fn with_body(program: &Program, tool: ToolId, stages: &[BodyStage]) -> Option<VerifiedProgram> {
     let mut changed = program.clone();
-    for operation in &mut changed.operations {
-        if operation.blade.name == name {
-            operation.blade.body = Some(stages.to_vec());
-        }
-    }
+    changed.blades.get_mut(usize::from(tool.0))?.body = Some(stages.to_vec());
     verify(changed).ok()
 }

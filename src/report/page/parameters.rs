@@ -89,10 +89,16 @@ fn machine_rows(machine: &Machine) -> Vec<Row> {
     let mut rows = vec![
         Row::written("machine", machine.name.clone(), machine.head_span),
         Row::written("model", model.name.clone(), machine.model_span),
-        Row::of("tool", machine.tool, |tool| frame(&tool.frame)),
+        Row::of("tool", machine.tools.first().frame, |tool| frame(&tool.frame)),
         Row::of("base", machine.base, |base| frame(&base.frame)),
     ];
-    rows.extend(machine.load.map(|given| Row::of("load", given, load)));
+    rows.extend(
+        machine
+            .tools
+            .first()
+            .load
+            .map(|given| Row::of("load", given, load)),
+    );
     rows.extend(machine.home.map(|home| {
         Row::of("home", home, |home| {
             let values = model

@@ -11,7 +11,7 @@ use vcutc_backend_api::ir::{Axis, AxisKind, OpId, Program, Site};
 use vcutc_backend_api::units::Duration;
 use vcutc_machine::kinematics::Joints;
 use vcutc_motion::axis_range::axis_margin;
-use vcutc_motion::solve::rig;
+use vcutc_motion::rigs::Rigs;
 use vcutc_motion::summary::{AxisFigure, margin_words};
 use vcutc_motion::trajectory::{Sample, Spacing, trajectory};
 use vcutc_picture::thin::Thinned;
@@ -43,8 +43,8 @@ fn drawn<const PLACES: usize>(material: &Material<'_>, places: [Prefix; PLACES])
     } else {
         Spacing::CLOSE
     };
-    let rig = rig(&machine.model, cell);
-    let taken = trajectory(&reached.program, &rig, &spacing, |sample| {
+    let rigs = Rigs::of(&machine.model, cell, program);
+    let taken = trajectory(&reached.program, &rigs, &spacing, |sample| {
         curves.take(&sample, &clock);
         Ok::<(), Infallible>(())
     });

@@ -54,9 +54,9 @@ impl Track {
 
 /// The blade at a pose, from its tip along its axis, as long as its edge.
 fn blade(program: &Program, pose: TipPose) -> Option<[[f64; 3]; 2]> {
-    let blades = program.operations.iter();
+    let blades = program.blades.iter();
     let length = blades
-        .map(|operation| operation.blade.cutting_length.to_mm())
+        .map(|blade| blade.cutting_length.to_mm())
         .reduce(f64::max)?;
     let [[_, _, x], [_, _, y], [_, _, z]] = program.orientation(pose.orientation)?.matrix();
     let Point3 { x: tx, y: ty, z: tz } = pose.tip;

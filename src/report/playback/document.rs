@@ -7,7 +7,7 @@ use super::track::Track;
 use super::{Cell, Playback};
 use serde_json::{Value, json};
 use vcutc_backend_api::geometry::{Orientation, Point3};
-use vcutc_backend_api::ir::{ActionKind, Axis, AxisKind, Blade, Edges, Operation, Stock};
+use vcutc_backend_api::ir::{ActionKind, Axis, AxisKind, Blade, Edges, Stock};
 use vcutc_geometry::curve::Point2;
 use vcutc_machine::kinematics::linkage::{Joint, Linkage};
 use vcutc_machine::kinematics::pose::Pose;
@@ -17,7 +17,7 @@ pub(super) fn text(playback: &Playback<'_>) -> String {
     let value = json!({
         "stock": stock(playback.stock),
         "part": playback.part.iter().map(corner).collect::<Vec<_>>(),
-        "blades": playback.operations.iter().map(blade).collect::<Vec<_>>(),
+        "blades": playback.blades.iter().copied().map(blade).collect::<Vec<_>>(),
         "orientations": playback.orientations.iter().map(quaternion).collect::<Vec<_>>(),
         "kinds": ActionKind::NAMES,
         "timeline": timeline(&playback.timeline),
@@ -39,7 +39,7 @@ fn corner(corner: &Point2) -> Value {
     json!([corner.x, corner.z])
 }
 
-fn blade(operation: &Operation) -> Value {
+fn blade(blade: &Blade) -> Value {
     let Blade {
         cutting_length,
         half_apex,
@@ -48,7 +48,7 @@ fn blade(operation: &Operation) -> Value {
         // The player shows the blade up to its shank.
         body: _,
         name: _,
-    } = &operation.blade;
+    } = blade;
     json!({
         "length": cutting_length.to_mm(),
         "halfApex": half_apex.to_rad(),
@@ -174,7 +174,7 @@ mod tests {
                 height: Length::mm(1.0),
             },
             part: &[],
-            operations: &[],
+            blades: Vec::new(),
             orientations: &[],
             timeline: Timeline::default(),
             cell: Some(Cell {

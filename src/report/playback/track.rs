@@ -13,7 +13,7 @@ use core::convert::Infallible;
 use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES, OpId};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_machine::kinematics::Joints;
-use vcutc_motion::rig::Rig;
+use vcutc_motion::rigs::Rigs;
 use vcutc_motion::trajectory::{Motion, Spacing, motions};
 
 /// Largest error of a rotary axis, in rad: 0.05 deg.
@@ -60,15 +60,16 @@ pub struct Knot {
 impl Track {
     /// Of a program and the machine that carries it out.
     #[must_use]
-    pub fn of(reached: &ReachableProgram, rig: &Rig<'_>) -> Self {
+    pub fn of(reached: &ReachableProgram, rigs: &Rigs<'_>) -> Self {
+        let axes = rigs.first().axes;
         let mut thinned = Thinned::new(reached);
-        let made = |motion: Motion| Told::of(rig.axes, &motion);
-        let taken: Result<(), Infallible> = motions(reached, rig, &SPACING, made, |told| {
+        let made = |motion: Motion| Told::of(axes, &motion);
+        let taken: Result<(), Infallible> = motions(reached, rigs, &SPACING, made, |told| {
             thinned.take(told);
             Ok(())
         });
         match taken {
-            Ok(()) => thinned.packed(rig.axes),
+            Ok(()) => thinned.packed(axes),
             Err(never) => match never {},
         }
     }

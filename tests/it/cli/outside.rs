@@ -11,7 +11,7 @@ use tempfile::TempDir;
 use vcutc_backend_api::ir::Program;
 
 /// A description that is as it should be, of a program `odd`.
-const DESCRIPTION: &str = r#"{"protocol":1,"id":"odd","summary":"oddities","capabilities":["linear_move","joint_move","still_tip_turn","output","await_input","dwell"],"options":[{"key":"size","kind":"integer","min":1,"max":9,"default":2,"help":"A size."},{"key":"style","kind":"choice","of":["plain","fancy"],"help":"A style."}],"machines":[{"kind":"robot","makers":["kuka"]}],"drives":"KUKA robots"}"#;
+const DESCRIPTION: &str = r#"{"protocol":2,"id":"odd","summary":"oddities","capabilities":["linear_move","joint_move","still_tip_turn","output","await_input","dwell"],"options":[{"key":"size","kind":"integer","min":1,"max":9,"default":2,"help":"A size."},{"key":"style","kind":"choice","of":["plain","fancy"],"help":"A style."}],"machines":[{"kind":"robot","makers":["kuka"]}],"drives":"KUKA robots"}"#;
 
 /// A folder with a job and a program `vcutc-backend-odd`.
 fn with_program(script: &str) -> TempDir {
@@ -100,10 +100,10 @@ fn a_program_that_cannot_describe_itself_is_refused_before_the_job_is_read() {
             "answers something other than the protocol requires: EOF",
         ),
         ("#!/bin/sh\necho '{}'\n", "missing field `protocol`"),
-        ("#!/bin/sh\necho '{\"protocol\":1}'\n", "missing field `id`"),
+        ("#!/bin/sh\necho '{\"protocol\":2}'\n", "missing field `id`"),
         (
-            "#!/bin/sh\necho '{\"protocol\":2}'\n",
-            "speaks version 2 of the protocol, this compiler version 1",
+            "#!/bin/sh\necho '{\"protocol\":3}'\n",
+            "speaks version 3 of the protocol, this compiler version 2",
         ),
         ("#!/bin/sh\nyes\n", "answers more than 1048576 bytes"),
         ("#!/nowhere/at/all\n", "cannot be started"),
@@ -197,7 +197,7 @@ fn children_of_a_program_that_has_ended_are_stopped_with_the_time() {
 #[test]
 fn children_of_a_program_that_has_answered_are_stopped() {
     let all = said(0..ops());
-    let reply = format!(r#"{{"protocol":1,"files":[{{"name":"rib.txt","text":"x"}}],"said":[{all}]}}"#);
+    let reply = format!(r#"{{"protocol":2,"files":[{{"name":"rib.txt","text":"x"}}],"said":[{all}]}}"#);
     let script = answering(&reply).replacen(
         "#!/bin/sh\n",
         "#!/bin/sh\nsleep 1000 < /dev/null > /dev/null 2>&1 &\necho $! > child\n",
@@ -229,9 +229,9 @@ fn what_is_no_program_is_not_written() {
     let ops = ops();
     let all = said(0..ops);
     let file =
-        |name: &str| format!(r#"{{"protocol":1,"files":[{{"name":"{name}","text":"x"}}],"said":[{all}]}}"#);
+        |name: &str| format!(r#"{{"protocol":2,"files":[{{"name":"{name}","text":"x"}}],"said":[{all}]}}"#);
     let saying =
-        |said: &str| format!(r#"{{"protocol":1,"files":[{{"name":"a.nc","text":"x"}}],"said":[{said}]}}"#);
+        |said: &str| format!(r#"{{"protocol":2,"files":[{{"name":"a.nc","text":"x"}}],"said":[{said}]}}"#);
     let skipped = said((0..ops).filter(|op| *op != 5));
     let twice = format!("{all},{}", said(3..4));
     let beyond = format!("{all},{}", said(ops..ops + 1));
@@ -241,7 +241,7 @@ fn what_is_no_program_is_not_written() {
             "nonsense".to_owned(),
             "answers something other than the protocol requires",
         ),
-        (r#"{"protocol":1}"#.to_owned(), "answers without any file"),
+        (r#"{"protocol":2}"#.to_owned(), "answers without any file"),
         (file("../a.nc"), "calls a file `../a.nc`"),
         (file("a/b.nc"), "calls a file `a/b.nc`"),
         (file("/tmp/a.nc"), "calls a file `/tmp/a.nc`"),
@@ -280,7 +280,7 @@ fn what_is_no_program_is_not_written() {
 
 #[test]
 fn problems_become_diagnostics_at_their_places() {
-    let reply = r#"{"protocol":1,"problems":[
+    let reply = r#"{"protocol":2,"problems":[
         {"problem":"unsupported","op":4,"what":"cuts on Sundays"},
         {"problem":"out_of_range","what":"output number","value":"12","allowed":"from 1 to 8"},
         {"problem":"option_conflict","key":"size","why":"too small for this part"},
@@ -384,7 +384,7 @@ fn programs_are_listed_by_name_and_run_only_to_be_described() {
 fn a_program_that_nobody_reads_back_is_said_to_be_so() {
     const NOTE: &str = "; not read back: target odd has no reader\n";
     let all = said(0..ops());
-    let reply = format!(r#"{{"protocol":1,"files":[{{"name":"rib.txt","text":"x"}}],"said":[{all}]}}"#);
+    let reply = format!(r#"{{"protocol":2,"files":[{{"name":"rib.txt","text":"x"}}],"said":[{all}]}}"#);
     let folder = with_program(&answering(&reply));
     let odd = ["rib.vcut", "--target", "odd", "--backend-path", "."];
     let list = "[[program]]\njobs = \"rib.vcut\"\ntarget = \"odd\"\noutput = \"out\"\n";

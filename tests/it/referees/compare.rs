@@ -91,6 +91,7 @@ fn end(motion: &Action, next: Option<&Action>) -> End {
             | Action::Ultrasonic { .. }
             | Action::AwaitReady
             | Action::Dwell { .. }
+            | Action::ChangePlace
             | Action::ToolChange { .. },
             _,
         ) => End::Exact,

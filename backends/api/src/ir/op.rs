@@ -1,6 +1,6 @@
 //! One op of a program: what of the job it serves, and what is done.
 
-use super::{FeedId, OperationId, OrientationId, RateId};
+use super::{FeedId, OperationId, OrientationId, RateId, ToolId};
 use crate::geometry::Point3;
 use crate::units::Duration;
 use core::num::NonZeroU32;
@@ -111,10 +111,13 @@ pub enum Action {
         /// For so long.
         time: Duration,
     },
-    /// Reserved: another blade is put in. No program has it yet, and every backend may refuse it.
+    /// All axes to the place at which the cell changes blades, all arriving together.
+    ChangePlace,
+    /// Another blade takes the place of the one at hand, at the change place. Where the tip is afterwards is not known until
+    /// the next move of all axes.
     ToolChange {
-        /// Number of the tool in the magazine.
-        tool: u32,
+        /// The blade at hand afterwards.
+        tool: ToolId,
     },
 }
 
@@ -165,13 +168,15 @@ pub enum ActionKind {
     AwaitReady,
     /// [`Action::Dwell`].
     Dwell,
+    /// [`Action::ChangePlace`].
+    ChangePlace,
     /// [`Action::ToolChange`].
     ToolChange,
 }
 
 impl ActionKind {
     /// The names of all of them, in their order.
-    pub const NAMES: [&'static str; 12] = [
+    pub const NAMES: [&'static str; 13] = [
         "home",
         "travel",
         "axis_travel",
@@ -183,6 +188,7 @@ impl ActionKind {
         "ultrasonic",
         "await_ready",
         "dwell",
+        "change_place",
         "tool_change",
     ];
 
@@ -210,6 +216,7 @@ impl Action {
             | Self::Ultrasonic { .. }
             | Self::AwaitReady
             | Self::Dwell { .. }
+            | Self::ChangePlace
             | Self::ToolChange { .. } => None,
         }
     }
@@ -229,6 +236,7 @@ impl Action {
             | Self::Ultrasonic { .. }
             | Self::AwaitReady
             | Self::Dwell { .. }
+            | Self::ChangePlace
             | Self::ToolChange { .. } => None,
         }
     }
@@ -248,6 +256,7 @@ impl Action {
             | Self::Ultrasonic { .. }
             | Self::AwaitReady
             | Self::Dwell { .. }
+            | Self::ChangePlace
             | Self::ToolChange { .. } => None,
         }
     }
@@ -266,6 +275,7 @@ impl Action {
             | Self::Ultrasonic { .. }
             | Self::AwaitReady
             | Self::Dwell { .. }
+            | Self::ChangePlace
             | Self::ToolChange { .. } => None,
         }
     }
@@ -289,6 +299,7 @@ impl Action {
             Self::Ultrasonic { .. } => ActionKind::Ultrasonic,
             Self::AwaitReady => ActionKind::AwaitReady,
             Self::Dwell { .. } => ActionKind::Dwell,
+            Self::ChangePlace => ActionKind::ChangePlace,
             Self::ToolChange { .. } => ActionKind::ToolChange,
         }
     }

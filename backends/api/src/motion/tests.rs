@@ -20,7 +20,7 @@ fn blamed(change: impl FnOnce(&Program, &mut Motion)) -> Vec<(Option<u32>, Motio
     let program = program();
     let mut motion = reachable(program.clone()).unwrap().motion().clone();
     change(program.program(), &mut motion);
-    let faults = ReachableProgram::assemble(program, motion, &blade_in_work).err();
+    let faults = ReachableProgram::assemble(program, motion, &|_, axes| blade_in_work(axes)).err();
     let blame = |fault: MotionFault| (fault.op.map(|op| op.0), fault.what);
     faults.unwrap_or_default().into_iter().map(blame).collect()
 }
@@ -53,7 +53,8 @@ fn a_program_without_a_machine() {
         stretches: Vec::new(),
         waypoints: Vec::new(),
     };
-    let faults = ReachableProgram::assemble(verify(plain).unwrap(), motion, &blade_in_work).unwrap_err();
+    let faults = ReachableProgram::assemble(verify(plain).unwrap(), motion, &|_, axes| blade_in_work(axes))
+        .unwrap_err();
     let fault = MotionFault {
         op: None,
         what: MotionRule::Machine,
@@ -94,7 +95,7 @@ fn values_of_axes_that_the_machine_has_not() {
             stretches: Vec::new(),
             waypoints: Vec::new(),
         };
-        ReachableProgram::assemble(verify(smaller).unwrap(), motion, &blade_in_work).is_ok()
+        ReachableProgram::assemble(verify(smaller).unwrap(), motion, &|_, axes| blade_in_work(axes)).is_ok()
     };
     let [a, b, c, d, e, _] = home.0;
     assert!(assembled(AxisValues([a, b, c, d, e, 0.0])));

@@ -3,7 +3,9 @@
 use super::{Command, Configuration, End, Held, Pace, Reader, Resolution, Target};
 use crate::corners::may_round;
 use crate::geometry::{Frame, Orientation, Point3};
-use crate::ir::{Action, AxisKind, AxisValues, MOST_AXES, OpId, Program, Ready, Switch};
+use crate::ir::{
+    Action, AxisKind, AxisValues, Cell, Changer, MOST_AXES, OpId, Program, Ready, Switch, ToolId,
+};
 use crate::motion::{ReachableProgram, Waypoint};
 use crate::number::is_within;
 use crate::segments::LinearSegment;
@@ -74,6 +76,13 @@ pub enum Mismatch {
         /// Which and to what it should be; no number where the machine has no output.
         should: (Option<u32>, Switch),
     },
+    /// Another blade is put in, or it is put in another way.
+    ToolPlace {
+        /// From which place; none by hand.
+        is: Option<u32>,
+        /// From which it should.
+        should: Option<u32>,
+    },
     /// Another input is awaited.
     Input {
         /// Which.
@@ -98,6 +107,14 @@ pub struct Comparator<'p> {
     reachable: &'p ReachableProgram,
     reader: &'p dyn Reader,
     resolution: Resolution,
+}
+
+/// The place that a change names for a tool; none where it is changed by hand.
+fn told_place(cell: &Cell, tool: ToolId) -> Option<u32> {
+    match cell.change?.by {
+        Changer::Program => cell.tools.get(tool)?.place,
+        Changer::Hand => None,
+    }
 }
 
 /// Numbers that are rounded down may be less by all that is printed last, twice the resolution, and more by nothing but the rounding of
@@ -144,7 +161,11 @@ impl<'p> Comparator<'p> {
         let axes = self.reachable.axes_after(moment.op);
         let cell = program.cell.as_ref();
         match (op.action, command, axes) {
-            (Action::Home | Action::AxisTravel { .. }, Command::Axes(is), Some(should)) => {
+            (
+                Action::Home | Action::ChangePlace | Action::AxisTravel { .. },
+                Command::Axes(is),
+                Some(should),
+            ) => {
                 self.axes(is, &should, Which::All, &mut found);
             }
             (Action::AxisTravel { to: tip, orientation }, Command::AxesToPose(target), Some(_)) => {
@@ -176,6 +197,12 @@ impl<'p> Comparator<'p> {
                 (Some(Ready::After(should)), Command::Wait(is)) => self.wait(*is, should, &mut found),
                 (_, _) => found.push(Mismatch::Kind),
             },
+            (Action::ToolChange { tool }, &Command::ChangeTool(is), _) => {
+                let should = cell.and_then(|cell| told_place(cell, tool));
+                if is != should {
+                    found.push(Mismatch::ToolPlace { is, should });
+                }
+            }
             (Action::Dwell { time }, Command::Wait(is), _) => self.wait(*is, time, &mut found),
             (_, _, _) => found.push(Mismatch::Kind),
         }
@@ -257,7 +284,9 @@ impl<'p> Comparator<'p> {
                 (Generator::Running, Some(Ready::After(should))) => self.wait(*is, should, &mut found),
                 (Generator::Running | Generator::Starting | Generator::Off, _) => return false,
             },
-            (Command::AxesToPose(_) | Command::Straight { .. }, _, _) => return false,
+            (Command::AxesToPose(_) | Command::Straight { .. } | Command::ChangeTool(_), _, _) => {
+                return false;
+            }
         }
         found.is_empty()
     }

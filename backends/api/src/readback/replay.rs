@@ -3,7 +3,7 @@
 use super::{
     Command, Comparator, Effect, FrameRole, FrameSetting, Frames, Mismatch, Moment, Place, Statement,
 };
-use crate::ir::{OpId, PlacedFrame, Program};
+use crate::ir::{Action, OpId, PlacedFrame, Program};
 use crate::motion::Waypoint;
 use crate::state::{Generator, State};
 
@@ -120,7 +120,7 @@ impl<'p> Replay<'p> {
     fn frame(&mut self, role: FrameRole, setting: &FrameSetting, place: Option<Place>) {
         let cell = self.program().cell.as_ref();
         let should = cell.map(|cell| match role {
-            FrameRole::Tool => cell.tool,
+            FrameRole::Tool => cell.tools.at(self.state.tool).frame,
             FrameRole::Base => cell.base,
         });
         if should.is_some_and(|should| self.comparator.is_frame(setting, &should)) {
@@ -173,6 +173,9 @@ impl<'p> Replay<'p> {
             }
             self.places.push(place);
             self.state = self.state.after(&op.action);
+            if matches!(op.action, Action::ToolChange { .. }) {
+                self.tool = Seen::Not;
+            }
         } else if restates {
             // Nothing changes.
         } else if let Some(waypoint) = due

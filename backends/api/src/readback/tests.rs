@@ -96,7 +96,8 @@ fn told(reachable: &ReachableProgram) -> Vec<Command> {
                     end: End::Exact,
                 }
             }
-            Action::ToolChange { .. } => panic!("no sample changes its tool"),
+            Action::ChangePlace => Command::Axes(cell.change.unwrap().at),
+            Action::ToolChange { tool } => Command::ChangeTool(cell.tools.at(tool).place),
         });
     }
     commands
@@ -104,7 +105,10 @@ fn told(reachable: &ReachableProgram) -> Vec<Command> {
 
 fn frames(program: &Program) -> Vec<Effect> {
     let cell = program.cell.as_ref().unwrap();
-    let frames = [(FrameRole::Tool, cell.tool), (FrameRole::Base, cell.base)];
+    let frames = [
+        (FrameRole::Tool, cell.tools.first().frame),
+        (FrameRole::Base, cell.base),
+    ];
     let effect = frames.map(|(role, placed)| {
         let value = FrameSetting::Value(placed.frame);
         Effect::Frame(role, placed.number.map_or(value, FrameSetting::Number))
@@ -315,7 +319,9 @@ fn waypoints_are_passed_in_their_order() {
         waypoints: vec![waypoint(0.3), waypoint(0.6)],
         ..program.motion().clone()
     };
-    let program = ReachableProgram::assemble(program.verified().clone(), motion, &blade_in_work).unwrap();
+    let program =
+        ReachableProgram::assemble(program.verified().clone(), motion, &|_, axes| blade_in_work(axes))
+            .unwrap();
     let commands = told(&program);
     let Command::Straight { pace, .. } = commands[turn] else {
         panic!()
@@ -381,7 +387,7 @@ fn nudged(command: Command, which: usize, by: f64) -> Option<Command> {
             _ => None,
         },
         Command::Wait(time) => (which == 0).then(|| Command::Wait(time + RESOLUTION.time * by)),
-        Command::Switch { .. } | Command::AwaitInput(_) => None,
+        Command::Switch { .. } | Command::AwaitInput(_) | Command::ChangeTool(_) => None,
     }
 }
 

@@ -7,7 +7,7 @@ use super::listing::Layer;
 use super::split::Part;
 use super::text::Written;
 use crate::backend::EmitError;
-use crate::ir::{Action, AxisValues, Cell, FeedId, Op, OpId, Program, RateId, Switch};
+use crate::ir::{Action, AxisValues, Cell, Changer, FeedId, Op, OpId, Program, RateId, Switch, Tool, ToolId};
 use crate::motion::ReachableProgram;
 use crate::readback::End;
 use crate::segments::LinearSegment;
@@ -80,6 +80,8 @@ pub struct JointMove {
 pub enum JointTarget {
     /// To the axis values of home.
     Home,
+    /// To those at which blades are changed.
+    Change,
     /// To a pose.
     Pose(TipPose),
 }
@@ -95,6 +97,19 @@ pub struct LinearMove<'a> {
     pub line: &'a LinearSegment,
     /// How it ends.
     pub end: End,
+}
+
+/// A blade that takes the place of another.
+#[derive(Clone, Copy, Debug)]
+pub struct ToolChange<'a> {
+    /// Its number.
+    pub id: ToolId,
+    /// How the machine holds it.
+    pub tool: &'a Tool,
+    /// What the job calls it.
+    pub blade: &'a str,
+    /// Who changes it.
+    pub by: Changer,
 }
 
 /// How a program lies in files.
@@ -172,6 +187,11 @@ pub trait Dialect: Files {
 
     /// A straight motion or a turn.
     fn linear_move(&mut self, motion: &LinearMove<'_>) -> Written;
+
+    /// Changes the blade at the change place, and sets up the tool that holds the new one.
+    fn change_tool(&mut self, _change: &ToolChange<'_>) -> Written {
+        Err(EmitError::Internal("a tool change was not refused"))
+    }
 
     /// Switches the output of the generator where it stands, not ahead of it.
     fn switch(&mut self, output: u32, state: Switch) -> Written;

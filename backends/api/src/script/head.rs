@@ -4,7 +4,7 @@
 //! has to heed. The compiler's version is not among them: a version that writes the same motions would change every program
 //! that a shop has under version control.
 
-use crate::ir::{Action, Blade, Flank, Head, Program, Purpose};
+use crate::ir::{Action, Flank, Head, Program, Purpose};
 use crate::units::{Duration, Length};
 
 /// A comment: words of ours, and words that people wrote behind them.
@@ -49,7 +49,7 @@ pub fn head_lines<'p>(program: &'p Program, machine: &'p str) -> Vec<HeadLine<'p
             .map(|head| ours(format!("job hash {}", shown(head)))),
     );
     lines.push(with("machine ", machine));
-    lines.extend(blades(program).into_iter().map(|blade| HeadLine {
+    lines.extend(program.blades.iter().map(|blade| HeadLine {
         ours: format!(
             "blade {} mm long, {} mm thick: ",
             number(blade.cutting_length),
@@ -70,17 +70,6 @@ pub fn head_lines<'p>(program: &'p Program, machine: &'p str) -> Vec<HeadLine<'p
 
 fn shown(head: &Head) -> &str {
     head.job.get(..SHOWN_DIGITS).unwrap_or(&head.job)
-}
-
-/// The blades of a program, each once, in the order of the operations.
-fn blades(program: &Program) -> Vec<&Blade> {
-    let mut blades: Vec<&Blade> = Vec::new();
-    for operation in &program.operations {
-        if !blades.contains(&&operation.blade) {
-            blades.push(&operation.blade);
-        }
-    }
-    blades
 }
 
 /// Every V has one left flank.

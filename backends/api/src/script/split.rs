@@ -34,6 +34,8 @@ impl Borders {
     fn allow(self, place: Place) -> bool {
         match (self, place) {
             (Self::AboveStock(stock), Place::Pose(pose)) => pose.tip.z >= stock.height.to_mm(),
+            // Whoever starts a part alone has its blade at hand, and does not begin where it is changed.
+            (_, Place::Change) => false,
             (Self::BetweenCuts, _) | (Self::AboveStock(_), Place::Unknown | Place::Home) => true,
         }
     }

@@ -16,7 +16,10 @@ pub fn operation_heading(program: &Program, id: OperationId) -> Result<(String, 
         .ok_or(EmitError::Internal("an operation is not in its table"))?;
     let what = operation.kind.head();
     let ours = format!("operation {}: {what} with blade ", u32::from(id.0) + 1);
-    Ok((ours, &operation.blade.name))
+    let blade = program
+        .blade(operation.tool)
+        .ok_or(EmitError::Internal("a blade is not in its table"))?;
+    Ok((ours, &blade.name))
 }
 
 /// A speed of the tip.

@@ -1,6 +1,6 @@
 //! The one writer of programs: files, headings and ops in their order. How each of them reads is the [`Dialect`]'s.
 
-use super::dialect::{Dialect, File, JointMove, JointTarget, LinearMove, Source};
+use super::dialect::{Dialect, File, JointMove, JointTarget, LinearMove, Source, ToolChange};
 use super::head::head_lines;
 use super::listing::{Lead, Modal, first_of};
 use super::options::Common;
@@ -9,7 +9,7 @@ use super::tables::operation_heading;
 use super::text::{Written, digits};
 use crate::backend::EmitError;
 use crate::corners::may_round;
-use crate::ir::{Action, Op, OpId, Ready, Switch};
+use crate::ir::{Action, Op, OpId, Ready, Switch, ToolId};
 use crate::readback::End;
 use crate::segments::{LinearSegment, Path, Segment};
 use crate::state::{Generator, Place};
@@ -174,6 +174,7 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
         let target = match part.start.place {
             Place::Unknown => None,
             Place::Home => Some(JointTarget::Home),
+            Place::Change => Some(JointTarget::Change),
             Place::Pose(pose) => Some(JointTarget::Pose(pose)),
         };
         if let (Some(before), Some(to)) = (part.ops.start.checked_sub(1), target) {
@@ -222,18 +223,17 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
     fn op(&mut self, segment: &Segment<'_>, next: Option<&Action>) -> Written {
         let from = match segment.before.place {
             Place::Unknown => None,
-            Place::Home | Place::Pose(_) => segment.id.0.checked_sub(1).map(OpId),
+            Place::Home | Place::Change | Place::Pose(_) => segment.id.0.checked_sub(1).map(OpId),
         };
         match (segment.path(), segment.op.action) {
             (Path::Home, _) => self.joint_move(segment.id, JointTarget::Home, from),
+            (Path::Change, _) => self.joint_move(segment.id, JointTarget::Change, from),
             (Path::Axes(to), _) => self.joint_move(segment.id, JointTarget::Pose(to), from),
             (Path::Linear(line), _) => self.linear_move(segment, &line, next),
             (Path::Still, Action::Ultrasonic { state }) => self.switch(state),
             (Path::Still, Action::AwaitReady) => self.await_ready(),
             (Path::Still, Action::Dwell { time }) => self.dialect.wait(time),
-            (Path::Still, Action::ToolChange { .. }) => {
-                Err(EmitError::Internal("a tool change was not refused"))
-            }
+            (Path::Still, Action::ToolChange { tool }) => self.change_tool(tool),
             (Path::Still, _) => Err(EmitError::Internal("a move starts from an unknown pose")),
         }
     }
@@ -256,6 +256,21 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
             action,
             line,
             end,
+        })
+    }
+
+    fn change_tool(&mut self, id: ToolId) -> Written {
+        let Source { cell, .. } = self.source;
+        let (Some(tool), Some(change), Some(blade)) =
+            (cell.tools.get(id), cell.change, self.source.program().blade(id))
+        else {
+            return Err(EmitError::Internal("a tool is not in its table"));
+        };
+        self.dialect.change_tool(&ToolChange {
+            id,
+            tool,
+            blade: &blade.name,
+            by: change.by,
         })
     }
 

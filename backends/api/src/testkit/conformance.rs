@@ -1,9 +1,9 @@
 //! What every backend promises.
 
-use super::reachable;
+use super::{reachable, two_blades};
 use crate::backend::{Backend, BackendIssue, EmitError, OptionKind, OptionSpec, Options};
 use crate::bundle::{Bundle, Sink, SinkError};
-use crate::ir::{Action, Op, Site};
+use crate::ir::Changer;
 use crate::motion::ReachableProgram;
 use crate::readback::{Comparator, Replay, Sources, program_files};
 use crate::verify::{Capability, verify};
@@ -162,7 +162,7 @@ fn files(bundle: &Bundle) -> Result<(), String> {
     Ok(())
 }
 
-/// A tool change behind the last op: no program of the compiler has one, so a backend that lacks it must say so.
+/// A backend that cannot change blades must refuse a program that does.
 fn beyond_capabilities(
     backend: &dyn Backend,
     program: &ReachableProgram,
@@ -171,11 +171,7 @@ fn beyond_capabilities(
     if backend.capabilities().has(Capability::ToolChange) {
         return Ok(());
     }
-    let mut changed = program.program().clone();
-    changed.ops.push(Op {
-        site: Site::Program,
-        action: Action::ToolChange { tool: 2 },
-    });
+    let changed = two_blades(program.program().clone(), Changer::Hand);
     let changed = verify(changed).map_err(|faults| format!("{faults:?}"))?;
     let changed = reachable(changed).map_err(|faults| format!("{faults:?}"))?;
     match backend.check(&changed, options) {

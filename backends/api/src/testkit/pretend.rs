@@ -60,7 +60,8 @@ pub fn reachable(program: VerifiedProgram) -> Result<ReachableProgram, Vec<Motio
         MachineKind::Robot => blade_in_work,
         MachineKind::FiveAxis => pretend_five_axis::blade_in_work,
     };
-    ReachableProgram::assemble(program, motion, &blade_in_work)
+    // Its racks carry the tip, whichever blade is at hand.
+    ReachableProgram::assemble(program, motion, &|_, axes| blade_in_work(axes))
 }
 
 fn kind(program: &Program) -> MachineKind {
@@ -70,6 +71,8 @@ fn kind(program: &Program) -> MachineKind {
 
 fn motion(program: &Program) -> Motion {
     let home = program.cell.as_ref().and_then(|cell| cell.home);
+    let change = program.cell.as_ref().and_then(|cell| cell.change);
+    let change = change.map(|change| change.at);
     let mut motion = Motion {
         ends: Vec::with_capacity(program.ops.len()),
         stretches: Vec::new(),
@@ -102,6 +105,7 @@ fn motion(program: &Program) -> Motion {
         let start = axes;
         axes = match segment.path() {
             Path::Home => home.unwrap_or(axes),
+            Path::Change => change.unwrap_or(axes),
             Path::Axes(to) => axes_at(to, wrist, axes),
             Path::Linear(line) if line.from != line.to => axes_at(line.to, wrist, axes),
             Path::Linear(_) | Path::Still => axes,

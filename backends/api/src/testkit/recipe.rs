@@ -6,7 +6,7 @@ use crate::geometry::{Frame, Orientation, Point3, Zyx};
 use crate::ir::{
     Action, AxisValues, Blade, Cell, Edges, FeedId, Flank, IR_VERSION, Load, MachineKind, Maker, Op,
     Operation, OperationId, OperationKind, OrientationId, PlacedFrame, Program, Purpose, RateId, Ready,
-    Registered, Site, SourceRef, Stock, Switch,
+    Registered, Site, SourceRef, Stock, Switch, Tool, ToolId, Tools,
 };
 use crate::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
 use core::num::NonZeroU32;
@@ -208,7 +208,8 @@ impl Recipe {
             head: None,
             stock: self.stock,
             cell: Some(self.cell()),
-            operations: vec![self.operation(); usize::from(self.operations)],
+            blades: vec![self.blade()],
+            operations: vec![Self::operation(); usize::from(self.operations)],
             orientations: vec![
                 posture(-self.swing, self.rake, 1.0),
                 posture(self.swing, self.rake, -1.0),
@@ -240,26 +241,34 @@ impl Recipe {
                 MachineKind::Robot => pretend::axes(),
                 MachineKind::FiveAxis => five_axes(),
             },
-            tool,
+            tools: Tools::one(Tool {
+                frame: tool,
+                load,
+                place: None,
+            }),
             base,
-            load,
             home: Some(home),
+            change: None,
             ultrasonic,
             ready,
         }
     }
 
-    fn operation(&self) -> Operation {
+    fn blade(&self) -> Blade {
+        Blade {
+            name: "dagger".to_owned(),
+            cutting_length: EDGE,
+            half_apex: HALF_APEX,
+            thickness: Length::mm(1.5),
+            edges: self.edges,
+            body: None,
+        }
+    }
+
+    fn operation() -> Operation {
         Operation {
             kind: ROUGH_VCUT,
-            blade: Blade {
-                name: "dagger".to_owned(),
-                cutting_length: EDGE,
-                half_apex: HALF_APEX,
-                thickness: Length::mm(1.5),
-                edges: self.edges,
-                body: None,
-            },
+            tool: ToolId::FIRST,
             source: SourceRef {
                 file: "sample.vcut".to_owned(),
                 start: 0,

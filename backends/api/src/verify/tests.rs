@@ -208,15 +208,15 @@ fn an_air_cut_does_not_start_the_generator() {
 #[test]
 fn an_air_cut_stays_above_the_stock_by_half_the_blade() {
     let top = program().stock.height.to_mm();
-    let thickness = program().operations[0].blade.thickness.to_mm().max(1.0);
+    let thickness = program().blades[0].thickness.to_mm().max(1.0);
     for (gap, is_clear) in [
         (thickness / 2.0 + 0.01, true),
         (thickness / 2.0 - 0.01, false),
         (-5.0, false),
     ] {
         let mut program = air_cut();
-        for operation in &mut program.operations {
-            operation.blade.thickness = Length::mm(thickness);
+        for blade in &mut program.blades {
+            blade.thickness = Length::mm(thickness);
         }
         let cut = program
             .ops

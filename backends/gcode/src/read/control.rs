@@ -238,7 +238,7 @@ impl<'a> Control<'a> {
                 None => format!("`{}`", self.facts().exact_word),
             }),
             Mode::Tool(None | Some(0)) => Ok(Effect::Setting),
-            Mode::Tool(Some(is)) => frame(FrameRole::Tool, is, cell.tool.number, self.tool()),
+            Mode::Tool(Some(is)) => frame(FrameRole::Tool, is, cell.tools.first().frame.number, self.tool()),
             Mode::Work(is) => frame(FrameRole::Base, is, cell.base.number, FIRST_OFFSET),
         }
     }
@@ -249,7 +249,7 @@ impl<'a> Control<'a> {
 
     /// The number of the blade in the controller's table.
     fn tool(&self) -> u32 {
-        let number = self.context.cell.tool.number;
+        let number = self.context.cell.tools.first().frame.number;
         number.unwrap_or(self.context.settings.tool_number)
     }
 

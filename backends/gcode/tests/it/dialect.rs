@@ -222,7 +222,7 @@ fn compare(program: &ReachableProgram, bundle: &Bundle, dialect: &str, grain: f6
     for segment in program.program().segments() {
         let (id, op) = (segment.id, segment.op);
         let all_axes = match op.action {
-            Action::Home | Action::AxisTravel { .. } => true,
+            Action::Home | Action::ChangePlace | Action::AxisTravel { .. } => true,
             Action::Travel { .. }
             | Action::Approach { .. }
             | Action::Retract { .. }

@@ -99,7 +99,7 @@ impl Setup {
     /// What is missing for a motion.
     pub(super) fn missing(&self, need: Need, wanted: Wanted<'_>) -> Option<&'static str> {
         let always = Said::Start.bit() | Said::IpoMode.bit() | Said::OriType.bit() | Said::Advance.bit();
-        let load = match wanted.cell.load {
+        let load = match wanted.cell.tools.first().load {
             Some(_) => Said::Load.bit(),
             None => 0,
         };
@@ -161,7 +161,7 @@ impl Setup {
             let is = should.is_some_and(|should| is_number(value, should.to_mm(), TRIMMED));
             self.note(Said::Rounding, is)
         } else if to.is("$LOAD") {
-            let is = wanted.cell.load.as_ref();
+            let is = wanted.cell.tools.first().load.as_ref();
             let is = is.is_some_and(|should| is_load(value, should, wanted.settings));
             self.note(Said::Load, is)
         } else {

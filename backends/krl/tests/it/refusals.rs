@@ -4,8 +4,7 @@ use crate::support::{issues, numbered, options, reachable};
 use vcutc_backend_api::backend::{Backend, BackendIssue, MachineMismatch, OptionValue};
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::{
-    Action, AxisKind, Cell, Load, Maker, Op, OpId, OperationId, PlacedFrame, Program, RateId, Ready,
-    Registered, Site,
+    Action, AxisKind, Cell, Load, Maker, OpId, PlacedFrame, Program, RateId, Ready, Registered,
 };
 use vcutc_backend_api::motion::{Branch, ReachableProgram};
 use vcutc_backend_api::testkit::{CellRecipe, Recipe, blade_in_work};
@@ -104,7 +103,9 @@ fn an_arm_whose_branches_have_no_status() {
     for stretch in &mut motion.stretches {
         stretch.branch = Branch::Numbered(0);
     }
-    let program = ReachableProgram::assemble(program.verified().clone(), motion, &blade_in_work).unwrap();
+    let program =
+        ReachableProgram::assemble(program.verified().clone(), motion, &|_, axes| blade_in_work(axes))
+            .unwrap();
     assert_eq!(mismatch(&program), Some(MachineMismatch::Arm));
 }
 
@@ -124,7 +125,7 @@ fn axes_beyond_a_whole_turn() {
         let mut limits = program.program().clone();
         limits.cell.as_mut().unwrap().axes[3].max = 20.0;
         let verified = vcutc_backend_api::verify::verify(limits).unwrap();
-        let program = ReachableProgram::assemble(verified, motion, &blade_in_work).unwrap();
+        let program = ReachableProgram::assemble(verified, motion, &|_, axes| blade_in_work(axes)).unwrap();
         let options = options(&[("lines_per_part", OptionValue::Integer(lines))]);
         let issues = Krl.check(&program, &options).err().unwrap_or_default();
         issues
@@ -181,43 +182,6 @@ fn a_machine_without_a_generator() {
                 ..
             }]
         ),
-        "{issues:?}"
-    );
-}
-
-#[test]
-fn a_tool_change() {
-    let mut program = Recipe::default().program();
-    let last = program.ops.len();
-    program.ops.push(Op {
-        site: Site::Program,
-        action: Action::ToolChange { tool: 1 },
-    });
-    let issues = issues(program, &[]);
-    let place = OpId(u32::try_from(last).unwrap());
-    assert!(
-        matches!(issues.as_slice(), [BackendIssue::Unsupported { op, .. }] if *op == place),
-        "{issues:?}"
-    );
-}
-
-#[test]
-fn another_blade_for_a_later_operation() {
-    let recipe = Recipe {
-        operations: 3,
-        ..Recipe::default()
-    };
-    assert_eq!(issues(recipe.program(), &[]), []);
-    let mut program = recipe.program();
-    program.operations[1].blade.cutting_length = Length::mm(25.0);
-    let first = program
-        .ops
-        .iter()
-        .position(|op| op.site.operation() == Some(OperationId(1)));
-    let place = OpId(u32::try_from(first.unwrap()).unwrap());
-    let issues = issues(program, &[]);
-    assert!(
-        matches!(issues.as_slice(), [BackendIssue::Unsupported { op, .. }] if *op == place),
         "{issues:?}"
     );
 }

@@ -123,7 +123,8 @@ impl Machine<'_> {
         let is_tool = match view.find(tool) {
             Some(datum) => *datum == Datum::Tool,
             None => {
-                self.cell.tool.number.is_some() && tool.eq_ignore_ascii_case(&self.settings.tool(self.cell))
+                self.cell.tools.first().frame.number.is_some()
+                    && tool.eq_ignore_ascii_case(&self.settings.tool(self.cell))
             }
         };
         let is_work_object = match view.find(work_object) {

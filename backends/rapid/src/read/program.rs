@@ -407,7 +407,7 @@ fn is_list(name: &str) -> bool {
 /// The frame of a tool that carries what the job says.
 fn tool(value: &Value, view: View<'_>, machine: Machine<'_>) -> Option<Effect> {
     let (frame, load) = view.tool(value)?;
-    let Some(Registered::Value(should)) = machine.cell.load else {
+    let Some(Registered::Value(should)) = machine.cell.tools.first().load else {
         return None;
     };
     let lengths = machine.settings.common.lengths;

@@ -211,7 +211,8 @@ fn far_turns_of_the_wrist_without_points_on_the_way() {
         waypoints: Vec::new(),
         ..program.motion().clone()
     };
-    let bare = ReachableProgram::assemble(program.verified().clone(), motion, &blade_in_work).unwrap();
+    let bare = ReachableProgram::assemble(program.verified().clone(), motion, &|_, axes| blade_in_work(axes))
+        .unwrap();
     let options = options(&[]);
     let found = Rapid.check(&bare, &options).err().unwrap_or_default();
     assert!(

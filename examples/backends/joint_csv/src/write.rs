@@ -73,7 +73,7 @@ impl Table<'_> {
             .as_ref()
             .ok_or(EmitError::Internal("a program without a machine"))?;
         match segment.path() {
-            Path::Home | Path::Axes(_) => return self.motion("axes", segment.id, None),
+            Path::Home | Path::Change | Path::Axes(_) => return self.motion("axes", segment.id, None),
             Path::Linear(line) => return self.motion("move", segment.id, Some(&line)),
             Path::Still => {}
         }

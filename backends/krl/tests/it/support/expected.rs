@@ -46,7 +46,7 @@ pub(crate) fn steps(program: &ReachableProgram, status: &dyn Fn(&AxisValues) -> 
                 Ready::After(time) => Event::Wait(time.to_s()),
             },
             Action::Dwell { time } => Event::Wait(time.to_s()),
-            Action::ToolChange { .. } => unreachable!("not in a sample"),
+            Action::ChangePlace | Action::ToolChange { .. } => unreachable!("not in a sample"),
         };
         Step {
             event,

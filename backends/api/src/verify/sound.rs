@@ -1,0 +1,70 @@
+//! Whether the numbers of a machine are ones that it can have.
+
+use crate::ir::{Axis, AxisValues, Cell, Changer, MOST_AXES, PlacedFrame, Ready, Registered, Tool};
+use crate::units::{Duration, Mass};
+
+/// Whether all numbers of a machine but those of its axes are ones that it can have.
+pub(super) fn has_sound_numbers(cell: &Cell) -> bool {
+    let ready = match cell.ready {
+        Ready::Input(input) => input > 0,
+        Ready::After(time) => is_sound_time(time),
+    };
+    let finite = |values: AxisValues| values.0.iter().all(|value| value.is_finite());
+    let change = cell
+        .change
+        .is_none_or(|change| finite(change.at) && is_sound_time(change.time));
+    is_sound_frame(&cell.base)
+        && cell.tools.iter().all(|(_, tool)| is_sound_tool(tool))
+        && ready
+        && change
+        && cell.home.is_none_or(finite)
+        && cell.ultrasonic.is_none_or(|output| output > 0)
+}
+
+fn is_sound_tool(tool: &Tool) -> bool {
+    let load = match tool.load {
+        Some(Registered::Value(load)) => {
+            load.mass.is_finite() && load.mass >= Mass::ZERO && load.centre.is_finite()
+        }
+        Some(Registered::Number(number)) => number > 0,
+        None => true,
+    };
+    is_sound_frame(&tool.frame) && load && tool.place.is_none_or(|place| place > 0)
+}
+
+fn is_sound_frame(placed: &PlacedFrame) -> bool {
+    placed.frame.origin.is_finite() && placed.number.is_none_or(|number| number > 0)
+}
+
+fn is_sound_time(time: Duration) -> bool {
+    time.is_finite() && time >= Duration::ZERO
+}
+
+/// Whether a machine has one tool for each blade; of several that its changer is to put in, each with a place of its own.
+pub(super) fn has_a_tool_for_each(cell: &Cell, blades: usize) -> bool {
+    let mut places: Vec<Option<u32>> = cell.tools.iter().map(|(_, tool)| tool.place).collect();
+    places.sort_unstable();
+    let distinct = places.windows(2).all(|pair| match pair {
+        [Some(one), Some(other)] => one != other,
+        _ => true,
+    });
+    let told = match cell.change.map(|change| change.by) {
+        Some(Changer::Program) => places.iter().all(Option::is_some),
+        Some(Changer::Hand) | None => true,
+    };
+    // A program without operations has no blade, and its machine a tool all the same.
+    cell.tools.count() == blades.max(1) && distinct && (told || !cell.tools.are_several())
+}
+
+/// Whether a machine has a number of axes that it can have, each with a range, and rates that are positive.
+pub(super) fn has_sound_axes(axes: &[Axis]) -> bool {
+    let positive = |value: Option<f64>| value.is_none_or(|value| value.is_finite() && value > 0.0);
+    (1..=MOST_AXES).contains(&axes.len())
+        && axes.iter().all(|axis| {
+            axis.min.is_finite()
+                && axis.max.is_finite()
+                && axis.min <= axis.max
+                && positive(axis.rate)
+                && positive(axis.acceleration)
+        })
+}
