@@ -53,8 +53,8 @@ fn examples_compile_for_every_machine_and_target() {
         }
     }
     let pairings = || compiling().into_iter().flat_map(|(_, pairings)| pairings);
-    // Nine jobs for KRL, seven of them for RAPID, and thirteen pairings with gantries for G-code.
-    assert_eq!(pairings().count(), 9 + 7 + 13);
+    // Ten jobs for KRL, eight of them for RAPID, and fifteen pairings with gantries for G-code.
+    assert_eq!(pairings().count(), 10 + 8 + 15);
     let is_built = |pairing: &Pairing| registry::backend(pairing.target).is_some();
     assert_eq!(programs, pairings().filter(is_built).count());
 }
@@ -80,7 +80,7 @@ fn examples_compile_for_every_dialect_of_g_code() {
             }
         }
     }
-    assert_eq!(programs, DIALECTS.len() * 13);
+    assert_eq!(programs, DIALECTS.len() * 15);
 }
 
 #[test]

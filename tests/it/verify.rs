@@ -28,7 +28,11 @@ pub(crate) struct Bench {
 
 impl Bench {
     pub(crate) fn new() -> Self {
-        let outcome = compile(JOB, &Files::of(root().join("tests/verify")));
+        Self::of(&Files::of(root().join("tests/verify")))
+    }
+
+    fn of(files: &Files) -> Self {
+        let outcome = compile(JOB, files);
         let written = driver::write(&outcome, krl()).unwrap().unwrap();
         Self { outcome, written }
     }
@@ -86,6 +90,28 @@ fn changed_programs_are_explained() {
         }
     });
     assert!(surprises.is_empty(), "{}", surprises.join("\n"));
+}
+
+/// With hardly any room, cuts that lie half a millimetre deeper take the body of the blade into the stock. They stay out of
+/// the part.
+#[test]
+fn lowered_cuts_take_the_body_of_the_blade_into_the_stock() {
+    let files = Files::of(root().join("tests/verify"));
+    let job = fs::read_to_string(root().join("tests/verify").join(JOB)).unwrap();
+    let edges = "edges          = double";
+    let job = job.replace(edges, &format!("{edges}\n  body           (28.6 mm, 10 mm)"));
+    let bench = Bench::of(&files.with(JOB, job));
+    let (verdict, _) = bench.verify(bench.files());
+    assert_eq!(numbers(&verdict.diagnostics), [""; 0]);
+    let mut lowered = bench.files().to_vec();
+    for file in &mut lowered {
+        file.text = file.text.replace(",Z 8.000,A", ",Z 7.500,A");
+    }
+    let (verdict, outcome) = bench.verify(&lowered);
+    let messages = told(&verdict.diagnostics, &outcome);
+    let told = "error[VC0709]: the body of `sabre` enters the stock by 0.4";
+    assert!(messages.contains(told), "{messages}");
+    assert!(!messages.contains("enters the part"), "{messages}");
 }
 
 /// Nothing is wrong with the motions of such a program, and it is not cleared all the same.

@@ -40,6 +40,11 @@ impl<'a> Attempts<'a> {
 }
 
 impl Attempts<'_> {
+    /// Whether changes are still to be planned.
+    pub(super) fn are_wanted(&self) -> bool {
+        !self.wanted.is_needless()
+    }
+
     /// Takes the work of a replay of so many cuts, if there is any left.
     pub(super) const fn spend(&mut self, cuts: usize) -> bool {
         let is_left = !self.effort.is_spent();

@@ -32,13 +32,16 @@ pub(super) fn explained(
 ) -> Option<Diagnostic> {
     let planned = plan.operation(contact.passage.operation)?;
     let told = told(planned.asked(), count, contact)?;
+    // First, because replays take the least work.
+    let higher = higher_body(plan, proven, contact, attempts);
     let told = with_smaller_swing(told, planned, attempts, works_there);
     let told = with_steeper_rake(told, planned.asked(), attempts, works_there);
-    let told = with_higher_body(told, plan, proven, contact, attempts);
-    Some(if told.fixes.is_empty() && told.help.is_empty() {
-        told.help("use a blade with a longer or thinner shank")
-    } else {
-        told
+    Some(match higher {
+        Some(higher) => higher.offered(told, attempts),
+        None if told.fixes.is_empty() && told.help.is_empty() => {
+            told.help("use a blade with a longer or thinner shank")
+        }
+        None => told,
     })
 }
 
@@ -124,47 +127,52 @@ fn with_steeper_rake(
     }
 }
 
-/// With the least height that the body may begin at, where one is clear of the work.
-fn with_higher_body(
-    told: Diagnostic,
+/// A body that is clear of the work, being the same but higher.
+struct Higher {
+    advice: String,
+    /// None where a height has no place in a text.
+    edits: Option<Vec<(Span, String)>>,
+}
+
+impl Higher {
+    /// As a change that others try once more; as mere advice where nothing is tried any more.
+    fn offered(self, told: Diagnostic, attempts: &Attempts<'_>) -> Diagnostic {
+        match self.edits {
+            Some(edits) if attempts.are_wanted() => told.fix_all(self.advice, &edits),
+            Some(_) | None => told.help(self.advice),
+        }
+    }
+}
+
+/// The body with the least height that was found to be clear of the work.
+fn higher_body(
     plan: &PlannedJob,
     proven: &Proven,
     contact: Contact,
     attempts: &mut Attempts<'_>,
-) -> Diagnostic {
-    let body = plan
-        .operation(contact.passage.operation)
-        .and_then(|planned| planned.asked().setup().blade.body.as_ref());
-    let tool = (proven.program.program())
-        .operation(contact.passage.operation)
-        .map(|operation| operation.tool);
-    let (Some(body), Some(tool)) = (body, tool) else {
-        return told;
-    };
+) -> Option<Higher> {
+    let operation = contact.passage.operation;
+    let body = plan.operation(operation)?.asked().setup().blade.body.as_ref()?;
+    let program = proven.program.program();
+    let tool = program.operation(operation)?.tool;
     let mut is_clear = |stages: &[BodyStage]| {
-        if !attempts.spend(plan.cuts()) {
-            return false;
-        }
-        with_body(proven.program.program(), tool, stages)
-            .is_some_and(|program| bodies(plan, &program).contact.is_none())
+        attempts.spend(plan.cuts())
+            && with_body(program, tool, stages)
+                .is_some_and(|program| bodies(plan, &program).contact.is_none())
     };
-    let Some(stages) = least_clear(body, Length::ZERO - contact.passage.clearance, &mut is_clear) else {
-        return told;
-    };
+    let stages = least_clear(body, Length::ZERO - contact.passage.clearance, &mut is_clear)?;
     let text = |height: Length| format!("{} mm", show(height.to_mm()));
-    let given = body.stages.iter().zip(&stages);
-    let edits: Option<Vec<(Span, String)>> = given
-        .map(|(stage, higher)| Some((stage.from.span?, text(higher.from))))
-        .collect();
     let heights: Vec<String> = stages.iter().map(|stage| text(stage.from)).collect();
     let advice = match heights.as_slice() {
         [only] => format!("use a longer blade, whose body begins at {only}"),
         all => format!("use a longer blade, whose stages begin at {}", all.join(", ")),
     };
-    match edits {
-        Some(edits) => told.fix_all(advice, &edits),
-        None => told.help(advice),
-    }
+    let given = body.stages.iter().zip(heights);
+    let edits = given.map(|(stage, height)| Some((stage.from.span?, height)));
+    Some(Higher {
+        advice,
+        edits: edits.collect(),
+    })
 }
 
 /// The stages of a body moved up the axis until they are clear: to a tenth of a millimetre or so, as they are written.
