@@ -82,11 +82,17 @@ pub fn is_stated(program: &Program) -> bool {
 /// How the bodies of a program's blades pass the work. `bounds` are the operations' own, in order.
 #[must_use]
 pub fn bodies(verified: &VerifiedProgram, bounds: &[Bound<'_>]) -> Bodies {
+    watched(verified, bounds, &mut |_| {})
+}
+
+/// As [`bodies`], and shows every motion that takes a body into the work.
+#[must_use]
+pub fn watched(verified: &VerifiedProgram, bounds: &[Bound<'_>], watch: &mut dyn FnMut(Contact)) -> Bodies {
     let program = verified.program();
     if !is_stated(program) {
         return Bodies::default();
     }
-    let mut watcher = Watcher::new(program, bounds);
+    let mut watcher = Watcher::new(program, bounds, watch);
     let mut segments = program.segments();
     accompanied(verified, &mut |_, surface| {
         if let Some(segment) = segments.next() {
@@ -156,10 +162,11 @@ struct Watcher<'p> {
     /// Of each operation.
     stages: Vec<Vec<Cylinder>>,
     found: Bodies,
+    watch: &'p mut dyn FnMut(Contact),
 }
 
 impl<'p> Watcher<'p> {
-    fn new(program: &'p Program, bounds: &'p [Bound<'p>]) -> Self {
+    fn new(program: &'p Program, bounds: &'p [Bound<'p>], watch: &'p mut dyn FnMut(Contact)) -> Self {
         let stages = program.operations.iter().map(|operation| {
             let blade = program.blade(operation.tool);
             let stages = blade.and_then(|blade| blade.body.as_deref()).unwrap_or_default();
@@ -170,6 +177,7 @@ impl<'p> Watcher<'p> {
             bounds,
             stages: stages.collect(),
             found: Bodies::default(),
+            watch,
         }
     }
 
@@ -249,6 +257,7 @@ impl<'p> Watcher<'p> {
     }
 
     fn note(&mut self, contact: Contact) {
+        (self.watch)(contact);
         let worse = |known: &Contact| {
             let rank = |contact: &Contact| (contact.during, -contact.passage.clearance.to_mm());
             let ((during, depth), (known_during, known_depth)) = (rank(&contact), rank(known));

@@ -385,7 +385,9 @@ fn a_limit_that_binds_says_where_it_goes() {
 fn a_body_that_is_stated_is_checked() {
     let files = Files::of(root().join("examples"));
     let stated = read("examples/deep_saddle.vcut");
-    let lines = stated.lines().filter(|line| !line.trim_start().starts_with("body "));
+    let lines = stated
+        .lines()
+        .filter(|line| !line.trim_start().starts_with("body "));
     let bare = lines.collect::<Vec<_>>().join("\n");
     for (text, came) in [(stated.as_str(), "made"), (bare.as_str(), "no_body")] {
         let outcome = compile(JOB, &files.clone().with(JOB, text));
@@ -393,8 +395,14 @@ fn a_body_that_is_stated_is_checked() {
         let figures = compiled.checks.figures();
         let holder = figures.iter().find(|figure| figure.check == "holder").unwrap();
         assert_eq!(holder.reason.unwrap_or("made"), came);
-        let is_told = compiled.summary.iter().any(|line| line.trim_start().starts_with("body "));
+        let is_told = compiled
+            .summary
+            .iter()
+            .any(|line| line.trim_start().starts_with("body "));
         assert_eq!(is_told, came == "made");
-        assert_eq!(compiled.checks.proven().contains("the body of the blade"), came == "made");
+        assert_eq!(
+            compiled.checks.proven().contains("the body of the blade"),
+            came == "made"
+        );
     }
 }

@@ -2,7 +2,8 @@
 
 use crate::samples::{operation, paper_job};
 use proptest::prelude::*;
-use vcutc_backend_api::ir::{Action, Program, Stock};
+use std::collections::BTreeMap;
+use vcutc_backend_api::ir::{Action, OpId, Program, Stock};
 use vcutc_backend_api::segments::{LinearSegment, Segment};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_backend_api::verify::VerifiedProgram;
@@ -10,8 +11,8 @@ use vcutc_diagnostics::source::{FileId, SourceMap, Span};
 use vcutc_geometry::curve::Point2;
 use vcutc_job::{Auto, Body, BodyStage, CheckedJob, Sourced};
 use vcutc_process::plan::plan;
-use vcutc_process::verdict::{Proven, prove};
-use vcutc_simulation::body::During;
+use vcutc_process::verdict::{Proven, bounds, prove};
+use vcutc_simulation::body::{During, watched};
 use vcutc_simulation::prove::accompanied;
 use vcutc_simulation::surface::Surface;
 
@@ -77,8 +78,14 @@ fn lowest(
     lowest
 }
 
-/// The lowest of all points in each motion on a line, and whether it is a cut.
-fn sampled(verified: &VerifiedProgram, points: &[[f64; 3]]) -> Vec<(bool, f64)> {
+/// A motion on a line, and how far the lowest of all points stays above the section in it.
+struct Met {
+    op: OpId,
+    during: During,
+    gap: f64,
+}
+
+fn sampled(verified: &VerifiedProgram, points: &[[f64; 3]]) -> Vec<Met> {
     let program = verified.program();
     let segments: Vec<Segment<'_>> = program.segments().collect();
     let mut found = Vec::new();
@@ -88,7 +95,11 @@ fn sampled(verified: &VerifiedProgram, points: &[[f64; 3]]) -> Vec<(bool, f64)> 
             .line()
             .and_then(|line| lowest(program, &line, points, surface))
         {
-            found.push((matches!(segment.op.action, Action::Cut { .. }), gap));
+            let during = match segment.op.action {
+                Action::Cut { .. } => During::Cut,
+                _ => During::Way,
+            };
+            found.push(Met { op: id, during, gap });
         }
     });
     found
@@ -111,15 +122,23 @@ proptest! {
         asked.swing.value = Auto::Given(Angle::deg(swing.round()));
         asked.setup.rake.value = Angle::deg(rake.round());
         asked.setup.blade.body = Some(body(&stages));
-        let Some(proven) = proven(&job) else {
+        let Some(planned) = plan(&job).0 else {
             return Err(TestCaseError::reject("no plan"));
         };
+        let proven = prove(&planned, &SourceMap::default()).unwrap();
         let met = sampled(&proven.program, &skin(&stages));
-        let deep = met.iter().filter(|(_, gap)| *gap < -DEEP).count();
-        let found = proven.bodies.contact;
-        prop_assert!(found.map_or(0, |(count, _)| count) >= deep, "{deep} motions {found:?}");
-        let in_cuts = met.iter().filter(|(is_cut, _)| *is_cut).map(|(_, gap)| *gap).fold(f64::INFINITY, f64::min);
-        let least = match (found, proven.bodies.nearest) {
+        let mut found = BTreeMap::new();
+        let same = watched(&proven.program, &bounds(&planned), &mut |contact| {
+            found.insert(contact.passage.op, contact);
+        });
+        prop_assert_eq!(same, proven.bodies);
+        prop_assert_eq!(same.contact.map_or(0, |(count, _)| count), found.len());
+        for met in met.iter().filter(|met| met.gap < -DEEP) {
+            prop_assert!(found.contains_key(&met.op), "{:?} {}", met.op, met.gap);
+        }
+        let cuts = met.iter().filter(|met| met.during == During::Cut);
+        let in_cuts = cuts.map(|met| met.gap).fold(f64::INFINITY, f64::min);
+        let least = match (same.contact, same.nearest) {
             (Some((_, contact)), _) if contact.during == During::Cut => contact.passage.clearance.to_mm(),
             (_, Some(nearest)) => nearest.clearance.to_mm(),
             (_, None) => f64::INFINITY,

@@ -189,6 +189,37 @@ proptest! {
     }
 
     #[test]
+    fn what_is_over_the_stock_is_in_the_shadow(
+        from in 15.0..40.0_f64,
+        length in 1.0..40.0_f64,
+        radius in 1.0..25.0_f64,
+        swing in -65.0..65.0_f64,
+        rake in 30.0..=150.0_f64,
+        y in -40.0..20.0_f64,
+    ) {
+        let held = axis(swing, rake);
+        let stages = [(from, radius), (from + length, 1.0)].map(|(from, radius)| BodyStage {
+            from: Length::mm(from),
+            radius: Length::mm(radius),
+        });
+        let tip = Point3::new(0.0, y, 0.0);
+        // Before the stock, and as far behind it.
+        for (tip, Axis([x, along, z])) in [
+            (tip, held),
+            (Point3::new(0.0, STOCK.depth.to_mm() - y, 0.0), Axis([held.0[0], -held.0[1], held.0[2]])),
+        ] {
+            let held = Axis([x, along, z]);
+            let shadow = Cylinder::all(&stages)[0].shadow(held, Way { from: tip, to: tip }, STOCK);
+            for [x, y, z] in skin(from, from + length, radius, held) {
+                if (0.0..=STOCK.depth.to_mm()).contains(&(tip.y + y)) {
+                    let shadow = shadow.as_ref();
+                    prop_assert!(shadow.is_some_and(|shadow| z >= shadow.lower(x) - 1e-9), "{x} {y} {z}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn a_way_covers_what_the_places_on_it_cover(
         from in 15.0..40.0_f64,
         radius in 1.0..12.0_f64,
