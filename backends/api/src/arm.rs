@@ -75,7 +75,6 @@ impl Findings {
         for (id, op) in (0..).map(OpId).zip(&tables.ops) {
             let action = &op.action;
             self.op(id, action);
-            self.one_blade(id, action);
             if let Some(to) = action.tip() {
                 self.point(Some(id), ["X", "Y", "Z"], to, limits.farthest_mm);
             }

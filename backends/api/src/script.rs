@@ -13,7 +13,7 @@ mod tables;
 mod text;
 mod writer;
 
-pub use dialect::{Dialect, File, Files, JointMove, JointTarget, LinearMove, Source};
+pub use dialect::{Dialect, File, Files, JointMove, JointTarget, LinearMove, Source, ToolChange};
 pub use emission::emission;
 pub use head::{HeadLine, duration_words, head_lines};
 pub use listing::{Layer, Lead, Modal, first_of};

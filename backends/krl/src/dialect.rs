@@ -10,7 +10,7 @@ use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::ir::{FeedId, RateId, Switch};
 use vcutc_backend_api::readback::End;
 use vcutc_backend_api::script::{
-    Dialect, JointMove, JointTarget, Layer, LinearMove, Part, Source, Text, Written, feed, rate,
+    Dialect, JointMove, JointTarget, Layer, LinearMove, Part, Source, Text, ToolChange, Written, feed, rate,
 };
 use vcutc_backend_api::state::TipPose;
 use vcutc_backend_api::units::Duration;
@@ -74,7 +74,7 @@ impl Dialect for KrlDialect<'_, '_, '_> {
         self.assign(b"$VEL.CP=", feed.to_m_per_s())
     }
 
-    /// To home, or to a pose with the status and turn that the arm has there.
+    /// To home, to the change place, or to a pose with the status and turn that the arm has there.
     fn joint_move(&mut self, motion: &JointMove) -> Written {
         self.text.put(self.settings.planner.axes());
         self.text.put(b" ");
@@ -107,6 +107,10 @@ impl Dialect for KrlDialect<'_, '_, '_> {
             End::Rounded => self.text.put(planner.approximate()),
         }
         Ok(self.text.end_line()?)
+    }
+
+    fn change_tool(&mut self, change: &ToolChange<'_>) -> Written {
+        self.put_in(change)
     }
 
     /// Without `CONTINUE`: the output waits for the robot to arrive (advance run stop) [K-SI].

@@ -60,6 +60,15 @@ fn has_kept_part(main: &str, parts: usize, reserved: &[String]) -> bool {
     parts > 1 && !alike.is_empty() && (1..=parts).any(is_kept)
 }
 
+/// Whether a text is a name that a routine of the cell can have.
+pub(crate) fn is_name(text: &str) -> bool {
+    let upper = text.to_ascii_uppercase();
+    text.starts_with(|c: char| c.is_ascii_alphabetic())
+        && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+        && text.len() <= LONGEST_NAME
+        && !RESERVED.contains(&upper.as_str())
+}
+
 /// The name of a part, counted from 1.
 pub(crate) fn part_name(main: &str, part: usize) -> String {
     format!("{main}_p{part:03}")

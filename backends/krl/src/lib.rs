@@ -27,7 +27,8 @@
 //! | `Ultrasonic` | `$OUT[n]=TRUE`, `$OUT[n]=FALSE` |
 //! | `AwaitReady` | `WAIT FOR $IN[n]` or `WAIT SEC t` |
 //! | `Dwell` | `WAIT SEC t` |
-//! | `ToolChange` | refused |
+//! | `ChangePlace` | `PTP XVC_CHANGE`, likewise |
+//! | `ToolChange` | the cell's routine `NAME(n)` with the place of the tool, or `HALT`; then `$TOOL` and `$LOAD` again |
 //!
 //! `$VEL.CP` and the rates of swivel and twist, `$VEL.ORI1` and `$VEL.ORI2`, are written where they change. With the option `motion = spline` the words
 //! are `SPTP`, `SLIN` and `C_SPL`; the two planners are never mixed in one program.
@@ -61,6 +62,7 @@
 //! No output of this crate has been run on a controller by its authors; `docs/backends/krl.md` says what to check first.
 
 mod attitude;
+mod change;
 mod configuration;
 mod dialect;
 pub mod interpreter;
@@ -85,7 +87,7 @@ use vcutc_backend_api::ir::{MachineKind, Maker, Program};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
 use vcutc_backend_api::script::{Borders, CAPABILITIES, Layout, Source, Text, emission, split, write};
-use vcutc_backend_api::verify::Capabilities;
+use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// Lines end as those that the controller's own editor writes (it runs on Windows). With `;FOLD` and indentation a line stays
 /// below 132 characters, which every release reads. Behind a `;` the pendant reads `;%` as the start of its own marks.
@@ -109,7 +111,7 @@ impl Backend for Krl {
     }
 
     fn capabilities(&self) -> Capabilities {
-        CAPABILITIES
+        CAPABILITIES.with(Capability::ToolChange)
     }
 
     fn options(&self) -> &'static [OptionSpec] {
@@ -138,7 +140,7 @@ impl Backend for Krl {
             &|index, lead| turns.lines(index, lead),
         );
         let issues = profile::issues(options.profile(), program.program().cell.as_ref());
-        let cell = match limits::check(program, &parts) {
+        let cell = match limits::check(program, &parts, &settings) {
             Ok(cell) if issues.is_empty() => cell,
             Ok(_) => return Err(issues),
             Err(more) => return Err(more.into_iter().chain(issues).collect()),

@@ -4,11 +4,13 @@
 //! Variables for KSS 8.1 to 8.4. Of each kind of problem the first is told, with its op: a stock placed too far away
 //! would otherwise be told a million times.
 
+use crate::change;
 use crate::configuration::status;
+use crate::options::Settings;
 use vcutc_backend_api::arm::{ArmLimits, SpeedUnit, foreign_arm};
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::findings::{Findings, Number, driven_cell};
-use vcutc_backend_api::ir::{Action, AxisValues, Cell, Maker, OpId, PlacedFrame, Ready, Registered};
+use vcutc_backend_api::ir::{Action, AxisValues, Cell, Maker, OpId, PlacedFrame, Ready, Registered, Tool};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::script::Part;
 
@@ -53,6 +55,7 @@ const DRIVES: &str = "KUKA robots with six rotary axes and a spherical wrist";
 pub(crate) fn check<'p>(
     program: &'p ReachableProgram,
     parts: &[Part],
+    settings: &Settings<'_>,
 ) -> Result<&'p Cell, Vec<BackendIssue>> {
     let cell = driven_cell(program, DRIVES, |cell| {
         foreign_arm(program, cell, Maker::Kuka, |stretch| {
@@ -61,6 +64,7 @@ pub(crate) fn check<'p>(
     })?;
     let mut found = Findings::default();
     machine(cell, &mut found);
+    change::routine(cell, settings, &mut found);
     found.arm_ops(program, &LIMITS, &mut |found, id, action| {
         if matches!(action, Action::AxisTravel { .. }) {
             turns(program, id, found);
@@ -75,23 +79,18 @@ fn machine(cell: &Cell, found: &mut Findings) {
         Some(angles) => axes(None, "home angle", angles, found),
         None => found.tell("home", HOME_MISSING),
     }
-    frame(
-        cell.tools.first().frame,
-        ["tool X", "tool Y", "tool Z"],
-        ("tool number", TOOLS),
-        found,
-    );
+    if let Some(change) = cell.change {
+        axes(None, "angle of the change place", change.at, found);
+    }
+    for (_, tool) in cell.tools.iter() {
+        self::tool(tool, found);
+    }
     frame(
         cell.base,
         ["base X", "base Y", "base Z"],
         ("base number", BASES),
         found,
     );
-    match cell.tools.first().load {
-        Some(Registered::Value(load)) => found.load(load, &LIMITS),
-        Some(Registered::Number(number)) => found.number("load number", number, 1..=TOOLS),
-        None => {}
-    }
     if let Some(output) = cell.ultrasonic {
         found.number("output number", output, 1..=SIGNALS);
     }
@@ -99,6 +98,20 @@ fn machine(cell: &Cell, found: &mut Findings) {
     match cell.ready {
         Ready::Input(number) => input(number, found),
         Ready::After(time) => found.wait(None, "time until ready", time),
+    }
+}
+
+fn tool(tool: &Tool, found: &mut Findings) {
+    frame(
+        tool.frame,
+        ["tool X", "tool Y", "tool Z"],
+        ("tool number", TOOLS),
+        found,
+    );
+    match tool.load {
+        Some(Registered::Value(load)) => found.load(load, &LIMITS),
+        Some(Registered::Number(number)) => found.number("load number", number, 1..=TOOLS),
+        None => {}
     }
 }
 

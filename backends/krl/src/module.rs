@@ -2,14 +2,17 @@
 
 use crate::attitude::push_angles;
 use crate::dialect::KrlDialect;
-use crate::keywords::{HOME, part_name};
+use crate::keywords::{CHANGE, HOME, part_name};
 use crate::options::PartNames;
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, Load, PlacedFrame, Registered};
+use vcutc_backend_api::ir::{Action, AxisValues, Changer, Load, PlacedFrame, ToolId};
 use vcutc_backend_api::number::NotFinite;
 use vcutc_backend_api::script::{File, Files, Part, Written};
 use vcutc_backend_api::state::Place;
+
+const NO_HOME: EmitError = EmitError::Internal("the machine has no home angles");
+const NO_CHANGE: EmitError = EmitError::Internal("the machine has no place for changes");
 
 impl Files for KrlDialect<'_, '_, '_> {
     fn part_name(&self, main: &str, part: usize) -> String {
@@ -27,6 +30,12 @@ impl Files for KrlDialect<'_, '_, '_> {
                 self.text.line(&format!("EXT {name}( )"))?;
             }
         }
+        if self.settings.part_names == PartNames::Declared
+            && file.part.is_some_and(|part| self.calls_routine(part))
+        {
+            let routine = self.settings.change_routine;
+            self.text.line(&format!("EXT {routine}(INT :IN )"))?;
+        }
         Ok(())
     }
 
@@ -42,7 +51,7 @@ impl Files for KrlDialect<'_, '_, '_> {
         self.text.line("BAS (#INITMOV,0 )")?;
         self.text.line(";ENDFOLD (INI)")?;
         match file.part {
-            Some(_) => self.motion_setup(),
+            Some(part) => self.motion_setup(part.start.tool),
             None => Ok(()),
         }
     }
@@ -77,18 +86,13 @@ impl KrlDialect<'_, '_, '_> {
         Ok(self.text.comment("&COMMENT ", &self.source.program().name)?)
     }
 
-    fn motion_setup(&mut self) -> Written {
+    fn motion_setup(&mut self, tool: ToolId) -> Written {
         let (cell, settings) = (self.source.cell, self.settings);
         self.text.line(";FOLD SETUP")?;
-        self.frame("TOOL", cell.tools.first().frame)?;
+        let tool = cell.tools.at(tool);
+        self.frame("TOOL", tool.frame)?;
         self.frame("BASE", cell.base)?;
-        match cell.tools.first().load {
-            Some(Registered::Value(load)) => self.load(load)?,
-            Some(Registered::Number(number)) => self.text.line(&format!("$LOAD=LOAD_DATA[{number}]"))?,
-            None => self
-                .text
-                .line("; load as the controller has it: the job states none")?,
-        }
+        self.load_of(tool)?;
         self.text.line("$IPO_MODE=#BASE")?;
         self.text.line("$ORI_TYPE=#VAR")?;
         self.text.line("$ADVANCE=3")?;
@@ -101,7 +105,7 @@ impl KrlDialect<'_, '_, '_> {
     }
 
     /// Sets `$TOOL` or `$BASE`.
-    fn frame(&mut self, which: &str, placed: PlacedFrame) -> Written {
+    pub(crate) fn frame(&mut self, which: &str, placed: PlacedFrame) -> Written {
         if let Some(number) = placed.number {
             return Ok(self.text.line(&format!("BAS (#{which},{number} )"))?);
         }
@@ -122,7 +126,7 @@ impl KrlDialect<'_, '_, '_> {
     }
 
     /// Sets `$LOAD`. The job knows no inertia about the centre of mass, so that of a point mass stands.
-    fn load(&mut self, load: Load) -> Written {
+    pub(crate) fn load(&mut self, load: Load) -> Written {
         self.text.put(b"$LOAD={M ");
         self.text.trimmed(load.mass.to_kg())?;
         self.text.put(b",CM {");
@@ -136,10 +140,23 @@ impl KrlDialect<'_, '_, '_> {
         self.marks()?;
         self.text.line(&format!("DEFDAT {}", file.name))?;
         self.text.line("EXT BAS (BAS_COMMAND :IN,REAL :IN )")?;
-        if file.part.is_some_and(|part| self.needs_home(part)) {
-            self.home_angles()?;
+        if let Some(part) = file.part {
+            if self.needs_home(part) {
+                let home = self.source.cell.home;
+                self.angles(HOME, home.ok_or(NO_HOME)?)?;
+            }
+            if self.needs_change(part) {
+                let change = self.source.cell.change;
+                self.angles(CHANGE, change.ok_or(NO_CHANGE)?.at)?;
+            }
         }
         Ok(self.text.line("ENDDAT")?)
+    }
+
+    fn calls_routine(&self, part: &Part) -> bool {
+        let by = self.source.cell.change.map(|change| change.by);
+        let mut ops = self.source.ops(part).iter();
+        by == Some(Changer::Program) && ops.any(|op| matches!(op.action, Action::ToolChange { .. }))
     }
 
     fn needs_home(&self, part: &Part) -> bool {
@@ -147,13 +164,16 @@ impl KrlDialect<'_, '_, '_> {
         part.start.place == Place::Home || ops.any(|op| matches!(op.action, Action::Home))
     }
 
-    /// The home angles. External axes are left out: what is left out stays where it is [K-SI], and the job says nothing of
+    fn needs_change(&self, part: &Part) -> bool {
+        let mut ops = self.source.ops(part).iter();
+        part.start.place == Place::Change || ops.any(|op| matches!(op.action, Action::ChangePlace))
+    }
+
+    /// Angles of the axes with a name. External axes are left out: what is left out stays where it is [K-SI], and the job says nothing of
     /// them.
-    fn home_angles(&mut self) -> Written {
-        let home = self.source.cell.home;
-        let angles = home.ok_or(EmitError::Internal("the machine has no home angles"))?;
+    fn angles(&mut self, name: &str, angles: AxisValues) -> Written {
         self.text.put(b"DECL E6AXIS ");
-        self.text.put(HOME.as_bytes());
+        self.text.put(name.as_bytes());
         let starts = ["={A1 ", ",A2 ", ",A3 ", ",A4 ", ",A5 ", ",A6 "];
         for (start, angle) in starts.into_iter().zip(angles.0) {
             self.text.put(start.as_bytes());

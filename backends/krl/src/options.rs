@@ -11,6 +11,8 @@ use vcutc_backend_api::script::{Common, approximation, decimals, header, lines_p
 const MOTION: &str = "motion";
 const DECLARE_PARTS: &str = "declare_parts";
 const HOME_SPEED: &str = "home_speed";
+/// Key of the name of the routine that changes blades.
+pub(crate) const CHANGE_ROUTINE: &str = "change_routine";
 
 const CLASSIC: &str = "classic";
 const SPLINE: &str = "spline";
@@ -37,6 +39,10 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
         DECLARE_PARTS,
         &[NO, YES],
         "Whether the main program declares its parts with EXT lines, as old releases demand.",
+    ),
+    OptionSpec::text(
+        CHANGE_ROUTINE,
+        "Routine of the cell that changes the blade; it is called with the place of the new one.",
     ),
     OptionSpec::integer(
         HOME_SPEED,
@@ -93,6 +99,8 @@ pub(crate) struct Settings<'p> {
     pub(crate) planner: Planner,
     /// How parts are made known.
     pub(crate) part_names: PartNames,
+    /// The routine of the cell that changes the blade; empty where none is named.
+    pub(crate) change_routine: &'p str,
     /// Speed of the moves of all axes, in percent.
     pub(crate) home_speed: u32,
 }
@@ -113,6 +121,7 @@ impl<'p> Settings<'p> {
                 YES => PartNames::Declared,
                 _ => PartNames::Global,
             },
+            change_routine: options.text(CHANGE_ROUTINE),
             home_speed: options.integer(HOME_SPEED),
         }
     }

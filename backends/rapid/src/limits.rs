@@ -67,6 +67,7 @@ pub(crate) fn check<'p>(
     reserved(settings, cell, &program.program().name, parts, &mut findings);
     machine(cell, &mut findings);
     findings.arm_ops(program, &LIMITS, &mut |_, _, _| {});
+    (program.program().segments()).for_each(|segment| findings.one_blade(&segment));
     turns(program, &mut findings);
     findings.result().map(|()| cell)
 }

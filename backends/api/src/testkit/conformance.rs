@@ -162,18 +162,19 @@ fn files(bundle: &Bundle) -> Result<(), String> {
     Ok(())
 }
 
-/// A backend that cannot change blades must refuse a program that does.
+/// A backend that cannot change blades must refuse a program that does; one that can must write it.
 fn beyond_capabilities(
     backend: &dyn Backend,
     program: &ReachableProgram,
     options: &Options,
 ) -> Result<(), String> {
-    if backend.capabilities().has(Capability::ToolChange) {
-        return Ok(());
-    }
     let changed = two_blades(program.program().clone(), Changer::Hand);
     let changed = verify(changed).map_err(|faults| format!("{faults:?}"))?;
     let changed = reachable(changed).map_err(|faults| format!("{faults:?}"))?;
+    if backend.capabilities().has(Capability::ToolChange) {
+        let bundle = emitted(backend, &changed, options)?;
+        return read_back(backend, &changed, options, &bundle);
+    }
     match backend.check(&changed, options) {
         Err(issues)
             if issues

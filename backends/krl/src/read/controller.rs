@@ -1,6 +1,7 @@
 //! What single instructions do.
 
 use super::setup::{Need, Setup, Wanted};
+use super::tools;
 use crate::configuration::StatusAndTurn;
 use crate::interpreter::position::{Position, orientation};
 use crate::interpreter::variables::Outcome;
@@ -10,7 +11,7 @@ use crate::syntax::{
     Variable, is_same_name,
 };
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
-use vcutc_backend_api::ir::{AxisValues, Switch};
+use vcutc_backend_api::ir::{AxisValues, Switch, ToolId};
 use vcutc_backend_api::readback::{
     Command, Configuration, Effect, End, FrameRole, FrameSetting, Held, Target as Goal,
 };
@@ -86,15 +87,47 @@ impl<'a> Controller<'a> {
                 self.state.position = Position::default();
                 Effect::Unknown
             }
-            Phrase::Halt | Phrase::Other(_) | Phrase::Call { .. } => Effect::Unknown,
+            Phrase::Halt => self.halt(),
+            Phrase::Other(_) | Phrase::Call { .. } => Effect::Unknown,
             Phrase::Unreadable { expected } => Effect::expected(*expected),
             _ => Effect::expected("an instruction, or `END`"),
         }
     }
 
+    /// A call of the routine that changes the blade, if it is one.
+    pub(super) fn call(&mut self, name: &str, arguments: &str) -> Option<Effect> {
+        let change = tools::called(self.wanted, name, arguments)?;
+        self.changed(tools::at_place(self.wanted, change));
+        Some(Effect::Command(Command::ChangeTool(Some(change))))
+    }
+
+    /// A stop is a change by hand where the machine is said to have such changes.
+    fn halt(&mut self) -> Effect {
+        if !tools::are_changed_by_hand(self.wanted) {
+            return Effect::Unknown;
+        }
+        self.changed(None);
+        Effect::Command(Command::ChangeTool(None))
+    }
+
+    /// Another blade is in: nobody knows where its tip is, nor what the flange carries.
+    fn changed(&mut self, tool: Option<ToolId>) {
+        self.wanted.tool = tool;
+        self.setup.forget_load();
+        self.state.position = Position::default();
+    }
+
+    /// What a frame is set to. That of a tool tells which one a person has put in.
+    fn set(&mut self, role: FrameRole, setting: FrameSetting) -> Effect {
+        if role == FrameRole::Tool && self.wanted.tool.is_none() {
+            self.wanted.tool = tools::of_frame(self.wanted, &setting);
+        }
+        Effect::Frame(role, setting)
+    }
+
     fn bas(&mut self, command: &str, value: Option<f64>) -> Effect {
-        let frame = |role| match value.and_then(whole) {
-            Some(number) => Effect::Frame(role, FrameSetting::Number(number)),
+        let mut frame = |role| match value.and_then(whole) {
+            Some(number) => self.set(role, FrameSetting::Number(number)),
             None => Effect::Unknown,
         };
         if is_same_name(command, "TOOL") {
@@ -136,12 +169,12 @@ impl<'a> Controller<'a> {
         if let Value::Variable(variable) = value
             && let Some(number) = variable.index_in(table)
         {
-            return Effect::Frame(role, FrameSetting::Number(number));
+            return self.set(role, FrameSetting::Number(number));
         }
         let value = self.state.variables.value(context, value);
         let values = value.and_then(|value| value.all(Component::TIP).zip(value.all(Component::ANGLES)));
         match values {
-            Some(([x, y, z], angles)) => Effect::Frame(
+            Some(([x, y, z], angles)) => self.set(
                 role,
                 FrameSetting::Value(Frame {
                     origin: Point3::new(x, y, z),

@@ -8,6 +8,7 @@ use crate::interpreter::variables::Outcome;
 use crate::interpreter::{BreaksOff, Context, Execution, Line};
 use crate::options::Settings;
 use crate::syntax::{Phrase, Span, Statement as Syntax, Statements, is_same_name};
+use vcutc_backend_api::ir::ToolId;
 use vcutc_backend_api::readback::{Effect, Place, Sources, Statement};
 
 /// Tells all statements of a program.
@@ -37,6 +38,7 @@ pub(super) fn read(sources: Sources<'_>, visit: &mut dyn FnMut(Statement)) {
         controller: Controller::new(Wanted {
             cell: sources.cell,
             settings: &settings,
+            tool: Some(ToolId::FIRST),
         }),
         visit,
         header: Header::new(&profile.header),
@@ -215,6 +217,9 @@ impl Reading<'_, '_> {
             (_, Phrase::End) => return (Effect::Setting, Next::Return),
             (_, Phrase::Call { name, arguments }) => {
                 self.set_stage(after);
+                if let Some(effect) = self.controller.call(name, arguments) {
+                    return (effect, Next::GoOn);
+                }
                 let routine = execution.find(line.file, name);
                 let routine = routine.filter(|&routine| !execution.has_entered(routine));
                 return match routine.filter(|_| arguments.is_empty()) {

@@ -7,7 +7,7 @@
 use crate::interpreter::speeds::{Velocity, velocities};
 use crate::options::Settings;
 use crate::syntax::{Component, Coordinates, Field, Value, Variable, is_same_name};
-use vcutc_backend_api::ir::{Cell, Load, Registered};
+use vcutc_backend_api::ir::{Cell, Load, Registered, ToolId};
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::readback::{Effect, Pace};
 use vcutc_backend_api::script::TRIMMED;
@@ -85,6 +85,15 @@ pub(super) enum Need {
 pub(super) struct Wanted<'a> {
     pub(super) cell: &'a Cell,
     pub(super) settings: &'a Settings<'a>,
+    /// The tool at hand; none where a person has changed it, and its frame has not been set since.
+    pub(super) tool: Option<ToolId>,
+}
+
+impl<'a> Wanted<'a> {
+    /// What the flange carries with the tool at hand.
+    fn load(&self) -> Option<&'a Registered<Load>> {
+        self.cell.tools.get(self.tool?)?.load.as_ref()
+    }
 }
 
 impl Setup {
@@ -96,10 +105,15 @@ impl Setup {
         }
     }
 
+    /// The blade is changed, and with it what the flange carries.
+    pub(super) fn forget_load(&mut self) {
+        self.said &= !Said::Load.bit();
+    }
+
     /// What is missing for a motion.
     pub(super) fn missing(&self, need: Need, wanted: Wanted<'_>) -> Option<&'static str> {
         let always = Said::Start.bit() | Said::IpoMode.bit() | Said::OriType.bit() | Said::Advance.bit();
-        let load = match wanted.cell.tools.first().load {
+        let load = match wanted.load() {
             Some(_) => Said::Load.bit(),
             None => 0,
         };
@@ -161,8 +175,9 @@ impl Setup {
             let is = should.is_some_and(|should| is_number(value, should.to_mm(), TRIMMED));
             self.note(Said::Rounding, is)
         } else if to.is("$LOAD") {
-            let is = wanted.cell.tools.first().load.as_ref();
-            let is = is.is_some_and(|should| is_load(value, should, wanted.settings));
+            let is = wanted
+                .load()
+                .is_some_and(|should| is_load(value, should, wanted.settings));
             self.note(Said::Load, is)
         } else {
             return None;

@@ -8,6 +8,7 @@
 
 mod support;
 
+mod changes;
 mod dialect;
 mod never;
 mod oddities;

@@ -1,0 +1,62 @@
+//! Changes of the blade: the call of the cell's routine or a stop for a person, and the tool that is set up behind it.
+
+use crate::dialect::KrlDialect;
+use crate::keywords::is_name;
+use crate::options::{CHANGE_ROUTINE, Settings};
+use vcutc_backend_api::backend::{BackendIssue, EmitError};
+use vcutc_backend_api::findings::Findings;
+use vcutc_backend_api::ir::{Cell, Changer, Registered, Tool};
+use vcutc_backend_api::script::{Dialect, ToolChange, Written};
+
+impl KrlDialect<'_, '_, '_> {
+    /// Everything between the move to the change place and the next one. The controller plans ahead: `HALT` and the assignment
+    /// of `$TOOL` stop that [K-SI], so that no motion is planned with the tool of the one before.
+    pub(crate) fn put_in(&mut self, change: &ToolChange<'_>) -> Written {
+        match change.by {
+            Changer::Program => {
+                let place = change.tool.place;
+                let place = place.ok_or(EmitError::Internal("a tool has no place"))?;
+                let routine = self.settings.change_routine;
+                self.text.line(&format!("{routine}({place})"))?;
+            }
+            Changer::Hand => {
+                self.comment("put in blade ", change.blade)?;
+                self.text.line("HALT")?;
+            }
+        }
+        self.tool(change.tool)
+    }
+
+    /// The tool at hand, and what the flange carries with it.
+    pub(crate) fn tool(&mut self, tool: &Tool) -> Written {
+        self.frame("TOOL", tool.frame)?;
+        self.load_of(tool)
+    }
+
+    pub(crate) fn load_of(&mut self, tool: &Tool) -> Written {
+        match tool.load {
+            Some(Registered::Value(load)) => self.load(load),
+            Some(Registered::Number(number)) => Ok(self.text.line(&format!("$LOAD=LOAD_DATA[{number}]"))?),
+            None => Ok(self
+                .text
+                .line("; load as the controller has it: the job states none")?),
+        }
+    }
+}
+
+/// The routine must have a name where it is called.
+pub(crate) fn routine(cell: &Cell, settings: &Settings<'_>, found: &mut Findings) {
+    let calls = cell.tools.are_several() && cell.change.is_some_and(|change| change.by == Changer::Program);
+    let name = settings.change_routine;
+    let key = CHANGE_ROUTINE;
+    if calls && name.is_empty() {
+        let why =
+            "the blade is changed by a routine of the cell, and nothing says what it is called".to_owned();
+        found.tell(key, BackendIssue::OptionConflict { key, why });
+    } else if !name.is_empty() && !is_name(name) {
+        let why = format!(
+            "`{name}` is not the name of a routine: a letter, then letters, digits and `_`, at most 24 in all, and no word of KRL"
+        );
+        found.tell(key, BackendIssue::OptionConflict { key, why });
+    }
+}
