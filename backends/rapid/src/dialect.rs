@@ -8,11 +8,11 @@ use core::num::NonZeroU32;
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{AxisValues, Cell, OpId, OrientationId, RateId, Switch};
+use vcutc_backend_api::ir::{AxisValues, Cell, OpId, OrientationId, RateId, Switch, ToolId};
 use vcutc_backend_api::motion::Waypoint;
 use vcutc_backend_api::readback::End;
 use vcutc_backend_api::script::{
-    Dialect, JointMove, JointTarget, Layer, LinearMove, Part, Source, Text, Written,
+    Dialect, JointMove, JointTarget, Layer, LinearMove, Part, Source, Text, ToolChange, Written,
 };
 use vcutc_backend_api::state::TipPose;
 use vcutc_backend_api::units::Duration;
@@ -33,11 +33,10 @@ pub(crate) enum AxisTarget {
 }
 
 impl AxisTarget {
-    const fn of(cell: &Cell) -> Self {
-        match (cell.tools.first().frame.number, cell.base.number) {
-            (None, None) => Self::Axes,
-            (Some(_), _) | (_, Some(_)) => Self::Pose,
-        }
+    fn of(cell: &Cell) -> Self {
+        let mut tools = cell.tools.iter();
+        let is_kept = tools.any(|(_, tool)| tool.frame.number.is_some()) || cell.base.number.is_some();
+        if is_kept { Self::Pose } else { Self::Axes }
     }
 }
 
@@ -67,20 +66,28 @@ impl<'a, 't, 's> RapidDialect<'a, 't, 's> {
     /// Nothing written yet.
     pub(crate) fn new(source: Source<'a>, settings: &'a Settings<'a>, text: &'t mut Text<'s>) -> Self {
         let program = source.program();
-        let (tool, work_object) = (settings.tool(source.cell), settings.work_object(source.cell));
         let rounded = program.orientations.iter().copied().map(Quaternion::rounded);
         Self {
             source,
             settings,
             speeds: Speeds::of(program),
             quaternions: rounded.collect(),
-            frames: format!(",{tool}\\WObj:={work_object};"),
+            frames: frames(source, settings, ToolId::FIRST),
             text,
             modules: Vec::new(),
             turned: None,
             waypoints: &[],
         }
     }
+}
+
+/// What ends every move with a tool.
+fn frames(source: Source<'_>, settings: &Settings<'_>, tool: ToolId) -> String {
+    let (tool, work_object) = (
+        settings.tool(source.cell, tool),
+        settings.work_object(source.cell),
+    );
+    format!(",{tool}\\WObj:={work_object};")
 }
 
 impl Dialect for RapidDialect<'_, '_, '_> {
@@ -103,6 +110,7 @@ impl Dialect for RapidDialect<'_, '_, '_> {
         let passed = waypoints.partition_point(|waypoint| (waypoint.op.0 as usize) < part.ops.start);
         self.waypoints = waypoints.get(passed..).unwrap_or_default();
         self.turned = None;
+        self.frames = frames(self.source, self.settings, part.start.tool);
         Ok(())
     }
 
@@ -174,6 +182,13 @@ impl Dialect for RapidDialect<'_, '_, '_> {
             Switch::On => ",1;",
             Switch::Off => ",0;",
         })?)
+    }
+
+    fn change_tool(&mut self, change: &ToolChange<'_>) -> Written {
+        self.put_in(change)?;
+        self.turned = None;
+        self.frames = frames(self.source, self.settings, change.id);
+        Ok(())
     }
 
     fn await_input(&mut self, input: u32) -> Written {

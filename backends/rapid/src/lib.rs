@@ -25,7 +25,8 @@
 //! | `Ultrasonic` | `SetDO do12,1;`, `SetDO do12,0;` behind a stop point |
 //! | `AwaitReady` | `WaitDI di7,1;` or `WaitTime t;` |
 //! | `Dwell` | `WaitTime t;` |
-//! | `ToolChange` | refused |
+//! | `ChangePlace` | `MoveAbsJ vc_change\NoEOffs,vc_axes,fine` |
+//! | `ToolChange` | the cell's routine `NAME n;` with the place of the tool, or `TPWrite` and `Stop;`; moves behind it name another tool |
 //!
 //! A move of all axes to axis values leaves no doubt about how the arm stands, whatever a controller takes cfx for; should
 //! it take it for something else, the first `MoveL` stops. With frames that the controller keeps, and that may be calibrated
@@ -51,6 +52,7 @@
 //!
 //! No output of this crate has been run on a controller by its authors; `docs/backends/rapid.md` says what to check first.
 
+mod change;
 mod dialect;
 mod keywords;
 mod limits;
@@ -71,7 +73,7 @@ use vcutc_backend_api::ir::{MachineKind, Maker};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
 use vcutc_backend_api::script::{Borders, CAPABILITIES, Layout, Lead, Source, Text, emission, split, write};
-use vcutc_backend_api::verify::Capabilities;
+use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// Lines end as those that RobotStudio writes.
 const LAYOUT: Layout = Layout {
@@ -94,7 +96,7 @@ impl Backend for Rapid {
     }
 
     fn capabilities(&self) -> Capabilities {
-        CAPABILITIES
+        CAPABILITIES.with(Capability::ToolChange)
     }
 
     fn options(&self) -> &'static [OptionSpec] {

@@ -2,10 +2,13 @@
 //!
 //! Sources: [A-KER] ABB 3HAC050946, RAPID kernel; [A-INS] ABB, RAPID instructions, functions and data types.
 
+use crate::change;
 use crate::keywords::{
-    AXES_SPEED, FEED, HOME, MAIN, RATE, SPEED, ZONE, is_name, main_name, part_module, part_routine,
+    AXES_SPEED, CHANGE, FEED, HOME, MAIN, RATE, SPEED, ZONE, is_name, main_name, part_module, part_routine,
 };
-use crate::options::{READY_SIGNAL, Settings, TOOL_NAME, ULTRASONIC_SIGNAL, WORK_OBJECT_NAME};
+use crate::options::{
+    CHANGE_ROUTINE, READY_SIGNAL, Settings, TOOL_NAME, ULTRASONIC_SIGNAL, WORK_OBJECT_NAME,
+};
 use crate::profile::objection;
 use vcutc_backend_api::arm::{ArmLimits, SpeedUnit, foreign_arm};
 use vcutc_backend_api::backend::BackendIssue;
@@ -66,8 +69,8 @@ pub(crate) fn check<'p>(
     names(settings, cell, &mut findings);
     reserved(settings, cell, &program.program().name, parts, &mut findings);
     machine(cell, &mut findings);
+    change::names(cell, settings, &mut findings);
     findings.arm_ops(program, &LIMITS, &mut |_, _, _| {});
-    (program.program().segments()).for_each(|segment| findings.one_blade(&segment));
     turns(program, &mut findings);
     findings.result().map(|()| cell)
 }
@@ -122,10 +125,13 @@ fn names(settings: &Settings<'_>, cell: &Cell, findings: &mut Findings) {
 
 /// The names of frames and signals, with the option that gives each.
 fn used_names(settings: &Settings<'_>, cell: &Cell) -> Vec<(&'static str, String)> {
-    let mut used = vec![
-        (TOOL_NAME, settings.tool(cell)),
-        (WORK_OBJECT_NAME, settings.work_object(cell)),
-    ];
+    let tools = cell.tools.iter();
+    let mut used: Vec<(&'static str, String)> = tools
+        .map(|(id, _)| (TOOL_NAME, settings.tool(cell, id)))
+        .collect();
+    used.push((WORK_OBJECT_NAME, settings.work_object(cell)));
+    let routine = settings.given(CHANGE_ROUTINE).map(str::to_owned);
+    used.extend(routine.map(|name| (CHANGE_ROUTINE, name)));
     used.extend(
         cell.ultrasonic
             .map(|number| (ULTRASONIC_SIGNAL, settings.output(number))),
@@ -139,7 +145,7 @@ fn used_names(settings: &Settings<'_>, cell: &Cell) -> Vec<(&'static str, String
 
 /// The names of data that every program declares.
 fn own_names() -> Vec<String> {
-    [HOME, AXES_SPEED, ZONE].map(str::to_owned).to_vec()
+    [HOME, CHANGE, AXES_SPEED, ZONE].map(str::to_owned).to_vec()
 }
 
 /// Names that the module of a program must not have, besides those of RAPID itself.
@@ -184,9 +190,9 @@ fn machine(cell: &Cell, findings: &mut Findings) {
         findings.tell("home", HOME_MISSING);
     }
     findings.generator(cell);
-    if cell.tools.first().frame.number.is_none() {
-        findings.frame(["tool X", "tool Y", "tool Z"], cell.tools.first().frame, &LIMITS);
-        match cell.tools.first().load {
+    for (_, tool) in cell.tools.iter().filter(|(_, tool)| tool.frame.number.is_none()) {
+        findings.frame(["tool X", "tool Y", "tool Z"], tool.frame, &LIMITS);
+        match tool.load {
             Some(Registered::Value(carried)) => load(carried, findings),
             Some(Registered::Number(_)) | None => findings.tell("load", LOAD_MISSING),
         }
@@ -229,7 +235,12 @@ fn turns(program: &ReachableProgram, findings: &mut Findings) {
         points.push(*end);
         for point in points {
             let goes_far = before.is_some_and(|before| turn(&before, &point) >= TOO_FAR);
-            if goes_far && !matches!(of.action, Action::Home | Action::AxisTravel { .. }) {
+            if goes_far
+                && !matches!(
+                    of.action,
+                    Action::Home | Action::ChangePlace | Action::AxisTravel { .. }
+                )
+            {
                 let what = "a move that turns an axis of the wrist by 90 deg or more at once";
                 findings.tell(what, BackendIssue::Unsupported { op, what });
             }

@@ -1,13 +1,13 @@
 //! Modules: the main one with the data and the entry of the task, those of the parts that it calls, and the list of them.
 
 use crate::dialect::{NO_EXTERNAL_AXES, RapidDialect};
-use crate::keywords::{AXES_SPEED, FEED, HOME, MAIN, RATE, SPEED, ZONE, part_module, part_routine};
+use crate::keywords::{AXES_SPEED, CHANGE, FEED, HOME, MAIN, RATE, SPEED, ZONE, part_module, part_routine};
 use crate::options::zone_members;
 use crate::orient::Quaternion;
 use crate::speeds::{EXTERNAL, RATE_OF_NOTHING, named};
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Frame;
-use vcutc_backend_api::ir::{Action, Load, RateId, Registered};
+use vcutc_backend_api::ir::{Action, AxisValues, Load, RateId, Registered, Tool, ToolId};
 use vcutc_backend_api::script::{File, Files, TRIMMED, Written, feed, rate};
 use vcutc_backend_api::units::Length;
 
@@ -92,14 +92,20 @@ impl RapidDialect<'_, '_, '_> {
     fn data(&mut self) -> Written {
         let mut ops = self.source.program().ops.iter();
         let moves = |action: &Action| {
-            named(action).is_some() || matches!(action, Action::Home | Action::AxisTravel { .. })
+            named(action).is_some()
+                || matches!(
+                    action,
+                    Action::Home | Action::ChangePlace | Action::AxisTravel { .. }
+                )
         };
         if !ops.any(|op| moves(&op.action)) {
             return Ok(());
         }
-        self.tool()?;
+        for (id, tool) in self.source.cell.tools.iter() {
+            self.tool(id, tool)?;
+        }
         self.work_object()?;
-        self.home()?;
+        self.places()?;
         self.speed_data()?;
         match self.settings.common.approximation {
             Some(distance) => self.zone(distance),
@@ -107,19 +113,19 @@ impl RapidDialect<'_, '_, '_> {
         }
     }
 
-    fn tool(&mut self) -> Written {
-        let name = self.settings.tool(self.source.cell);
-        if self.source.cell.tools.first().frame.number.is_some() {
+    fn tool(&mut self, id: ToolId, tool: &Tool) -> Written {
+        let name = self.settings.tool(self.source.cell, id);
+        if tool.frame.number.is_some() {
             return Ok(self
                 .text
                 .line(&format!("  ! tool and load as the controller has them in {name}"))?);
         }
-        let Some(Registered::Value(load)) = self.source.cell.tools.first().load else {
+        let Some(Registered::Value(load)) = tool.load else {
             return Err(EmitError::Internal("a tool without load was not refused"));
         };
         self.text
             .put(format!("  PERS tooldata {name}:=[TRUE,").as_bytes());
-        self.frame(self.source.cell.tools.first().frame.frame)?;
+        self.frame(tool.frame.frame)?;
         self.text.put(b",");
         self.load(load)?;
         Ok(self.text.line("];")?)
@@ -158,18 +164,19 @@ impl RapidDialect<'_, '_, '_> {
         Ok(())
     }
 
-    /// The axis values of home, where a move goes there.
-    fn home(&mut self) -> Written {
-        let goes = self
-            .source
-            .program()
-            .ops
-            .iter()
-            .any(|op| matches!(op.action, Action::Home));
-        let Some(axes) = self.source.cell.home.filter(|_| goes) else {
+    /// The axis values of home and of the change place, where a move goes there.
+    fn places(&mut self) -> Written {
+        let cell = self.source.cell;
+        self.place(HOME, Action::Home, cell.home)?;
+        self.place(CHANGE, Action::ChangePlace, cell.change.map(|change| change.at))
+    }
+
+    fn place(&mut self, name: &str, goes_there: Action, axes: Option<AxisValues>) -> Written {
+        let goes = self.source.program().ops.iter().any(|op| op.action == goes_there);
+        let Some(axes) = axes.filter(|_| goes) else {
             return Ok(());
         };
-        self.text.put(format!("  CONST jointtarget {HOME}:=[").as_bytes());
+        self.text.put(format!("  CONST jointtarget {name}:=[").as_bytes());
         self.joints(axes)?;
         self.text.put(b",");
         self.text.put(NO_EXTERNAL_AXES);

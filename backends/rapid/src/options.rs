@@ -5,7 +5,7 @@
 
 use crate::keywords::{TOOL, WORK_OBJECT};
 use vcutc_backend_api::backend::{OptionSpec, Options};
-use vcutc_backend_api::ir::{Cell, PlacedFrame};
+use vcutc_backend_api::ir::{Cell, PlacedFrame, ToolId};
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::script::{Common, approximation, decimals, header, lines_per_part};
 use vcutc_backend_api::units::Length;
@@ -15,6 +15,7 @@ pub(crate) const TOOL_NAME: &str = "tool_name";
 pub(crate) const WORK_OBJECT_NAME: &str = "wobj_name";
 pub(crate) const ULTRASONIC_SIGNAL: &str = "ultrasonic_signal";
 pub(crate) const READY_SIGNAL: &str = "ready_signal";
+pub(crate) const CHANGE_ROUTINE: &str = "change_routine";
 
 /// All options, in the order of the documentation.
 pub(crate) const OPTIONS: &[OptionSpec] = &[
@@ -46,6 +47,10 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
     OptionSpec::text(
         READY_SIGNAL,
         "Name of the input that tells the generator is up; di7 for input(7) when not given.",
+    ),
+    OptionSpec::text(
+        CHANGE_ROUTINE,
+        "Routine of the cell that changes the blade; it is called with the place of the new one.",
     ),
 ];
 
@@ -79,9 +84,14 @@ impl<'p> Settings<'p> {
         Some(self.options.text(key)).filter(|text| !text.is_empty())
     }
 
-    /// The name of the tooldata that the moves of a program refer to.
-    pub(crate) fn tool(&self, cell: &Cell) -> String {
-        self.frame(TOOL_NAME, cell.tools.first().frame, "tool", TOOL)
+    /// The name of the tooldata that moves with a tool refer to.
+    pub(crate) fn tool(&self, cell: &Cell, id: ToolId) -> String {
+        let placed = cell.tools.at(id).frame;
+        match (id, placed.number) {
+            (ToolId::FIRST, _) => self.frame(TOOL_NAME, placed, "tool", TOOL),
+            (_, Some(number)) => format!("tool{number}"),
+            (ToolId(index), None) => format!("{TOOL}{}", u32::from(index) + 1),
+        }
     }
 
     /// The name of the wobjdata that the moves of a program refer to.

@@ -28,11 +28,12 @@ use sentence::sentence;
 use std::collections::BTreeSet;
 use vcutc_backend_api::backend::Options;
 use vcutc_backend_api::confdata::confdata;
-use vcutc_backend_api::ir::AxisValues;
+use vcutc_backend_api::ir::{AxisValues, ToolId};
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::readback::{
-    Configuration, Effect, Frames, Place, Reader, Resolution, Sources, Statement, has_extension, normalized,
+    Command, Configuration, Effect, FrameRole, FrameSetting, Frames, Place, Reader, Resolution, Sources,
+    Statement, has_extension, normalized,
 };
 use vcutc_backend_api::script::TRIMMED;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Speed};
@@ -88,6 +89,7 @@ impl Reader for RapidReader {
             .map(|module| vec![Told::Not; module.pieces.len()]);
         let mut interpreter = Interpreter {
             told: told.collect(),
+            at_hand: None,
             own: lines_of(settings.common.profile),
             machine,
             program,
@@ -139,6 +141,8 @@ struct Interpreter<'a, 'h> {
     machine: Machine<'a>,
     /// Which pieces were told, by module.
     told: Vec<Vec<Told>>,
+    /// The tool of the move before, where there are several.
+    at_hand: Option<ToolId>,
     /// Statements of the machine's profile.
     own: BTreeSet<String>,
     visit: &'h mut dyn FnMut(Statement),
@@ -234,6 +238,7 @@ impl Interpreter<'_, '_> {
         let piece = *of.pieces.get(place)?;
         let text = piece.text(of.text);
         let mut called = None;
+        let mut takes = None;
         let effect = match piece.kind {
             PieceKind::EndRoutine => Effect::Setting,
             PieceKind::Broken => Effect::expected("`;`"),
@@ -264,7 +269,16 @@ impl Interpreter<'_, '_> {
                             required: &required,
                             optional: &optional,
                         };
-                        match self.machine.effect(instruction, view, modes) {
+                        let moves = self.machine.moves_with(instruction, view);
+                        let told = self.machine.effect(instruction, view, modes);
+                        if let (Some(moves), Effect::Command(_)) = (moves, &told.0) {
+                            takes = self.takes(moves);
+                        }
+                        if let Effect::Command(Command::ChangeTool(_)) = told.0 {
+                            // Which tool is at hand is told anew by the next move.
+                            self.at_hand = None;
+                        }
+                        match told {
                             (_, Known::No) => self.own_or_unknown(text),
                             (effect, Known::Yes) => effect,
                         }
@@ -279,8 +293,18 @@ impl Interpreter<'_, '_> {
             | PieceKind::Routine
             | PieceKind::OtherRoutine => Effect::Unknown,
         };
+        if let (Some(setting), Some(file)) = (takes, self.program.modules.get(module).map(|of| of.file)) {
+            self.place(file, piece, Effect::Frame(FrameRole::Tool, setting));
+        }
         self.tell(module, place, effect);
         called
+    }
+
+    /// The frame that a move takes, where it names another tool than the move before it.
+    fn takes(&mut self, (tool, setting): (ToolId, FrameSetting)) -> Option<FrameSetting> {
+        let is_told = !self.machine.cell.tools.are_several() || self.at_hand == Some(tool);
+        self.at_hand = Some(tool);
+        (!is_told).then_some(setting)
     }
 
     /// What the machine's profile puts into programs is known; nothing else is.

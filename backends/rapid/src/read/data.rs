@@ -4,7 +4,7 @@ use super::sentence::Value;
 use crate::speeds::EXTERNAL;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
-use vcutc_backend_api::ir::{AxisValues, Load};
+use vcutc_backend_api::ir::{AxisValues, Load, ToolId};
 use vcutc_backend_api::units::Mass;
 
 /// The number that stands for an external axis that is not there [A-INS].
@@ -28,8 +28,8 @@ pub(super) enum Scope {
 pub(super) enum Datum {
     /// A value of any type but the two below; each use says of which.
     Value(Value),
-    /// A tool: its frame seen from the flange.
-    Tool,
+    /// A tool of the machine.
+    Tool(ToolId),
     WorkObject,
     /// Something whose value is not known.
     Unclear,
@@ -127,7 +127,7 @@ impl View<'_> {
         match value {
             Value::Name(name) => match self.find(name)? {
                 Datum::Value(value) => Some(value),
-                Datum::Tool | Datum::WorkObject | Datum::Unclear => None,
+                Datum::Tool(_) | Datum::WorkObject | Datum::Unclear => None,
             },
             Value::Number(_) | Value::Text(_) | Value::List(_) | Value::Other => Some(value),
         }

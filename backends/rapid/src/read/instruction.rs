@@ -6,13 +6,17 @@
 
 use super::data::{Datum, SpeedData, View, Zone};
 use super::sentence::{Optional, Value};
-use crate::options::{READY_SIGNAL, Settings, ULTRASONIC_SIGNAL};
-use vcutc_backend_api::ir::{Cell, Ready, Switch};
-use vcutc_backend_api::readback::{Command, Configuration, Effect, End, Held, Pace, Target};
+use crate::options::{CHANGE_ROUTINE, READY_SIGNAL, Settings, ULTRASONIC_SIGNAL};
+use vcutc_backend_api::geometry::Frame;
+use vcutc_backend_api::ir::{Cell, Changer, PlacedFrame, Ready, Switch, Tool, ToolId};
+use vcutc_backend_api::readback::{Command, Configuration, Effect, End, FrameSetting, Held, Pace, Target};
 use vcutc_backend_api::units::{AngularSpeed, Duration, Speed};
 
 /// How far members of a zone may be from those of the job, in mm or deg: they are printed with six decimals.
 const SAME_ZONE: f64 = 1e-6;
+
+/// How far the attitude of a tool may be from that of the job, in degrees: quaternions are printed with six decimals or more.
+const SAME_ATTITUDE_DEG: f64 = 1e-3;
 
 /// The modes that are said to hold. What is not said is what a program before this one left behind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -74,7 +78,10 @@ impl Machine<'_> {
             // The largest speed as a new program has it [A-INS], or more.
             "VELSET" => return (full(instruction, view, 5000.0), Known::Yes),
             "TPERASE" | "TPWRITE" => return (Effect::Setting, Known::Yes),
-            _ => return (Effect::Unknown, Known::No),
+            _ => match self.change(instruction) {
+                Some(change) => Some(change),
+                None => return (Effect::Unknown, Known::No),
+            },
         };
         (command.map_or(Effect::Unknown, Effect::Command), Known::Yes)
     }
@@ -101,6 +108,66 @@ impl Machine<'_> {
         }
     }
 
+    /// The tool that a move names.
+    fn tool(&self, named: &Value, view: View<'_>) -> Option<ToolId> {
+        let Value::Name(name) = named else { return None };
+        match view.find(name) {
+            Some(Datum::Tool(id)) => Some(*id),
+            Some(_) => None,
+            None => {
+                let kept = self
+                    .cell
+                    .tools
+                    .iter()
+                    .filter(|(_, tool)| tool.frame.number.is_some());
+                let mut ids = kept.map(|(id, _)| id);
+                ids.find(|id| name.eq_ignore_ascii_case(&self.settings.tool(self.cell, *id)))
+            }
+        }
+    }
+
+    /// The tool that an instruction moves with, and its frame; none for one that does not move.
+    pub(super) fn moves_with(
+        &self,
+        instruction: Instruction<'_>,
+        view: View<'_>,
+    ) -> Option<(ToolId, FrameSetting)> {
+        let ("MOVEL" | "MOVEJ" | "MOVEABSJ", [_, _, _, named]) = (instruction.name, instruction.required)
+        else {
+            return None;
+        };
+        let id = self.tool(named, view)?;
+        let PlacedFrame { frame, number } = self.cell.tools.get(id)?.frame;
+        let setting = number.map_or(FrameSetting::Value(frame), FrameSetting::Number);
+        Some((id, setting))
+    }
+
+    /// Whether a frame is that of a tool, as it is printed.
+    pub(super) fn is_frame(&self, is: &Frame, tool: &Tool) -> bool {
+        let should = tool.frame;
+        let way = self.settings.common.lengths.half_unit();
+        should.number.is_none()
+            && is.origin.distance(should.frame.origin).to_mm() <= 4.0 * way
+            && is.orientation.angle_to(should.frame.orientation).to_deg() <= SAME_ATTITUDE_DEG
+    }
+
+    /// The call of the routine that changes the blade, or a stop for a person who does.
+    fn change(&self, instruction: Instruction<'_>) -> Option<Command> {
+        let by = self.cell.change.filter(|_| self.cell.tools.are_several())?.by;
+        let routine = self.settings.given(CHANGE_ROUTINE);
+        match (by, instruction.required, instruction.optional) {
+            (Changer::Program, [Value::Number(place)], [])
+                if routine.is_some_and(|routine| routine.eq_ignore_ascii_case(instruction.name)) =>
+            {
+                let mut places = self.cell.tools.iter().filter_map(|(_, tool)| tool.place);
+                let place = places.find(|known| f64::from(*known) == *place)?;
+                Some(Command::ChangeTool(Some(place)))
+            }
+            (Changer::Hand, [], []) if instruction.name == "STOP" => Some(Command::ChangeTool(None)),
+            (Changer::Program | Changer::Hand, _, _) => None,
+        }
+    }
+
     /// The optional arguments besides `\WObj`, when tool and work object are those that the program declares, whose values are
     /// told where they are declared, or those of the controller that the job means.
     fn frames<'o>(
@@ -119,14 +186,7 @@ impl Machine<'_> {
         else {
             return None;
         };
-        let Value::Name(tool) = tool else { return None };
-        let is_tool = match view.find(tool) {
-            Some(datum) => *datum == Datum::Tool,
-            None => {
-                self.cell.tools.first().frame.number.is_some()
-                    && tool.eq_ignore_ascii_case(&self.settings.tool(self.cell))
-            }
-        };
+        let is_tool = self.tool(tool, view).is_some();
         let is_work_object = match view.find(work_object) {
             Some(datum) => *datum == Datum::WorkObject,
             None => {

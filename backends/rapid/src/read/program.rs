@@ -8,7 +8,7 @@ use super::sentence::{Sentence, Value, sentence};
 use crate::keywords::MAIN;
 use core::ops::Range;
 use std::collections::{BTreeMap, BTreeSet};
-use vcutc_backend_api::ir::Registered;
+use vcutc_backend_api::ir::{Load, Registered, Tool, ToolId};
 use vcutc_backend_api::readback::{Effect, FrameRole, FrameSetting, ProgramFile, has_extension, stem};
 use vcutc_backend_api::script::TRIMMED;
 
@@ -338,8 +338,11 @@ impl<'t> Program<'t> {
                     let scope = if local { Scope::Module(index) } else { Scope::Task };
                     match kind.as_str() {
                         "TOOLDATA" => {
-                            let effect = tool(&value, view, machine);
-                            found.push((place, scope, name, Datum::Tool, effect));
+                            let (datum, effect) = match tool(&value, view, machine) {
+                                Some((id, effect)) => (Datum::Tool(id), Some(effect)),
+                                None => (Datum::Unclear, None),
+                            };
+                            found.push((place, scope, name, datum, effect));
                         }
                         "WOBJDATA" => {
                             let frame = view.work_object(&value);
@@ -405,15 +408,29 @@ fn is_list(name: &str) -> bool {
 }
 
 /// The frame of a tool that carries what the job says.
-fn tool(value: &Value, view: View<'_>, machine: Machine<'_>) -> Option<Effect> {
+///
+/// Where there are several, which one moves is told where they name it.
+fn tool(value: &Value, view: View<'_>, machine: Machine<'_>) -> Option<(ToolId, Effect)> {
     let (frame, load) = view.tool(value)?;
-    let Some(Registered::Value(should)) = machine.cell.tools.first().load else {
-        return None;
+    let setting = FrameSetting::Value(frame);
+    let mut tools = machine.cell.tools.iter();
+    if machine.cell.tools.are_several() {
+        let is_it = |tool: &Tool| carries(tool, load, machine) && machine.is_frame(&frame, tool);
+        let (id, _) = tools.find(|(_, tool)| is_it(tool))?;
+        return Some((id, Effect::Setting));
+    }
+    let first = machine.cell.tools.first();
+    carries(first, load, machine).then_some((ToolId::FIRST, Effect::Frame(FrameRole::Tool, setting)))
+}
+
+/// Whether a load is the one that the job says.
+fn carries(tool: &Tool, load: Load, machine: Machine<'_>) -> bool {
+    let Some(Registered::Value(should)) = tool.load else {
+        return false;
     };
     let lengths = machine.settings.common.lengths;
-    let is_load = TRIMMED.is_near(load.mass.to_kg(), should.mass.to_kg())
+    TRIMMED.is_near(load.mass.to_kg(), should.mass.to_kg())
         && lengths.is_near(load.centre.x, should.centre.x)
         && lengths.is_near(load.centre.y, should.centre.y)
-        && lengths.is_near(load.centre.z, should.centre.z);
-    is_load.then_some(Effect::Frame(FrameRole::Tool, FrameSetting::Value(frame)))
+        && lengths.is_near(load.centre.z, should.centre.z)
 }

@@ -8,6 +8,7 @@
 
 mod support;
 
+mod changes;
 mod dialect;
 mod edits;
 mod never;
