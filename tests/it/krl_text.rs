@@ -38,9 +38,14 @@ pub(crate) fn check(outcome: &Outcome, bundle: &Bundle) {
     let rounding = Rounding::of_decimals(decimals(outcome));
     compare(&got, &steps(program, &status), rounding).unwrap_or_else(|problem| panic!("{name}: {problem}"));
     let cell = program.program().cell.as_ref().unwrap();
+    let mut at_hand = *cell.tools.first();
     for event in &got {
         match event {
-            Event::Tool(setting) => assert_frame(setting, cell.tools.first().frame, rounding),
+            Event::Tool(setting) => assert_frame(setting, at_hand.frame, rounding),
+            Event::Change(place) => {
+                let mut tools = cell.tools.iter().map(|(_, tool)| *tool);
+                at_hand = tools.find(|tool| tool.place == *place).unwrap();
+            }
             Event::Base(setting) => assert_frame(setting, cell.base, rounding),
             Event::Axes(_)
             | Event::Point { .. }

@@ -2,7 +2,7 @@
 
 use super::reader::{Event, Matrix, Pose};
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, AxisValues, OpId, OrientationId, Ready, Switch};
+use vcutc_backend_api::ir::{Action, AxisValues, Changer, OpId, OrientationId, Ready, Switch};
 use vcutc_backend_api::motion::ReachableProgram;
 
 /// What an op should come to.
@@ -46,7 +46,15 @@ pub(crate) fn steps(program: &ReachableProgram, status: &dyn Fn(&AxisValues) -> 
                 Ready::After(time) => Event::Wait(time.to_s()),
             },
             Action::Dwell { time } => Event::Wait(time.to_s()),
-            Action::ChangePlace | Action::ToolChange { .. } => unreachable!("not in a sample"),
+            Action::ChangePlace => {
+                at = None;
+                restart = None;
+                Event::Axes(cell.change.unwrap().at.0.map(f64::to_degrees))
+            }
+            Action::ToolChange { tool } => Event::Change(match cell.change.unwrap().by {
+                Changer::Program => cell.tools.at(tool).place,
+                Changer::Hand => None,
+            }),
         };
         Step {
             event,

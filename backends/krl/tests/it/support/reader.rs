@@ -48,6 +48,8 @@ pub(crate) enum Event {
     Wait(f64),
     Tool(Setting),
     Base(Setting),
+    /// Another blade is put in: from this place, or by hand.
+    Change(Option<u32>),
     /// A module begins.
     Module(String),
 }
@@ -180,6 +182,15 @@ impl Robot<'_> {
                 _ => return Err("an unknown wait".into()),
             };
             self.events.push(event);
+            return Ok(());
+        }
+        if code == "HALT" {
+            self.events.push(Event::Change(None));
+            return Ok(());
+        }
+        if let Some(place) = code.strip_prefix("CHANGE_TOOL(").and_then(|rest| rest.strip_suffix(')')) {
+            let place = place.parse().map_err(|_| "a place that is not a number")?;
+            self.events.push(Event::Change(Some(place)));
             return Ok(());
         }
         if let Some(call) = code.strip_suffix("( )").filter(|call| !call.contains(' ')) {
