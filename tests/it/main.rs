@@ -11,6 +11,7 @@
 mod air;
 mod auto;
 mod backends_page;
+mod blade_changes;
 mod check;
 #[cfg(feature = "krl")]
 mod checks;

@@ -38,7 +38,8 @@ impl<'a> Exchange<'a> {
 #[cfg(feature = "testkit")]
 mod tests {
     use super::*;
-    use crate::testkit::samples;
+    use crate::ir::Changer;
+    use crate::testkit::{Recipe, samples, two_blades};
 
     #[test]
     fn samples_come_back_from_json() {
@@ -59,6 +60,21 @@ mod tests {
             let form = Exchange::of(program.program(), Some(program.motion()));
             let read: Program = serde_json::from_str(&serde_json::to_string(&form).unwrap()).unwrap();
             assert_eq!(read, *program.program(), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_cell_without_tools_is_no_program() {
+        let program = two_blades(Recipe::default().program(), Changer::Hand);
+        let form = serde_json::to_value(Exchange::of(&program, None)).unwrap();
+        let mut none = form.clone();
+        none["cell"]["tools"] = serde_json::json!([]);
+        let told = serde_json::from_value::<Exchange<'_>>(none).unwrap_err();
+        assert!(told.to_string().contains("at least one tool"), "{told}");
+        for number in [-1, 65_536] {
+            let mut wrong = form.clone();
+            wrong["operations"][0]["tool"] = number.into();
+            assert!(serde_json::from_value::<Exchange<'_>>(wrong).is_err());
         }
     }
 }

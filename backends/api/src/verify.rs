@@ -7,6 +7,9 @@
 //! and the two flanks of every V are there once.
 
 mod capability;
+#[cfg(test)]
+#[cfg(feature = "testkit")]
+mod change_tests;
 mod sound;
 #[cfg(test)]
 #[cfg(feature = "testkit")]

@@ -2,8 +2,8 @@
 
 use super::{Branch, Motion, MotionFault, MotionRule, ReachableProgram, Stretch, Wrist};
 use crate::geometry::Frame;
-use crate::ir::{Action, AxisValues, OpId, Program};
-use crate::testkit::{Crossing, Recipe, blade_in_work, reachable};
+use crate::ir::{Action, AxisValues, Changer, OpId, Program, ToolId};
+use crate::testkit::{Crossing, Recipe, blade_in_work, reachable, two_blades};
 use crate::verify::{VerifiedProgram, verify};
 
 fn program() -> VerifiedProgram {
@@ -213,4 +213,31 @@ fn the_pretend_machine_has_no_blind_spot() {
     let Frame { origin, .. } = blade_in_work(&AxisValues([1e-3, -2e-3, 3e-3, 0.0, 0.0, 0.0]));
     let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
     assert!(near(origin.x, 1000.0) && near(origin.y, -2000.0) && near(origin.z, 3000.0));
+}
+
+#[test]
+fn the_machine_is_told_with_the_blade_at_hand() {
+    let recipe = Recipe {
+        operations: 2,
+        ..Recipe::default()
+    };
+    let verified = verify(two_blades(recipe.program(), Changer::Hand)).unwrap();
+    let motion = reachable(verified.clone()).unwrap().motion().clone();
+    let is_change = |action: Action| matches!(action, Action::ToolChange { .. });
+    let change = verified.program().ops.iter().position(|op| is_change(op.action));
+    let change = OpId(u32::try_from(change.unwrap()).unwrap());
+    let seen = std::cell::RefCell::new(Vec::new());
+    let assembled = ReachableProgram::assemble(verified, motion, &|tool, axes| {
+        seen.borrow_mut().push(tool);
+        blade_in_work(axes)
+    });
+    let assembled = assembled.unwrap();
+    let posed = |after: bool| {
+        let segments = assembled.program().segments();
+        let of_part = segments.filter(|segment| (segment.id > change) == after);
+        of_part.filter(|segment| segment.path.target().is_some()).count()
+    };
+    let seen = seen.into_inner();
+    let second = seen.iter().filter(|tool| **tool == ToolId(1)).count();
+    assert_eq!((seen.len() - second, second), (posed(false), posed(true)));
 }

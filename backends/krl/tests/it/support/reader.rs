@@ -188,7 +188,10 @@ impl Robot<'_> {
             self.events.push(Event::Change(None));
             return Ok(());
         }
-        if let Some(place) = code.strip_prefix("CHANGE_TOOL(").and_then(|rest| rest.strip_suffix(')')) {
+        if let Some(place) = code
+            .strip_prefix("CHANGE_TOOL(")
+            .and_then(|rest| rest.strip_suffix(')'))
+        {
             let place = place.parse().map_err(|_| "a place that is not a number")?;
             self.events.push(Event::Change(Some(place)));
             return Ok(());
