@@ -136,7 +136,7 @@ fn the_axes_are_those_of_the_blade_at_hand() {
             .position(|op| matches!(op.action, Action::ToolChange { .. }));
         let mut poses = [0, 0];
         for (index, (segment, end)) in program.segments().zip(&reached.motion().ends).enumerate() {
-            let Some(pose) = segment.path.target() else {
+            let Some(pose) = segment.target() else {
                 continue;
             };
             let own = usize::from(index > change.unwrap());

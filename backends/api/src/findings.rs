@@ -133,21 +133,10 @@ impl Findings {
         }
     }
 
-    /// An op may not wait for longer than a day, nor change the blade.
+    /// An op may not wait for longer than a day.
     pub fn op(&mut self, id: OpId, action: &Action) {
         match action {
             Action::Dwell { time } => self.wait(Some(id), "waiting time", *time),
-            _ => {}
-        }
-    }
-
-    /// No op may change the blade, in a dialect that does not say how.
-    pub fn one_blade(&mut self, op: OpId, action: &Action) {
-        match action {
-            Action::ChangePlace | Action::ToolChange { .. } => {
-                let what = "a change of the blade within the program";
-                self.tell(what, BackendIssue::Unsupported { op, what });
-            }
             _ => {}
         }
     }

@@ -41,6 +41,24 @@ pub(crate) enum Letters {
     Any,
 }
 
+/// What the number is by which a control finds the length of a tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NumberOf {
+    /// That of the tool in the control's table.
+    Tool,
+    /// That of an edge of the tool in the spindle.
+    Edge,
+}
+
+/// What a control knows a tool by.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ToolNumbers {
+    /// Its place in the changer; none where nothing or a person changes it.
+    pub(crate) place: Option<u32>,
+    /// The number of its length.
+    pub(crate) number: u32,
+}
+
 /// When numbers have a sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Signs {
@@ -128,7 +146,9 @@ pub(crate) struct Facts {
     pub(crate) fine_decimals: u8,
     /// Largest number of a tool.
     pub(crate) most_tools: u32,
-    /// What that number is, for messages.
+    /// What that number counts.
+    pub(crate) number_of: NumberOf,
+    /// What it is called, for messages.
     pub(crate) tool_number_name: &'static str,
     /// Whether programs are called by numbers.
     pub(crate) numbers_programs: bool,
@@ -202,6 +222,7 @@ impl Facts {
         most_decimals: 6,
         fine_decimals: 6,
         most_tools: 9999,
+        number_of: NumberOf::Tool,
         tool_number_name: "tool number",
         numbers_programs: false,
         work_offsets: 6,
@@ -248,8 +269,8 @@ pub(crate) trait Controller: Sync {
     }
 
     /// What the operator calls the entry with the blade's length.
-    fn tool_name(&self, number: u32) -> String {
-        format!("tool {number}")
+    fn tool_name(&self, tool: ToolNumbers) -> String {
+        format!("tool {}", tool.number)
     }
 
     /// What stands before everything else in a file, comments included.
@@ -282,6 +303,14 @@ pub(crate) trait Controller: Sync {
 
     /// Tool-centre-point control off.
     fn tcp_off(&self, codes: Codes<'_>) -> Vec<String>;
+
+    /// What changes the blade, tool-centre-point control being off: `M6` by the machine, and for a person a stop of the program.
+    fn change(&self, tool: ToolNumbers) -> String {
+        match tool.place {
+            Some(place) => format!("T{place} M6"),
+            None => "M0".to_owned(),
+        }
+    }
 
     /// What sets the meaning of F.
     fn feed_mode(&self, mode: FeedMode) -> &'static str {

@@ -7,9 +7,9 @@ use crate::pace::{self, Pace};
 use crate::statement::{FeedMode, Tcp};
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{AxisKind, AxisValues, OpId, RateId, Switch};
+use vcutc_backend_api::ir::{AxisKind, AxisValues, OpId, RateId, Switch, ToolId};
 use vcutc_backend_api::readback::End;
-use vcutc_backend_api::script::{Dialect, JointMove, LinearMove, Part, Written};
+use vcutc_backend_api::script::{Dialect, JointMove, LinearMove, Part, ToolChange, Written};
 use vcutc_backend_api::units::{Duration, Length};
 
 /// G-code, as far as a program is written.
@@ -34,6 +34,17 @@ struct Modes {
     last_tip: Vec<u8>,
     /// How many labels the file has.
     labels: u32,
+    tool: ToolId,
+    start: Start,
+}
+
+/// Where a motion of all axes begins.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Start {
+    /// Where the one before it ended.
+    AsProven,
+    /// Where the machine was left by what changes its blade: that may move axes, and no two machines do it alike.
+    Anywhere,
 }
 
 impl Modes {
@@ -44,6 +55,8 @@ impl Modes {
         end: End::Exact,
         last_tip: Vec::new(),
         labels: 0,
+        tool: ToolId::FIRST,
+        start: Start::AsProven,
     };
 }
 
@@ -74,8 +87,11 @@ impl Dialect for GcodeDialect<'_, '_, '_> {
         self.blocks.block(line)
     }
 
-    fn part_begins(&mut self, _: &Part, _: Option<RateId>) -> Written {
-        self.modes = Modes::SET_UP;
+    fn part_begins(&mut self, part: &Part, _: Option<RateId>) -> Written {
+        self.modes = Modes {
+            tool: part.start.tool,
+            ..Modes::SET_UP
+        };
         Ok(())
     }
 
@@ -86,7 +102,9 @@ impl Dialect for GcodeDialect<'_, '_, '_> {
     /// To the values of all axes, tool-centre-point control being off.
     fn joint_move(&mut self, motion: &JointMove) -> Written {
         let Job { settings, .. } = self.job;
-        let pace = pace::of_axes(&self.job, motion.from.as_ref(), &motion.axes);
+        let from = motion.from.filter(|_| self.modes.start == Start::AsProven);
+        let pace = pace::of_axes(&self.job, from.as_ref(), &motion.axes);
+        self.modes.start = Start::AsProven;
         let [start, end] = settings.facts().axis_move;
         self.tcp_off()?;
         self.ending(End::Exact)?;
@@ -138,6 +156,14 @@ impl Dialect for GcodeDialect<'_, '_, '_> {
         self.feed_word(pace)?;
         core::mem::swap(&mut self.tip, &mut self.modes.last_tip);
         self.blocks.end()
+    }
+
+    fn change_tool(&mut self, change: &ToolChange<'_>) -> Written {
+        self.comment("put in blade ", change.blade)?;
+        let block = (self.job.settings.controller).change(self.job.tool(change.id));
+        self.modes.tool = change.id;
+        self.modes.start = Start::Anywhere;
+        self.blocks.block(&block)
     }
 
     fn switch(&mut self, output: u32, state: Switch) -> Written {
@@ -195,8 +221,11 @@ impl GcodeDialect<'_, '_, '_> {
             return Ok(());
         }
         let settings = self.job.settings;
-        self.blocks
-            .all(&settings.controller.tcp_on(settings.codes, self.job.tool()))?;
+        self.blocks.all(
+            &settings
+                .controller
+                .tcp_on(settings.codes, self.job.tool(self.modes.tool).number),
+        )?;
         if let Some(mode) = settings.facts().feed_mode_of_tcp {
             self.modes.feed = mode;
         }

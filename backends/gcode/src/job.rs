@@ -1,7 +1,10 @@
 //! What blocks are made from.
 
 use crate::axes::{Word, WorkInOffset};
+use crate::controller::ToolNumbers;
 use crate::options::Settings;
+use crate::tools;
+use vcutc_backend_api::ir::ToolId;
 use vcutc_backend_api::script::Source;
 
 /// A program, its machine and the options of its job.
@@ -28,14 +31,8 @@ impl<'a> Job<'a> {
         }
     }
 
-    /// The number of the tool in the controller's table.
-    pub(crate) fn tool(&self) -> u32 {
-        self.source
-            .cell
-            .tools
-            .first()
-            .frame
-            .number
-            .unwrap_or(self.settings.tool_number)
+    /// What the control knows a tool by.
+    pub(crate) fn tool(&self, id: ToolId) -> ToolNumbers {
+        tools::numbers(self.source.cell, self.settings, id)
     }
 }

@@ -28,7 +28,7 @@
 //! | `Travel`, `Approach`, `Retract`, `Cut` | tip control on, then `G1` with the tip, all rotary axes and `F` in mm/min |
 //! | `Turn` | the same with the tip of the block before, and `F` as inverse time |
 //! | `Ultrasonic`, `AwaitReady`, `Dwell` | as in the table above |
-//! | `ToolChange` | refused |
+//! | `ToolChange` | `T n M6` with the place of the tool, or `M0`; Heidenhain `TOOL CALL n Z`; the axes are then taken to be anywhere |
 //!
 //! Every block of a motion is complete, so that it means the same wherever a program is entered, and modes stand on lines of
 //! their own, written where they change.
@@ -75,6 +75,7 @@ mod profile;
 mod program;
 mod read;
 mod statement;
+mod tools;
 
 use crate::blocks::Blocks;
 use crate::dialect::GcodeDialect;
@@ -88,7 +89,7 @@ use vcutc_backend_api::ir::{MachineKind, Maker};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
 use vcutc_backend_api::script::{Borders, CAPABILITIES, Lead, Source, Text, emission, split, write};
-use vcutc_backend_api::verify::Capabilities;
+use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// The G-code backend.
 #[derive(Clone, Copy, Debug, Default)]
@@ -104,7 +105,7 @@ impl Backend for Gcode {
     }
 
     fn capabilities(&self) -> Capabilities {
-        CAPABILITIES
+        CAPABILITIES.with(Capability::ToolChange)
     }
 
     fn options(&self) -> &'static [OptionSpec] {

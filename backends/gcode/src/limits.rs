@@ -10,10 +10,11 @@ use crate::job::Job;
 use crate::options::{HOME_SPEED, PROGRAM_NUMBER, SPINDLE_AXIS, Settings};
 use crate::pace::{self, Pace};
 use crate::statement::FeedMode;
+use crate::tools;
 use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
 use vcutc_backend_api::findings::{Findings, Number, driven_cell};
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{AxisKind, AxisValues, Cell, MachineKind, OpId, Ready};
+use vcutc_backend_api::ir::{AxisKind, AxisValues, Cell, MachineKind, OpId, PlacedFrame, Ready, ToolId};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::script::{Part, Source};
 use vcutc_backend_api::segments::{LinearSegment, Path};
@@ -97,7 +98,10 @@ fn machine(cell: &Cell, settings: &Settings<'_>, found: &mut Findings) {
     if cell.home.is_none() {
         found.tell("home", HOME_MISSING);
     }
-    tool(cell, settings, found);
+    cell.tools
+        .iter()
+        .for_each(|(id, placed)| tool(cell, settings, (id, placed.frame), found));
+    tools::are_distinct(cell, settings, found);
     if let Some(number) = cell.base.number {
         found.number("base number", number, 1..=controller.facts().work_offsets);
     }
@@ -127,11 +131,11 @@ fn machine(cell: &Cell, settings: &Settings<'_>, found: &mut Findings) {
 }
 
 /// The control knows of the tool one length, along the spindle.
-fn tool(cell: &Cell, settings: &Settings<'_>, found: &mut Findings) {
-    let number = cell.tools.first().frame.number.unwrap_or(settings.tool_number);
+fn tool(cell: &Cell, settings: &Settings<'_>, (id, placed): (ToolId, PlacedFrame), found: &mut Findings) {
+    let number = tools::number(cell, settings, id);
     let what = settings.facts().tool_number_name;
     found.number(what, number, 1..=settings.facts().most_tools);
-    let Point3 { x, y, z } = cell.tools.first().frame.frame.origin;
+    let Point3 { x, y, z } = placed.frame.origin;
     let half_a_unit = settings.common.lengths.half_unit();
     for (what, value) in [("tool X", x), ("tool Y", y)] {
         let unit = "mm";
@@ -163,7 +167,6 @@ fn ops(job: &Job<'_>, found: &mut Findings) {
     let program = job.source.program();
     for segment in program.segments() {
         found.op(segment.id, &segment.op.action);
-        found.one_blade(segment.id, &segment.op.action);
         match segment.path() {
             Path::Home | Path::Change | Path::Axes(_) => axes(job, segment.id, found),
             Path::Linear(line) => self::line(job, segment.id, &line, found),

@@ -15,7 +15,7 @@ const DIALECT: &str = "dialect";
 /// In percent. A job that gives it can not be told from one that leaves it out.
 pub(crate) const DEFAULT_HOME_SPEED: u32 = 10;
 pub(crate) const HOME_SPEED: &str = "home_speed";
-const TOOL_NUMBER: &str = "tool_number";
+pub(crate) const TOOL_NUMBER: &str = "tool_number";
 pub(crate) const PROGRAM_NUMBER: &str = "program_number";
 pub(crate) const SPINDLE_AXIS: &str = "spindle_axis";
 

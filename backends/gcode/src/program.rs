@@ -4,6 +4,7 @@ use crate::controller::{File, Unnumbered};
 use crate::dialect::GcodeDialect;
 use crate::names::part_name;
 use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::ToolId;
 use vcutc_backend_api::script::{self, Dialect, Files, Written, trimmed_text};
 
 impl Files for GcodeDialect<'_, '_, '_> {
@@ -30,11 +31,12 @@ impl Files for GcodeDialect<'_, '_, '_> {
 
     /// Everything that motions depend on; in the main program also what the operator and the machine's profile want there.
     fn setup(&mut self, file: script::File<'_>) -> Written {
+        let tool = file.part.map_or(ToolId::FIRST, |part| part.start.tool);
         if file.place > 0 {
-            return self.motion_setup();
+            return self.motion_setup(tool);
         }
         self.frames()?;
-        self.motion_setup()?;
+        self.motion_setup(tool)?;
         self.blocks.all(&self.job.settings.common.profile.header)
     }
 
@@ -85,9 +87,11 @@ impl GcodeDialect<'_, '_, '_> {
             "",
         )?;
         self.comment(&format!("X {x} Y {y} Z {z} mm from the mount"), "")?;
-        let length = trimmed_text(cell.tools.first().frame.frame.origin.z);
-        let tool = controller.tool_name(self.job.tool());
-        self.comment(&format!("{tool}: length {length} mm"), "")?;
+        for (id, tool) in cell.tools.iter() {
+            let length = trimmed_text(tool.frame.frame.origin.z);
+            let name = controller.tool_name(self.job.tool(id));
+            self.comment(&format!("{name}: length {length} mm"), "")?;
+        }
         match controller.facts().note_of_axis_moves {
             Some(note) => self.comment(note, ""),
             None => Ok(()),
@@ -100,8 +104,8 @@ impl GcodeDialect<'_, '_, '_> {
     }
 
     /// Everything that motions depend on, tool-centre-point control off.
-    fn motion_setup(&mut self) -> Written {
-        let (settings, tool) = (self.job.settings, self.job.tool());
+    fn motion_setup(&mut self, tool: ToolId) -> Written {
+        let (settings, tool) = (self.job.settings, self.job.tool(tool).number);
         self.blocks.all(&settings.controller.tcp_off(settings.codes))?;
         self.blocks.all(&settings.controller.setup(tool))?;
         self.work_offset()

@@ -235,7 +235,7 @@ fn the_machine_is_told_with_the_blade_at_hand() {
     let posed = |after: bool| {
         let segments = assembled.program().segments();
         let of_part = segments.filter(|segment| (segment.id > change) == after);
-        of_part.filter(|segment| segment.path.target().is_some()).count()
+        of_part.filter(|segment| segment.target().is_some()).count()
     };
     let seen = seen.into_inner();
     let second = seen.iter().filter(|tool| **tool == ToolId(1)).count();

@@ -2,8 +2,8 @@
 
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{
-    Action, AxisValues, Blade, Change, Changer, Load, Op, OperationId, PlacedFrame, Program, Registered,
-    Site, Tool, ToolId,
+    Action, AxisValues, Blade, Change, Changer, Load, MachineKind, Op, OperationId, PlacedFrame, Program,
+    Registered, Site, Tool, ToolId,
 };
 use crate::units::{Duration, Length, Mass};
 
@@ -17,10 +17,15 @@ pub fn two_blades(mut program: Program, by: Changer) -> Program {
     if let Some(cell) = &mut program.cell {
         let mut first = *cell.tools.first();
         first.place = Some(1);
+        // A control of G-code knows the length of a tool alone.
+        let aside = match cell.kind {
+            MachineKind::Robot => (1.0, 2.0),
+            MachineKind::FiveAxis => (0.0, 0.0),
+        };
         cell.tools = crate::ir::Tools::one(first).and(Tool {
             frame: PlacedFrame {
                 frame: crate::geometry::Frame {
-                    origin: Point3::new(1.0, 2.0, 250.0),
+                    origin: Point3::new(aside.0, aside.1, 250.0),
                     orientation: Orientation::IDENTITY,
                 },
                 number: first.frame.number.map(|number| number + 1),

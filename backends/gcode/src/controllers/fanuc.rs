@@ -209,7 +209,9 @@ fn dwell(words: &mut Block) -> Parsed<Duration> {
 
 fn m<'t>(code: u32, words: &mut Block, order: &mut Order<'t>) -> Parsed<()> {
     match code {
+        0 => order.does(Act::ChangeTool(None)),
         20 | 300 => order.goes(Flow::End),
+        60 => order.does(Act::ChangeTool(Some(words.whole(b'T')?))),
         980 => {
             let part = words.whole(b'P')?;
             match words.take(b'L').map(|times| times.value) {

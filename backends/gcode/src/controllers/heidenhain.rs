@@ -16,7 +16,7 @@
 //! Every statement begins with a word. Lengths are in mm where `BEGIN PGM` says so, coordinates are absolute without an `I`
 //! before their letter, and blocks with `R0` end at a standstill.
 
-use crate::controller::{AxisPace, Codes, Controller, Facts, File, Signs, Unnumbered};
+use crate::controller::{AxisPace, Codes, Controller, Facts, File, Signs, ToolNumbers, Unnumbered};
 use crate::iso::{m_code, seconds};
 use crate::statement::{
     Act, Block, Convention, Coordinates, Cursor, Cycle, FeedMode, Flow, Mode, Motion, Number, Order, Parsed,
@@ -85,6 +85,11 @@ impl Controller for Heidenhain {
     fn setup(&self, tool: u32) -> Vec<String> {
         // M127: rotary axes go to the value that is written, not the shorter way round.
         vec![format!("TOOL CALL {tool} Z"), "M127".to_owned()]
+    }
+
+    /// The control asks a person to put the tool in where no changer has it [H-620].
+    fn change(&self, tool: ToolNumbers) -> String {
+        format!("TOOL CALL {} Z", tool.number)
     }
 
     /// Cycle 247 activates a preset; its parameter stands in a line without number.
@@ -314,7 +319,7 @@ fn tool_call<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
         return expected("the number of a tool");
     };
     must(cursor, &["Z"])?;
-    Ok(Order::modes(vec![Mode::Tool(Some(number))]))
+    Ok(Order::act(Act::CallTool(number)))
 }
 
 /// `CYCL DEF 9.0 DWELL TIME` and `CYCL DEF 9.1 DWELL 0.5`, or `CYCL DEF 247 DATUM SETTING ~`.

@@ -244,7 +244,9 @@ fn g(code: u32, words: &mut Block, order: &mut Order<'_>, scope: Scope<'_>) -> P
 
 fn m(code: u32, words: &mut Block, order: &mut Order<'_>) -> Parsed<()> {
     match code {
+        0 => order.does(Act::ChangeTool(None)),
         20 | 300 => order.goes(Flow::End),
+        60 => order.does(Act::ChangeTool(Some(words.whole(b'T')?))),
         640 => order.does(Act::Switch(words.whole(b'P')?, Switch::On)),
         650 => order.does(Act::Switch(words.whole(b'P')?, Switch::Off)),
         660 => {

@@ -13,7 +13,7 @@
 //! Besides letters with numbers it has words, values behind `=`, and labels. A word that stands alone and is none of the
 //! control's is the name of a part.
 
-use crate::controller::{Codes, Controller, Facts, File, Heads};
+use crate::controller::{Codes, Controller, Facts, File, Heads, NumberOf, ToolNumbers};
 use crate::iso::{g_code, m_code, rounding, seconds};
 use crate::statement::{
     Act, Block, Convention, Coordinates, Cursor, Flow, Mode, Number, Once, Order, Parsed, ReadError, Routine,
@@ -41,6 +41,7 @@ const FACTS: Facts = Facts {
     },
     longest_line: 255,
     most_tools: 9,
+    number_of: NumberOf::Edge,
     tool_number_name: "D number (the edge of the tool in the spindle, not the number of a tool)",
     work_offsets: 99,
     axis_move: ["SUPA G1", " D0"],
@@ -71,8 +72,12 @@ impl Controller for Sinumerik {
         &FACTS
     }
 
-    fn tool_name(&self, number: u32) -> String {
-        format!("the tool in the spindle, edge D{number}")
+    fn tool_name(&self, tool: ToolNumbers) -> String {
+        let number = tool.number;
+        match tool.place {
+            Some(place) => format!("tool T{place}, edge D{number}"),
+            None => format!("the tool in the spindle, edge D{number}"),
+        }
     }
 
     fn opening(&self, _: File<'_>) -> Vec<String> {
@@ -178,7 +183,7 @@ impl Controller for Sinumerik {
             )?;
         }
         for code in words.m.iter() {
-            m(code, &mut order)?;
+            m(code, &mut words, &mut order)?;
         }
         if let Some(tool) = words.take(b'D') {
             let number = tool.whole().ok_or(ReadError::Unknown)?;
@@ -376,8 +381,10 @@ fn g(
     }
 }
 
-fn m(code: u32, order: &mut Order<'_>) -> Parsed<()> {
+fn m(code: u32, words: &mut Block, order: &mut Order<'_>) -> Parsed<()> {
     match code {
+        0 => order.does(Act::ChangeTool(None)),
+        60 => order.does(Act::ChangeTool(Some(words.whole(b'T')?))),
         20 | 300 => order.goes(Flow::End),
         170 => order.goes(Flow::Return),
         _ => Err(ReadError::Unknown),

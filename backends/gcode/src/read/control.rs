@@ -14,8 +14,9 @@ use crate::statement::{
     Act, CONVENTIONS, Convention, Coordinates, Cycle, FeedMode, Mode, Motion, Once, Order, Parsed, ReadError,
     Tcp, expected,
 };
+use crate::tools;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{AxisKind, AxisValues, MOST_AXES, Ready, Switch};
+use vcutc_backend_api::ir::{AxisKind, AxisValues, Changer, MOST_AXES, Ready, Switch, ToolId};
 use vcutc_backend_api::readback::{Command, Effect, End, FrameRole, FrameSetting, Held, Pace, Target};
 use vcutc_backend_api::units::{AngularSpeed, Speed};
 
@@ -40,6 +41,8 @@ pub(super) struct Control<'a> {
     /// The cycle whose first line was the statement before.
     cycle: Option<Cycle>,
     reading: Reading,
+    /// The tool at hand; none where a person has put in another, and the next number says which.
+    tool: Option<ToolId>,
 }
 
 /// What holds, as far as it has been said.
@@ -83,6 +86,7 @@ impl<'a> Control<'a> {
             axes: [None; MOST_AXES],
             cycle: None,
             reading: Reading::Ahead,
+            tool: Some(ToolId::FIRST),
         };
         control.restart();
         control
@@ -195,6 +199,9 @@ impl<'a> Control<'a> {
                     self.set(Mode::Tcp(None));
                 }
                 self.modes.tool = tool;
+                if let (None, Some(number @ 1..)) = (self.tool, tool) {
+                    self.tool = tools::numbered(self.context.cell, self.context.settings, number);
+                }
             }
             Mode::Work(work) => self.modes.work = Some(work),
             Mode::Cycle(cycle) => self.cycle = Some(cycle),
@@ -238,7 +245,10 @@ impl<'a> Control<'a> {
                 None => format!("`{}`", self.facts().exact_word),
             }),
             Mode::Tool(None | Some(0)) => Ok(Effect::Setting),
-            Mode::Tool(Some(is)) => frame(FrameRole::Tool, is, cell.tools.first().frame.number, self.tool()),
+            Mode::Tool(Some(is)) => {
+                let number = cell.tools.at(self.tool()).frame.number;
+                frame(FrameRole::Tool, is, number, self.tool_number())
+            }
             Mode::Work(is) => frame(FrameRole::Base, is, cell.base.number, FIRST_OFFSET),
         }
     }
@@ -247,10 +257,35 @@ impl<'a> Control<'a> {
         self.context.settings.facts()
     }
 
-    /// The number of the blade in the controller's table.
-    fn tool(&self) -> u32 {
-        let number = self.context.cell.tools.first().frame.number;
-        number.unwrap_or(self.context.settings.tool_number)
+    /// The tool at hand; the first one where a person has put in another and no number says which.
+    fn tool(&self) -> ToolId {
+        self.tool.unwrap_or(ToolId::FIRST)
+    }
+
+    /// Its number in the control's table.
+    fn tool_number(&self) -> u32 {
+        tools::number(self.context.cell, self.context.settings, self.tool())
+    }
+
+    /// A tool that is called by its number, and put in unless it is in the spindle.
+    fn call(&mut self, number: u32) -> Parsed<Effect> {
+        let Context { cell, settings, .. } = self.context;
+        let other = tools::numbered(cell, settings, number).filter(|&tool| tool != self.tool());
+        let (Some(tool), Some(by)) = (other, tools::changer(cell)) else {
+            return self.modes(&[Mode::Tool(Some(number))]);
+        };
+        self.put_in(Some(tool));
+        self.modes(&[Mode::Tool(Some(number))])?;
+        Ok(Effect::Command(Command::ChangeTool(match by {
+            Changer::Program => cell.tools.at(tool).place,
+            Changer::Hand => None,
+        })))
+    }
+
+    /// A blade is changed, which may leave the axes anywhere.
+    fn put_in(&mut self, tool: Option<ToolId>) {
+        self.tool = tool;
+        self.forget();
     }
 
     /// What a kind of motion depends on.
@@ -269,8 +304,9 @@ impl<'a> Control<'a> {
         if self.modes.tcp != Some(Tcp::On) {
             return expected("tool-centre-point control on, or coordinates of the machine");
         }
-        if self.modes.tool != Some(self.tool()) {
-            return expected(format!("tool {} before a motion of the tip", self.tool()));
+        let tool = self.tool_number();
+        if self.modes.tool != Some(tool) {
+            return expected(format!("tool {tool} before a motion of the tip"));
         }
         let offset = self.context.cell.base.number.unwrap_or(FIRST_OFFSET);
         let is_said = match (self.facts().unnumbered, self.context.cell.base.number) {
@@ -445,6 +481,19 @@ impl<'a> Control<'a> {
                 Ready::After(_) => return Err(ReadError::Unknown),
             },
             Act::Wait(time) => Command::Wait(time),
+            Act::ChangeTool(place) => match (tools::changer(cell), place) {
+                (Some(Changer::Program), Some(place)) => {
+                    let tool = tools::at_place(cell, place);
+                    self.put_in(Some(tool.ok_or(ReadError::Unknown)?));
+                    Command::ChangeTool(Some(place))
+                }
+                (Some(Changer::Hand), None) => {
+                    self.put_in(None);
+                    Command::ChangeTool(None)
+                }
+                (_, _) => return Err(ReadError::Unknown),
+            },
+            Act::CallTool(number) => return self.call(number),
             Act::CycleWait(time) => match cycle {
                 Some(Cycle::Dwell) => Command::Wait(time),
                 Some(_) | None => return expected("`CYCL DEF 9.0 DWELL TIME` before"),

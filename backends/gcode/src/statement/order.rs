@@ -177,6 +177,10 @@ pub(crate) enum Act {
     /// Waits until the generator is ready, by blocks that the job gives.
     AwaitReady,
     Wait(Duration),
+    /// A blade is put in: from this place of the changer, or by a person while the program stands.
+    ChangeTool(Option<u32>),
+    /// The tool of this number is put in, unless it is in the spindle.
+    CallTool(u32),
     /// The second of the two lines of a wait.
     CycleWait(Duration),
     /// The second line of a loop that waits for an input.

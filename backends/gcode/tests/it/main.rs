@@ -7,6 +7,7 @@
 )]
 
 mod by_hand;
+mod changes;
 mod dialect;
 mod hostile;
 mod lines;

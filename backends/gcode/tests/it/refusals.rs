@@ -3,9 +3,9 @@
 use crate::support::{DIALECTS, Given, block, issues, issues_with, needed, recipe, rounds};
 use vcutc_backend_api::backend::{BackendIssue, MachineMismatch, OptionValue};
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, Axis, Changer, PlacedFrame, Program, Ready};
+use vcutc_backend_api::ir::{Action, Axis, PlacedFrame, Program, Ready};
 use vcutc_backend_api::profile::{LineNumbers, Profile};
-use vcutc_backend_api::testkit::{CellRecipe, Crossing, Recipe, two_blades};
+use vcutc_backend_api::testkit::{CellRecipe, Recipe};
 use vcutc_backend_api::units::{AngularSpeed, Duration, Length, Speed};
 
 fn with(dialect: &'static str, more: &[Given]) -> Vec<Given> {
@@ -502,18 +502,4 @@ fn numbers_of_programs_that_are_the_builders() {
     assert_eq!(number(7999), "program_number");
     let elsewhere = with("linuxcnc", &[("program_number", OptionValue::Integer(9999))]);
     assert_eq!(issues(recipe().program(), &elsewhere), []);
-}
-
-#[test]
-fn changes_of_the_blade() {
-    let program = Recipe {
-        operations: 2,
-        crossing: Crossing::ByAxes,
-        ..recipe()
-    }
-    .program();
-    assert_eq!(
-        told(&issues(two_blades(program, Changer::Hand), &needed("heidenhain"))),
-        ["a change of the blade within the program"]
-    );
 }
