@@ -15,7 +15,7 @@ use vcutc_backend_api::readback::ProgramFile;
 const JOB: &str = "job.vcut";
 
 /// The machines of the job, each with its target.
-const CELLS: [(&str, &str); 2] = [("bench", "krl"), ("hall", "rapid")];
+const CELLS: [(&str, &str); 3] = [("bench", "krl"), ("hall", "rapid"), ("gantry", "gcode")];
 
 fn files() -> Files {
     Files::of(root().join("tests/jobs/two_tools"))
@@ -72,7 +72,7 @@ fn a_program_as_it_was_written_is_clear() {
 
 #[test]
 fn changes_that_were_edited_are_found() {
-    let edits: [&[(&str, &str)]; 2] = [
+    let edits: [&[(&str, &str)]; 3] = [
         &[
             // Dropped, of another tool, elsewhere; another frame, another load, none.
             ("CHANGE_TOOL(2)\r\n", ""),
@@ -98,6 +98,16 @@ fn changes_that_were_edited_are_found() {
                 "vc_tool2:=[TRUE,[[0.000,0.000,310",
             ),
             ("],[13.0,[", "],[14.5,["),
+        ],
+        &[
+            ("T2 M6\n", ""),
+            ("T2 M6", "T1 M6"),
+            ("T2 M6", "M0"),
+            ("T2 M6", "M6"),
+            ("T2 M6", "T2"),
+            ("G43 H2", "G43 H1"),
+            ("G43 H2\n", ""),
+            ("G53 G1 X0.000 Y0.000 Z0.000", "G53 G1 X1.000 Y0.000 Z0.000"),
         ],
     ];
     for ((machine, target), edits) in CELLS.into_iter().zip(edits) {

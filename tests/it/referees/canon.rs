@@ -33,6 +33,10 @@ pub(super) enum Canon {
     Control(Control),
     /// The blade is said to have this length, in mm.
     ToolLength(f64),
+    /// The tool of this place is put into the spindle.
+    ChangeTool(u32),
+    /// The program stands until a person lets it go on.
+    Stop,
     /// A wait, in s.
     Dwell(f64),
     /// The end of the program.
@@ -72,6 +76,7 @@ const SETTINGS: &[&str] = &[
     "ON_RESET",
     "PALLET_SHUTTLE",
     "SELECT_PLANE",
+    "SELECT_TOOL",
     "SET_FEED_MODE",
     "SET_FEED_REFERENCE",
     "SET_G5X_OFFSET",
@@ -79,6 +84,7 @@ const SETTINGS: &[&str] = &[
     "SET_NAIVECAM_TOLERANCE",
     "SET_SPINDLE_MODE",
     "SET_XY_ROTATION",
+    "START_CHANGE",
     "STOP_SPINDLE_TURNING",
     "USE_LENGTH_UNITS",
 ];
@@ -135,6 +141,8 @@ pub(super) fn read(text: &str) -> Result<Vec<Canon>, String> {
             ("SET_AUX_OUTPUT_VALUE", &[number, value]) if number == f64::from(KINEMATICS) => {
                 Canon::Kinematics(kinematics(value).ok_or_else(fault)?)
             }
+            ("CHANGE_TOOL", &[place]) => Canon::ChangeTool(place as u32),
+            ("PROGRAM_STOP", []) => Canon::Stop,
             ("DWELL", &[seconds]) => Canon::Dwell(seconds),
             ("PROGRAM_END", []) => Canon::End,
             _ => return Err(fault()),

@@ -2,7 +2,7 @@
 
 use super::canon::{Canon, Control, Kinematics, NOTHING, Position};
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, AxisKind, AxisValues, Cell, OpId, Ready, Switch};
+use vcutc_backend_api::ir::{Action, AxisKind, AxisValues, Cell, Changer, OpId, Ready, Switch};
 use vcutc_backend_api::motion::ReachableProgram;
 
 /// What has to happen.
@@ -25,6 +25,13 @@ pub(super) enum Deed {
     Switch(u32, bool),
     /// A wait, in s.
     Wait(f64),
+    /// Another blade is put in.
+    Change {
+        /// From this place of the changer; by a person where there is none.
+        place: Option<u32>,
+        /// Its length, in mm.
+        length: f64,
+    },
 }
 
 /// How a motion has to end.
@@ -56,7 +63,9 @@ pub(super) fn deeds(program: &ReachableProgram) -> Vec<(OpId, Deed)> {
                     end: end(&op.action, next.map(|next| &next.action)),
                 }
             }
-            (Action::Home | Action::AxisTravel { .. }, None) => Deed::Axes(words(cell, &axes)),
+            (Action::Home | Action::AxisTravel { .. } | Action::ChangePlace, None) => {
+                Deed::Axes(words(cell, &axes))
+            }
             (Action::Ultrasonic { state }, None) => {
                 Deed::Switch(cell.ultrasonic.unwrap(), matches!(state, Switch::On))
             }
@@ -65,6 +74,14 @@ pub(super) fn deeds(program: &ReachableProgram) -> Vec<(OpId, Deed)> {
                 Ready::Input(_) => continue,
             },
             (Action::Dwell { time }, None) => Deed::Wait(time.to_s()),
+            (Action::ToolChange { tool }, None) => {
+                let by = cell.change.unwrap().by;
+                let tool = cell.tools.at(tool);
+                Deed::Change {
+                    place: tool.place.filter(|_| by == Changer::Program),
+                    length: tool.frame.frame.origin.z,
+                }
+            }
             (action, None) => panic!("{id:?}: {action:?} is none of these programs"),
         };
         deeds.push((id, deed));
@@ -126,7 +143,7 @@ pub(super) struct Tolerance {
     pub(super) angle: f64,
     /// By how much corners in the air may be cut, in mm.
     pub(super) corners: f64,
-    /// The length of the blade, in mm.
+    /// The length of the first blade, in mm.
     pub(super) tool: f64,
 }
 
@@ -162,6 +179,8 @@ struct Machine {
     kinematics: Option<Kinematics>,
     control: Option<Control>,
     tool: Option<f64>,
+    /// The length of the blade that was put in.
+    blade: Option<f64>,
     output: Option<(u32, bool)>,
 }
 
@@ -175,7 +194,7 @@ impl Machine {
             Deed::Straight { end, .. } => {
                 let has_blade = self
                     .tool
-                    .is_some_and(|tool| (tool - within.tool).abs() <= NOTHING);
+                    .is_some_and(|tool| (tool - self.blade.unwrap_or(within.tool)).abs() <= NOTHING);
                 let ends_well = match (end, self.control) {
                     (End::Exact, _) => stands_still,
                     (End::Free, Some(Control::Continuous { tolerance })) => tolerance <= within.corners,
@@ -183,6 +202,10 @@ impl Machine {
                     (End::Free, None) => false,
                 };
                 self.kinematics == Some(Kinematics::Tip) && has_blade && ends_well
+            }
+            Deed::Change { .. } => {
+                let is_off = self.output.is_none_or(|(_, on)| !on);
+                self.kinematics == Some(Kinematics::Axes) && stands_still && is_off
             }
             Deed::Switch(..) | Deed::Wait(_) => stands_still,
         }
@@ -203,7 +226,7 @@ impl Machine {
             }
             Canon::Kinematics(_) | Canon::Control(_) => true,
             Canon::End => self.kinematics == Some(Kinematics::Axes),
-            Canon::Dwell(_) => false,
+            Canon::Dwell(_) | Canon::ChangeTool(_) | Canon::Stop => false,
         }
     }
 
@@ -229,7 +252,7 @@ impl Machine {
                 tool: Some(length),
                 ..self
             },
-            Canon::Dwell(_) | Canon::End => self,
+            Canon::Dwell(_) | Canon::ChangeTool(_) | Canon::Stop | Canon::End => self,
         }
     }
 }
@@ -251,7 +274,9 @@ pub(super) fn compare(deeds: &[(OpId, Deed)], canon: &[Canon], within: Tolerance
             if !machine.is_set_for(deed, within) {
                 return Err(format!("{id:?}: {did:?} with {machine:?}"));
             }
-            let _ = ahead.next();
+            if let Some((_, Deed::Change { length, .. })) = ahead.next() {
+                machine.blade = Some(length);
+            }
         } else if !machine.takes_aside(did) {
             let wanted = ahead.peek();
             return Err(format!("{did:?} with {machine:?} where {wanted:?} is wanted"));
@@ -288,6 +313,8 @@ fn carries_out(did: &Canon, deed: &Deed, within: Tolerance) -> bool {
             },
         ) => within.is_there(there, to) && same_time(way(from, to) / rate * 60.0, *seconds),
         (Canon::Output { number, on }, Deed::Switch(output, state)) => (number, on) == (output, state),
+        (Canon::ChangeTool(is), Deed::Change { place, .. }) => Some(*is) == *place,
+        (Canon::Stop, Deed::Change { place, .. }) => place.is_none(),
         (Canon::Dwell(seconds), Deed::Wait(time)) => same_time(*seconds, *time),
         (_, _) => false,
     }

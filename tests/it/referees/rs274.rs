@@ -3,7 +3,8 @@
 use super::canon::{self, Canon, KINEMATICS};
 use super::compare::{Deed, End, Tolerance, compare, deeds};
 use super::is_there;
-use crate::pipeline::{compile_on, emit_for};
+use crate::pipeline::{Files, compile_on, emit_for};
+use crate::repository::root;
 use crate::shop::{Pairing, compiling, folder_for};
 use std::fs;
 use std::process::{Command, Stdio};
@@ -24,8 +25,8 @@ REMAP = M429 modalgroup=10 ngc=kinematics_of_the_tip
 /// The length of the blade, in mm. A program that relies on words from before its `G43` shows itself by it.
 const BLADE: f64 = 160.0;
 
-/// That blade; `rs274` counts in inches.
-const TOOL_TABLE: &str = "T1 P1 Z6.299213\n";
+/// That blade and one of 130 mm; `rs274` counts in inches.
+const TOOL_TABLE: &str = "T1 P1 Z6.299213\nT2 P2 Z5.118110\n";
 
 /// The subroutine behind one of the M codes.
 fn choice_of_kinematics(name: &str, number: u32) -> String {
@@ -123,6 +124,39 @@ fn translated((name, text): &(String, Vec<u8>), words: &[(&str, &str)]) -> (Stri
 #[test]
 fn programs_for_linuxcnc_do_what_they_should() {
     judge_examples("linuxcnc", &[], Tolerance::of_decimals(3, 4, 2.0, BLADE));
+}
+
+/// A program that changes its blade does as well, and one of another change does not.
+#[test]
+fn changes_of_the_blade_are_carried_out() {
+    if !is_installed() {
+        return;
+    }
+    let files = Files::of(root().join("tests/jobs/two_tools"));
+    let outcome = compile_on(Some("gantry"), "job.vcut", &files);
+    let bundle = emit_for(registry::backend("gcode").unwrap(), &outcome).unwrap();
+    let reached = outcome.compiled.as_ref().unwrap().program.reached().unwrap();
+    let judged = |from: &str, to: &str| {
+        let edited = |(name, text): &(String, Vec<u8>)| {
+            let text = str::from_utf8(text).unwrap();
+            assert!(text.contains(from), "{from}");
+            (name.clone(), text.replace(from, to).into_bytes())
+        };
+        let files: Vec<_> = bundle.files().iter().map(edited).collect();
+        let within = Tolerance::of_decimals(3, 4, 2.0, BLADE);
+        carry_out(&files).and_then(|canon| compare(&deeds(&reached.program), &canon, within))
+    };
+    assert_eq!(judged("T2 M6", "T2 M6"), Ok(()));
+    for (from, to) in [
+        ("T2 M6\n", ""),
+        ("T2 M6", "T1 M6"),
+        ("T2 M6", "T3 M6"),
+        ("T2 M6", "M0"),
+        ("T2 M6", "T2 M6\nT2 M6"),
+        ("G43 H2", "G43 H1"),
+    ] {
+        assert!(judged(from, to).is_err(), "{from} -> {to}");
+    }
 }
 
 /// Fanuc's words that LinuxCNC has not, with those that do the same there.

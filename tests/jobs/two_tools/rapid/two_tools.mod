@@ -1,6 +1,6 @@
 MODULE two_tools
   ! job two_tools
-  ! job hash 7ecb236295573ca3
+  ! job hash 47d948a3c8f73c6a
   ! machine hall
   ! blade 20 mm long, 1.6 mm thick: large
   ! blade 10 mm long, 0.5 mm thick: small
