@@ -10,6 +10,7 @@
 //!   ten-thousandth of a degree once in half a million.
 
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
+use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::{CheckedJob, Machine};
 
@@ -22,26 +23,20 @@ const SAME_DEGREES: f64 = 1e-4;
 /// What is doubtful about the frame of the job's tool.
 pub(super) fn doubts(job: &CheckedJob) -> Option<Diagnostic> {
     let machine = job.machine.as_ref()?;
-    let frame = machine.tools.first().frame.value.frame;
-    back(job, machine, frame).or_else(|| radians(job, machine, frame))
+    machine.tools.iter().find_map(|tool| {
+        let frame = tool.frame.value.frame;
+        let place = tool.frame.span.unwrap_or(job.name_span);
+        back(place, machine, frame).or_else(|| radians(place, machine, frame))
+    })
 }
 
-fn diagnostic(job: &CheckedJob, machine: &Machine, message: String, label: &str) -> Diagnostic {
-    Diagnostic::new(
-        Code::ToolFrame,
-        message,
-        machine.tools.first().frame.span.unwrap_or(job.name_span),
-        label,
-    )
-}
-
-fn back(job: &CheckedJob, machine: &Machine, frame: Frame) -> Option<Diagnostic> {
+fn back(place: Span, machine: &Machine, frame: Frame) -> Option<Diagnostic> {
     let cosine = cosine(frame.origin, frame.orientation)?;
     (cosine < BACK).then(|| {
-        diagnostic(
-            job,
-            machine,
+        Diagnostic::new(
+            Code::ToolFrame,
             format!("the blade of `{}` points back at its flange", machine.name),
+            place,
             "the z axis of this frame points from the tip towards the flange",
         )
         .note("z of a tool frame points from the shank out through the tip, so the shank would lie beyond the tip")
@@ -57,20 +52,20 @@ fn cosine(tip: Point3, held: Orientation) -> Option<f64> {
     (length > 1.0).then(|| along / length)
 }
 
-fn radians(job: &CheckedJob, machine: &Machine, frame: Frame) -> Option<Diagnostic> {
+fn radians(place: Span, machine: &Machine, frame: Frame) -> Option<Diagnostic> {
     let angles = frame.orientation.to_zyx();
     let named = [("a", angles.a), ("b", angles.b), ("c", angles.c)];
     named.into_iter().find_map(|(name, angle)| {
         let degrees = angle.to_deg();
         let meant = meant(degrees)?;
         Some(
-            diagnostic(
-                job,
-                machine,
+            Diagnostic::new(
+                Code::ToolFrame,
                 format!(
                     "the tool of `{}` is turned by {degrees:.4} deg, which is {meant} deg in radians",
                     machine.name
                 ),
+                place,
                 "this frame",
             )
             .help(format!("write `{name} = {meant} deg` if that is meant")),

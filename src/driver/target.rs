@@ -12,7 +12,7 @@ use vcutc_backend_api::ir::{Action, MachineKind, Maker, OpId, Program};
 use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::protocol::PROGRAM_PREFIX;
 use vcutc_backend_api::units::Length;
-use vcutc_backend_api::verify::VerifiedProgram;
+use vcutc_backend_api::verify::{Capability, VerifiedProgram};
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -275,15 +275,37 @@ fn unknown_option(given: &GivenOption, backend: &dyn Backend) -> Diagnostic {
     }
 }
 
-/// What the program needs and the target does not have at all.
+/// What the program needs and the target does not have at all; of a machine that it does not drive, that alone is told.
 pub(super) fn missing(backend: &dyn Backend, program: &VerifiedProgram) -> Vec<BackendIssue> {
+    let cell = program.program().cell.as_ref();
+    if cell.is_some_and(|cell| backend.mismatch(cell.kind, cell.maker).is_some()) {
+        return Vec::new();
+    }
     let missing = program.needs().missing_from(backend.capabilities());
     missing
         .map(|capability| BackendIssue::Unsupported {
-            op: OpId(0),
+            op: needing(program, capability),
             what: capability.words(),
         })
         .collect()
+}
+
+/// The first op that needs something, as far as it is told of: behind a change of the blade, what comes next of an operation.
+fn needing(program: &VerifiedProgram, capability: Capability) -> OpId {
+    let mut ops = program.ops();
+    let found = match capability {
+        Capability::ToolChange => {
+            let _ = ops.find(|(_, op)| matches!(op.action, Action::ToolChange { .. }));
+            ops.find(|(_, op)| op.site.operation().is_some())
+        }
+        Capability::LinearMove
+        | Capability::JointMove
+        | Capability::StillTipTurn
+        | Capability::Output
+        | Capability::AwaitInput
+        | Capability::Dwell => ops.next(),
+    };
+    found.map_or(OpId(0), |(id, _)| id)
 }
 
 /// A target's objections in words.

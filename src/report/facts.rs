@@ -2,9 +2,9 @@
 
 use super::Material;
 use vcutc_backend_api::geometry::Frame;
-use vcutc_backend_api::ir::{AxisKind, Edges, Ready, Registered};
+use vcutc_backend_api::ir::{AxisKind, Change, Changer, Edges, Load, Ready, Registered};
 use vcutc_diagnostics::number::show;
-use vcutc_job::{Blade, Body, CheckedJob, Machine, Setup};
+use vcutc_job::{Blade, Body, CheckedJob, HeldTool, Machine, Setup};
 
 /// A name and a value, as plain text.
 pub(super) type Fact = (&'static str, String);
@@ -53,15 +53,39 @@ pub(super) fn tool(machine: Option<&Machine>) -> Vec<Fact> {
     let Some(machine) = machine else {
         return Vec::new();
     };
-    let tool = &machine.tools.first().frame.value.frame;
-    let [edge, flat, tip] = axes(tool);
-    vec![
-        ("tool frame", frame(tool)),
-        (
-            "tool axes",
-            format!("x (edge) {edge}; y (flat) {flat}; z (out of the tip) {tip}, seen from the flange"),
-        ),
-    ]
+    let held = |tool: &HeldTool| {
+        let of = (tool.blade.as_ref()).map_or_else(String::new, |blade| format!("{}: ", blade.node));
+        let placed = &tool.frame.value.frame;
+        let [edge, flat, tip] = axes(placed);
+        [
+            ("tool frame", format!("{of}{}", frame(placed))),
+            (
+                "tool axes",
+                format!(
+                    "{of}x (edge) {edge}; y (flat) {flat}; z (out of the tip) {tip}, seen from the flange"
+                ),
+            ),
+        ]
+    };
+    machine.tools.iter().flat_map(held).collect()
+}
+
+fn carried(load: Registered<Load>) -> String {
+    match load {
+        Registered::Number(number) => format!("number {number} of the controller"),
+        Registered::Value(load) => {
+            let [x, y, z] = [load.centre.x, load.centre.y, load.centre.z].map(show);
+            format!("{} kg at x {x}, y {y}, z {z} mm", show(load.mass.to_kg()))
+        }
+    }
+}
+
+fn changed(change: Change) -> String {
+    let by = match change.by {
+        Changer::Program => "by the program",
+        Changer::Hand => "by hand",
+    };
+    format!("changed {by} in {} s", show(change.time.to_s()))
 }
 
 fn words(blade: &Blade) -> String {
@@ -126,16 +150,14 @@ pub(super) fn control(machine: Option<&Machine>) -> Vec<Fact> {
         Ready::After(time) => format!("ready {} s after switching on", show(time.to_s())),
     };
     let mut list = vec![("generator", format!("{output}, {ready}"))];
-    list.extend(machine.tools.first().load.map(|load| match load.value {
-        Registered::Number(number) => ("load", format!("number {number} of the controller")),
-        Registered::Value(load) => {
-            let [x, y, z] = [load.centre.x, load.centre.y, load.centre.z].map(show);
-            (
-                "load",
-                format!("{} kg at x {x}, y {y}, z {z} mm", show(load.mass.to_kg())),
-            )
-        }
-    }));
+    for tool in machine.tools.iter() {
+        let of = (tool.blade.as_ref()).map_or_else(String::new, |blade| format!("{}: ", blade.node));
+        list.extend(
+            tool.load
+                .map(|load| ("load", format!("{of}{}", carried(load.value)))),
+        );
+    }
+    list.extend(machine.change.map(|held| ("blades", changed(held.change))));
     list.extend(machine.home.map(|home| {
         let axes = machine.model.axes.iter().zip(home.value.0);
         let values = axes.map(|(axis, value)| match axis.kind {

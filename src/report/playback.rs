@@ -50,8 +50,8 @@ pub struct Cell<'a> {
     pub axes: &'a [Axis],
     /// How they move it.
     pub linkage: Linkage,
-    /// The blade frame T seen from the flange.
-    pub blade_in_flange: Pose,
+    /// The blade frame T of each operation, seen from the flange.
+    pub blades_in_flange: Vec<Pose>,
     /// The workpiece frame W seen from where the work is mounted.
     pub work_in_mount: Pose,
     pub bodies: Vec<Body>,
@@ -83,14 +83,17 @@ impl<'a> Playback<'a> {
 fn cell<'a>(plan: &'a PlannedJob, reached: &'a Reached) -> Option<Cell<'a>> {
     let model = &plan.machine.as_ref()?.model;
     let cell: &ir::Cell = reached.program.program().cell.as_ref()?;
-    let rigs = Rigs::of(model, cell, reached.program.program());
+    let program = reached.program.program();
+    let rigs = Rigs::of(model, cell, program);
     let rig = rigs.first();
     let linkage = Linkage::from(&model.mechanism);
     let bodies = bodies(&linkage, &model.axes, &corners(plan.stock, &rig.work_in_root));
     Some(Cell {
         axes: &model.axes,
         linkage,
-        blade_in_flange: rig.flange_in_blade.inverse(),
+        blades_in_flange: (program.operations.iter())
+            .map(|operation| rigs.with(operation.tool).flange_in_blade.inverse())
+            .collect(),
         work_in_mount: rig.work_in_root,
         bodies,
         track: Track::of(&reached.program, &rigs),

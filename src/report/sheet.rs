@@ -237,7 +237,7 @@ fn on_the_floor(material: &Material<'_>) -> Vec<&'static str> {
         "Generator switches on at its output and says that it is ready; amplitude as for this core.",
     ];
     let machine = material.job.machine.as_ref();
-    if machine.is_some_and(|machine| machine.tools.first().load.is_none()) {
+    if machine.is_some_and(|machine| machine.tools.iter().any(|tool| tool.load.is_none())) {
         lines.push("Load data on the control are those of this blade and holder.");
     }
     lines

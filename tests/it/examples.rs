@@ -53,8 +53,8 @@ fn examples_compile_for_every_machine_and_target() {
         }
     }
     let pairings = || compiling().into_iter().flat_map(|(_, pairings)| pairings);
-    // Ten jobs for KRL, eight of them for RAPID, and fifteen pairings with gantries for G-code.
-    assert_eq!(pairings().count(), 10 + 8 + 15);
+    // Eleven jobs for KRL, eight of them for RAPID, and fifteen pairings with gantries for G-code.
+    assert_eq!(pairings().count(), 11 + 8 + 15);
     let is_built = |pairing: &Pairing| registry::backend(pairing.target).is_some();
     assert_eq!(programs, pairings().filter(is_built).count());
 }

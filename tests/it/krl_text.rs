@@ -13,7 +13,7 @@ use vcutc::job::GivenValue;
 use vcutc::machine::kinematics::Mechanism;
 use vcutc::machine::kinematics::opw::Opw;
 use vcutc_backend_api::bundle::Bundle;
-use vcutc_backend_api::ir::{AxisValues, PlacedFrame};
+use vcutc_backend_api::ir::{Action, AxisValues, PlacedFrame};
 
 /// Asserts that the text of a job's program does what its ops say, within rounding, in the frames of its machine and on the
 /// branch that its axes are on.
@@ -38,14 +38,15 @@ pub(crate) fn check(outcome: &Outcome, bundle: &Bundle) {
     let rounding = Rounding::of_decimals(decimals(outcome));
     compare(&got, &steps(program, &status), rounding).unwrap_or_else(|problem| panic!("{name}: {problem}"));
     let cell = program.program().cell.as_ref().unwrap();
+    let mut changes = program.program().ops.iter().filter_map(|op| match op.action {
+        Action::ToolChange { tool } => Some(tool),
+        _ => None,
+    });
     let mut at_hand = *cell.tools.first();
     for event in &got {
         match event {
             Event::Tool(setting) => assert_frame(setting, at_hand.frame, rounding),
-            Event::Change(place) => {
-                let mut tools = cell.tools.iter().map(|(_, tool)| *tool);
-                at_hand = tools.find(|tool| tool.place == *place).unwrap();
-            }
+            Event::Change(_) => at_hand = *cell.tools.get(changes.next().unwrap()).unwrap(),
             Event::Base(setting) => assert_frame(setting, cell.base, rounding),
             Event::Axes(_)
             | Event::Point { .. }

@@ -8,8 +8,8 @@ use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{AxisKind, Load, Ready, Registered};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
-use vcutc_job::Machine;
 use vcutc_job::description::{Origin, ParameterRow as Row, ParameterTable};
+use vcutc_job::{HeldTool, Machine};
 
 /// The cells of a parameter's row.
 fn cells(row: &Row, listing: &Listing<'_>) -> Vec<Html> {
@@ -84,21 +84,33 @@ fn workpiece(subject: Subject<'_>) -> Vec<Row> {
     ]
 }
 
+/// With the name of the blade, where each has a tool of its own.
+fn held(tool: &HeldTool, text: String) -> String {
+    match &tool.blade {
+        Some(blade) => format!("{}: {text}", blade.node),
+        None => text,
+    }
+}
+
 fn machine_rows(machine: &Machine) -> Vec<Row> {
     let model = &machine.model;
     let mut rows = vec![
         Row::written("machine", machine.name.clone(), machine.head_span),
         Row::written("model", model.name.clone(), machine.model_span),
-        Row::of("tool", machine.tools.first().frame, |tool| frame(&tool.frame)),
-        Row::of("base", machine.base, |base| frame(&base.frame)),
     ];
     rows.extend(
         machine
             .tools
-            .first()
-            .load
-            .map(|given| Row::of("load", given, load)),
+            .iter()
+            .map(|tool| Row::of("tool", tool.frame, |placed| held(tool, frame(&placed.frame)))),
     );
+    rows.push(Row::of("base", machine.base, |base| frame(&base.frame)));
+    for tool in machine.tools.iter() {
+        rows.extend(
+            tool.load
+                .map(|given| Row::of("load", given, |given| held(tool, load(given)))),
+        );
+    }
     rows.extend(machine.home.map(|home| {
         Row::of("home", home, |home| {
             let values = model

@@ -89,7 +89,7 @@ fn cell(cell: &Cell<'_>) -> Value {
         "work": work.iter().map(joint).collect::<Vec<_>>(),
         "flangeAtZero": matrix(flange_at_zero),
         "mountAtZero": matrix(mount_at_zero),
-        "bladeInFlange": matrix(&cell.blade_in_flange),
+        "bladesInFlange": cell.blades_in_flange.iter().map(matrix).collect::<Vec<_>>(),
         "workInMount": matrix(&cell.work_in_mount),
         "bodies": cell.bodies.iter().map(body).collect::<Vec<_>>(),
         "track": track(&cell.track, cell.axes.len()),
@@ -180,7 +180,7 @@ mod tests {
             cell: Some(Cell {
                 axes: &axes,
                 linkage: Linkage::from(&model.mechanism),
-                blade_in_flange: Pose::IDENTITY,
+                blades_in_flange: vec![Pose::IDENTITY],
                 work_in_mount: Pose::IDENTITY,
                 bodies: Vec::new(),
                 track: Track {

@@ -52,7 +52,7 @@ class Player {
     this.selectLayers(1, this.timeline.layers.length);
     const { cell } = program;
     // The scene's frame is W while all axes are at zero: on a table that turns it moves, and the scene must not.
-    this.scene = cell === null ? identity() : inverse(posed(cell, cell.axes.map(() => 0)).workpiece);
+    this.scene = cell === null ? identity() : inverse(posed(cell, cell.axes.map(() => 0), 0).workpiece);
     this.holdFrames();
   }
 
@@ -154,6 +154,16 @@ class Player {
     return op === moment.op ? moment : { op, done: 1 };
   }
 
+  /**
+   * The operation whose blade is at hand: that of the op, or of the last one before it that belongs to one.
+   * @param {number} op
+   */
+  operationAt(op) {
+    let last = op;
+    while (last > 0 && this.program.operations[last] === 0) last -= 1;
+    return Math.max(0, this.program.operations[last] - 1);
+  }
+
   /** @returns {Picture} */
   picture() {
     const { program, timeline } = this;
@@ -161,7 +171,8 @@ class Player {
     const { op, done } = moment;
     const { cell } = program;
     const axes = cell === null ? [] : axesDuring(cell.track, op, done);
-    const machine = cell === null ? null : posed(cell, axes);
+    const operation = this.operationAt(op);
+    const machine = cell === null ? null : posed(cell, axes, operation);
     const workpiece = machine === null ? identity() : product(this.scene, machine.workpiece);
     const known = timeline.bladeAt(moment);
     const inWork = known || (machine ? product(inverse(machine.workpiece), machine.blade) : timeline.nearestBlade(op));
@@ -174,7 +185,7 @@ class Player {
       machine,
       kerfs: this.kerfs(moment, origin(inWork)[1]),
       layer: timeline.layerOf[op],
-      operation: Math.max(0, program.operations[op] - 1),
+      operation,
       moment,
     };
   }

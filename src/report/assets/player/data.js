@@ -25,7 +25,7 @@
  * @property {Joint[]} work
  * @property {Matrix} flangeAtZero
  * @property {Matrix} mountAtZero
- * @property {Matrix} bladeInFlange
+ * @property {Matrix[]} bladesInFlange the blade of each operation
  * @property {Matrix} workInMount
  * @property {Body[]} bodies
  * @property {Track} track

@@ -67,14 +67,15 @@ function motionOf(joint, axes) {
  * The machine at some axis values, in its own frame.
  * @param {Cell} cell
  * @param {number[]} axes
+ * @param {number} operation whose blade is at hand
  */
-function posed(cell, axes) {
+function posed(cell, axes, operation) {
   const tool = carried(cell.tool, axes);
   const work = carried(cell.work, axes);
   return {
     tool,
     work,
-    blade: product(product(last(tool), cell.flangeAtZero), cell.bladeInFlange),
+    blade: product(product(last(tool), cell.flangeAtZero), cell.bladesInFlange[operation]),
     workpiece: product(product(last(work), cell.mountAtZero), cell.workInMount),
   };
 }

@@ -44,7 +44,7 @@ class Scene {
     this.kerfs = canvas.mesh(new Float32Array(0));
     this.triad = canvas.mesh(triad());
     this.floor = canvas.mesh(floorOf(program));
-    this.shanks = program.blades.map((blade) => shankOf(blade, program.cell));
+    this.shanks = program.blades.map((blade, i) => shankOf(blade, program.cell, i));
     this.blades = program.blades.map((blade, i) => canvas.mesh(dagger(blade, this.shanks[i].from)));
     this.layPath();
   }
@@ -220,10 +220,11 @@ function floorOf({ stock, cell }) {
  * The shank between blade and flange, seen from the blade; without a machine it is drawn a few blades long.
  * @param {{length: number, halfApex: number, edges: 1 | 2}} blade
  * @param {Cell | null} cell
+ * @param {number} operation
  */
-function shankOf(blade, cell) {
+function shankOf(blade, cell, operation) {
   const { half, top } = daggerSize(blade);
-  const flange = cell === null ? null : origin(inverse(cell.bladeInFlange));
+  const flange = cell === null ? null : origin(inverse(cell.bladesInFlange[operation]));
   const to = /** @type {Vector} */ (flange !== null && flange[2] < top * 2.5 ? flange : [0, 0, top * 6]);
   const from = top * 1.5;
   const neck = from + (to[2] - from) * 0.3;
