@@ -10,6 +10,7 @@
 //! far any of their points gets in half of it, contain all that the body covers meanwhile ([`turn`]). Moves of all axes have
 //! no straight way and are not looked at.
 
+mod section;
 mod shadow;
 mod stage;
 #[cfg(test)]
@@ -18,10 +19,10 @@ mod turn;
 
 use super::prove::{Bound, accompanied};
 use super::surface::Surface;
-use shadow::Shadow;
+use section::{Ceiling, Near, Section};
 use stage::{Axis, Cylinder, Way};
 use turn::Turning;
-use vcutc_backend_api::ir::{Action, OpId, OperationId, Program, Site, Stock};
+use vcutc_backend_api::ir::{Action, OpId, OperationId, Program, Site};
 use vcutc_backend_api::segments::{LinearSegment, Segment};
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
@@ -102,65 +103,12 @@ pub fn watched(verified: &VerifiedProgram, bounds: &[Bound<'_>], watch: &mut dyn
     watcher.found
 }
 
-/// The nearest place of a body on a way, and how it comes there.
-#[derive(Clone, Copy)]
-struct Near {
-    stage: usize,
-    at: Point2,
-    gap: f64,
-    axis: Axis,
-    way: Way,
-}
-
-/// The section of the stock as it is at a moment.
-struct Section<'s> {
-    stock: Stock,
-    surface: &'s mut Surface,
-    /// Of the piece looked at last.
-    piece: Vec<Point2>,
-}
-
-impl Section<'_> {
-    /// Where one of some cylinders, as the blade is held, comes nearest above the section on a way, if that is nearer than so
-    /// much. None where all of them pass beside it.
-    fn nearest(&mut self, stages: &[Cylinder], axis: Axis, way: Way, within: f64) -> Option<Near> {
-        let mut nearest: Option<Near> = None;
-        for (stage, cylinder) in stages.iter().enumerate() {
-            let within = nearest.map_or(within, |near| near.gap);
-            let low = cylinder.below_top(self.stock, way.lowest(), axis.rise());
-            let Some(shadow) = low.shadow(axis, way, self.stock) else {
-                continue;
-            };
-            if let Some((at, gap)) = self.gap(&shadow, within).filter(|&(_, gap)| gap < within) {
-                nearest = Some(Near {
-                    stage,
-                    at,
-                    gap,
-                    axis,
-                    way,
-                });
-            }
-        }
-        nearest
-    }
-
-    /// How far a shadow stays above the section, unless it plainly is farther than so much.
-    fn gap(&mut self, shadow: &Shadow, within: f64) -> Option<(Point2, f64)> {
-        if shadow.lowest().z - self.surface.top() >= within {
-            return None;
-        }
-        let (left, right) = shadow.span();
-        self.piece.clear();
-        self.piece.extend(self.surface.stretch(left, right));
-        shadow.nearest_above(&self.piece)
-    }
-}
-
 struct Watcher<'p> {
     program: &'p Program,
     bounds: &'p [Bound<'p>],
     /// Of each operation.
     stages: Vec<Vec<Cylinder>>,
+    ceiling: Ceiling,
     found: Bodies,
     watch: &'p mut dyn FnMut(Contact),
 }
@@ -176,6 +124,7 @@ impl<'p> Watcher<'p> {
             program,
             bounds,
             stages: stages.collect(),
+            ceiling: Ceiling::of(program.stock),
             found: Bodies::default(),
             watch,
         }
@@ -189,10 +138,11 @@ impl<'p> Watcher<'p> {
             Action::Cut { .. } => During::Cut,
             _ => During::Way,
         };
+        self.ceiling.grow_older(surface);
         let mut section = Section {
             stock: self.program.stock,
             surface,
-            piece: Vec::new(),
+            ceiling: &self.ceiling,
         };
         let Some(near) = self.nearest(&line, operation, during, &mut section) else {
             return;

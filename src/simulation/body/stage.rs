@@ -43,13 +43,13 @@ impl Cylinder {
         libm::hypot(self.to, self.radius)
     }
 
-    /// What of it may come as low as the stock's top, with the tip no lower than this and the axis rising at least so much;
-    /// its lower end stays.
-    pub(super) fn below_top(self, stock: Stock, lowest_tip: f64, rise: f64) -> Self {
+    /// What of it may come as low as a height, with the tip no lower than this and the axis rising at least so much; its lower
+    /// end stays.
+    pub(super) fn below(self, height: f64, lowest_tip: f64, rise: f64) -> Self {
         if rise <= 0.0 {
             return self;
         }
-        let end = (stock.height.to_mm() - lowest_tip + self.radius) / rise;
+        let end = (height - lowest_tip + self.radius) / rise;
         Self {
             to: self.to.min(self.from.max(end)),
             ..self

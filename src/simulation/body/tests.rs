@@ -39,7 +39,7 @@ fn cut(x: f64, z: f64) -> Way {
 
 fn shadow(from: f64, radius: f64, swing: f64, rake: f64) -> Shadow {
     let held = axis(swing, rake);
-    let stage = cylinder(from, radius).below_top(STOCK, 0.0, held.rise());
+    let stage = cylinder(from, radius).below(STOCK.height.to_mm(), 0.0, held.rise());
     stage.shadow(held, cut(0.0, 0.0), STOCK).unwrap()
 }
 
@@ -77,7 +77,7 @@ fn a_stage_begins_where_the_planar_formula_says() {
         (lowest.z - 24.708).abs() < 5e-4 && (lowest.x - 21.248).abs() < 5e-4,
         "{lowest:?}"
     );
-    let stage = cylinder(40.0, 8.0).below_top(STOCK, 10.0, axis(0.0, 60.0).rise());
+    let stage = cylinder(40.0, 8.0).below(STOCK.height.to_mm(), 10.0, axis(0.0, 60.0).rise());
     let slit = stage.shadow(axis(0.0, 60.0), cut(50.0, 10.0), STOCK).unwrap();
     let wall = [Point2::new(52.0, 50.0), Point2::new(60.0, 50.0)];
     let (at, gap) = slit.nearest_above(&wall).unwrap();
@@ -90,7 +90,7 @@ fn a_stage_begins_where_the_planar_formula_says() {
 #[test]
 fn what_passes_before_the_stock_or_behind_it_is_not_over_it() {
     let held = axis(0.0, 90.0);
-    let stage = cylinder(20.0, 5.0).below_top(STOCK, 0.0, held.rise());
+    let stage = cylinder(20.0, 5.0).below(STOCK.height.to_mm(), 0.0, held.rise());
     let at = |y: f64| Way {
         from: Point3::new(50.0, y, 0.0),
         to: Point3::new(60.0, y, 0.0),
@@ -104,7 +104,7 @@ fn what_passes_before_the_stock_or_behind_it_is_not_over_it() {
 fn a_leaning_stage_counts_as_far_as_it_is_over_the_stock() {
     // Leaning towards +y by 45 degrees from behind the stock: nothing of it is over the stock.
     let held = axis(0.0, 45.0);
-    let stage = cylinder(20.0, 1.0).below_top(STOCK, 0.0, held.rise());
+    let stage = cylinder(20.0, 1.0).below(STOCK.height.to_mm(), 0.0, held.rise());
     let behind = Way {
         from: Point3::new(50.0, 990.0, 0.0),
         to: Point3::new(50.0, 990.0, 0.0),
@@ -231,7 +231,7 @@ proptest! {
         let held = axis(swing, rake);
         let at = |(x, z): (f64, f64)| Point3::new(x, 500.0, z);
         let way = Way { from: at(ends.0), to: at(ends.1) };
-        let stage = cylinder(from, radius).below_top(STOCK, 0.0, held.rise());
+        let stage = cylinder(from, radius).below(STOCK.height.to_mm(), 0.0, held.rise());
         let whole = stage.shadow(held, way, STOCK).unwrap();
         let places = (0..=2000_u32).map(|i| {
             let share = f64::from(i) / 2000.0;

@@ -1,7 +1,8 @@
 //! Ways on which the blade turns.
 
+use super::TOUCH;
+use super::section::{Near, Section};
 use super::stage::{Axis, Cylinder, Way};
-use super::{Near, Section, TOUCH};
 use vcutc_backend_api::geometry::Orientation;
 
 /// A straight way of the tip on which the blade turns about one axis.
@@ -52,7 +53,7 @@ impl Turning {
             let least_rise = axis.rise() - half_turn;
             let low = stages
                 .iter()
-                .map(|stage| stage.below_top(section.stock, way.lowest(), least_rise));
+                .map(|stage| stage.below(section.ceiling.highest(), way.lowest(), least_rise));
             let low: Vec<Cylinder> = low.collect();
             let farthest = low.iter().map(|stage| stage.reach()).fold(0.0, f64::max);
             let moved = farthest * half_turn;
