@@ -1,7 +1,9 @@
 //! Each rule about axes and moves of all axes broken once, in a program that is right otherwise.
 
 use super::{Fault, Rule, verify};
-use crate::ir::{Action, AxisValues, FeedId, OpId, OrientationId, Program, Purpose, RateId, Switch};
+use crate::ir::{
+    Action, AxisValues, BodyStage, FeedId, OpId, OrientationId, Program, Purpose, RateId, Switch,
+};
 use crate::testkit::{Crossing, Recipe};
 use crate::units::Length;
 
@@ -159,6 +161,34 @@ fn a_home_that_is_no_number() {
     let mut program = program();
     program.cell.as_mut().unwrap().home = Some(AxisValues([f64::NAN; 6]));
     assert_eq!(rules(program), [Rule::Number]);
+}
+
+/// Stages of a body are round and rise, and there is at least one; a body without any stays in no text.
+#[test]
+fn bodies_that_no_blade_has() {
+    let of = |stages: &[(f64, f64)]| {
+        let stages = stages.iter().map(|&(from, radius)| BodyStage {
+            from: Length::mm(from),
+            radius: Length::mm(radius),
+        });
+        let mut program = program();
+        program.operations[0].blade.body = Some(stages.collect());
+        program
+    };
+    for wrong in [
+        &[][..],
+        &[(40.0, 0.0)],
+        &[(0.0, 8.0)],
+        &[(f64::NAN, 8.0)],
+        &[(40.0, 8.0), (40.0, 9.0)],
+        &[(40.0, 8.0), (30.0, 9.0)],
+    ] {
+        assert_eq!(rules(of(wrong)), [Rule::Number], "{wrong:?}");
+    }
+    assert_eq!(faults(of(&[(40.0, 8.0), (90.0, 30.0)])), []);
+    let written = serde_json::to_string(&program()).unwrap();
+    assert!(!written.contains("body"));
+    assert_eq!(serde_json::from_str::<Program>(&written).unwrap(), program());
 }
 
 fn axis(program: &mut Program) -> &mut crate::ir::Axis {
