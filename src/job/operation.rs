@@ -57,6 +57,11 @@ pub trait Operation: OperationValue + Any + Debug + Send + Sync {
         Vec::new()
     }
 
+    /// The same operation with this swing; none where it has no swing to choose.
+    fn at_swing(&self, _swing: Angle) -> Option<Variant> {
+        None
+    }
+
     /// The operation without limits on the plan as a whole (time, cuts); none where it has none.
     fn without_plan_limits(&self) -> Option<Box<dyn Operation>> {
         None

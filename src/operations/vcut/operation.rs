@@ -47,17 +47,19 @@ impl RoughVcut {
     fn with_smaller_swings(&self, planned: Angle) -> Vec<Variant> {
         let now = planned.to_deg().ceil();
         let swings = SMALLER.into_iter().map(|less| now - less);
-        let with = |swing: f64| {
-            let text = format!("{} deg", show(swing));
-            let mut operation = self.clone();
-            operation.swing.value = Auto::Given(Angle::deg(swing));
-            Variant {
-                advice: format!("use a `swing` of {text}"),
-                edits: self.swing.span.map(|span| (span, text)).into_iter().collect(),
-                operation: Box::new(operation),
-            }
-        };
-        swings.filter(|&swing| swing > 0.0).map(with).collect()
+        let swings = swings.filter(|&swing| swing > 0.0);
+        swings.map(|swing| self.with_swing(Angle::deg(swing))).collect()
+    }
+
+    fn with_swing(&self, swing: Angle) -> Variant {
+        let text = format!("{} deg", show(swing.to_deg()));
+        let mut operation = self.clone();
+        operation.swing.value = Auto::Given(swing);
+        Variant {
+            advice: format!("use a `swing` of {text}"),
+            edits: self.swing.span.map(|span| (span, text)).into_iter().collect(),
+            operation: Box::new(operation),
+        }
     }
 }
 
@@ -122,6 +124,10 @@ impl Operation for RoughVcut {
             Variation::Order => vec![self.in_the_other_order()],
             Variation::SmallerSwing => self.with_smaller_swings(planned.swing()),
         }
+    }
+
+    fn at_swing(&self, swing: Angle) -> Option<Variant> {
+        Some(self.with_swing(swing))
     }
 
     fn without_plan_limits(&self) -> Option<Box<dyn Operation>> {

@@ -12,9 +12,15 @@ use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::grid;
-use vcutc_job::operation::{Operation, Trials, Variation, WorksThere};
+use vcutc_job::operation::{Operation, Trials, Variant, WorksThere};
 use vcutc_job::{Body, PlannedJob, PlannedOperation};
 use vcutc_simulation::body::{Contact, During};
+
+/// By how many degrees the swing is made smaller, one after the other.
+const SMALLER: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
+
+/// How often the gap between a swing that works and one that does not is halved.
+const HALVINGS: usize = 3;
 
 /// By how many degrees the rake is made steeper, one after the other.
 const STEEPER: [f64; 4] = [5.0, 10.0, 15.0, 20.0];
@@ -90,16 +96,41 @@ fn with_smaller_swing(
     attempts: &mut Attempts<'_>,
     works_there: &mut WorksThere<'_>,
 ) -> Diagnostic {
-    let variants = planned.asked().variants(planned, Variation::SmallerSwing);
-    let works = variants.into_iter().find(|variant| {
-        attempts.proves(&|operation| operation.assign(&*variant.operation))
-            && (variant.edits.is_empty() || works_there(&variant.edits))
-    });
-    match works {
+    let mut tried = |swing: f64| {
+        planned.asked().at_swing(Angle::deg(swing)).filter(|variant| {
+            attempts.proves(&|operation| operation.assign(&*variant.operation))
+                && (variant.edits.is_empty() || works_there(&variant.edits))
+        })
+    };
+    match widest_swing(planned.swing().to_deg().ceil(), &mut tried) {
         Some(variant) if variant.edits.is_empty() => told.help(variant.advice),
         Some(variant) => told.fix_all(variant.advice, &variant.edits),
         None => told,
     }
+}
+
+/// The widest swing below this one that works, of those that are tried: in whole degrees.
+fn widest_swing(now: f64, tried: &mut dyn FnMut(f64) -> Option<Variant>) -> Option<Variant> {
+    let mut fails = now;
+    let swings = SMALLER.map(|less| now - less).into_iter();
+    let (mut works, mut widest) = swings.take_while(|&swing| swing > 0.0).find_map(|swing| {
+        let found = tried(swing);
+        if found.is_none() {
+            fails = swing;
+        }
+        found.map(|variant| (swing, variant))
+    })?;
+    for _ in 0..HALVINGS {
+        let between = f64::midpoint(works, fails).floor();
+        if between <= works {
+            break;
+        }
+        match tried(between) {
+            Some(wider) => (works, widest) = (between, wider),
+            None => fails = between,
+        }
+    }
+    Some(widest)
 }
 
 fn with_steeper_rake(
