@@ -172,7 +172,7 @@ fn bodies_that_no_blade_has() {
             radius: Length::mm(radius),
         });
         let mut program = program();
-        program.operations[0].blade.body = Some(stages.collect());
+        program.blades[0].body = Some(stages.collect());
         program
     };
     for wrong in [
