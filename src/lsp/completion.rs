@@ -73,7 +73,7 @@ impl Desk<'_> {
         let outer = blocks.next()?;
         let mut spec = vocabulary::block(outer.name(), outer.second(), self.operations());
         for inner in blocks {
-            spec = spec.and_then(|spec| spec.field(inner.name()))?.inner();
+            spec = spec.and_then(|spec| spec.block(inner.name(), inner.second()));
         }
         spec
     }

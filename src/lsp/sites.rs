@@ -226,6 +226,17 @@ impl<'a> Row<'a> {
             field,
             ..place
         };
+        // `tool dagger { ... }`: the blade is named, and its fields follow.
+        if let (Some(spec), Some(second)) = (outer, inner.head.get(1))
+            && let (HeadPart::Word(name), None, Some(spec)) =
+                (&second.node, inner.head.get(2), spec.block(word, Some("")))
+            && field.and_then(FieldSpec::inner).is_none()
+        {
+            self.push(*span, Kind::Block, within(place.block));
+            self.push(second.span, Kind::Reference(name), within(place.block));
+            self.entries(&inner.entries, Some(spec), within(word));
+            return;
+        }
         let is_target = outer.is_some_and(|spec| spec.inner.takes_target_options());
         if let Some(spec) = field.and_then(FieldSpec::inner) {
             self.push(*span, Kind::Block, within(place.block));

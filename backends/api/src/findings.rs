@@ -135,9 +135,8 @@ impl Findings {
 
     /// An op may not wait for longer than a day.
     pub fn op(&mut self, id: OpId, action: &Action) {
-        match action {
-            Action::Dwell { time } => self.wait(Some(id), "waiting time", *time),
-            _ => {}
+        if let Action::Dwell { time } = action {
+            self.wait(Some(id), "waiting time", *time);
         }
     }
 

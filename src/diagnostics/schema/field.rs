@@ -192,6 +192,14 @@ pub struct BlockSpec {
 }
 
 impl BlockSpec {
+    /// The fields of an inner block, by the words of its head.
+    pub fn block(&self, first: &str, second: Option<&str>) -> Option<&'static BlockSpec> {
+        match (self.inner, second) {
+            (Inner::Machine { named, spec }, Some(_)) if first == named => Some(spec),
+            (Inner::Machine { .. } | Inner::Refused, _) => self.field(first)?.inner(),
+        }
+    }
+
     /// The field of that name.
     pub fn field(&self, name: &str) -> Option<&'static FieldSpec> {
         self.fields.iter().find(|field| field.name == name)

@@ -166,3 +166,19 @@ fn words_of_fields_are_not_renamed() {
     assert!(editor.text(RIB_AT).contains("order = point"));
     assert_eq!(editor.diagnostics(RIB_AT), [Value::Null; 0]);
 }
+
+/// The tool of a blade bears its name, and its fields are offered and known.
+#[test]
+fn a_blade_is_renamed_in_the_tools_that_hold_it() {
+    let mut editor = shop();
+    let cell = "\nmachine cell = robot \"kuka/kr210_r3100_ultra\" {\n  tool dagger {\n    frame = frame(x = 0 mm, y = 0 mm, \
+                z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg)\n  }\n  base = frame(x = 1700 mm, y = -600 mm, z = 650 mm, \
+                a = 90 deg, b = 0 deg, c = 0 deg)\n}\n";
+    editor.open_as(RIB_AT, &format!("{RIB}{cell}"));
+    let mut params = editor.at(RIB_AT, "blade = da|gger");
+    params["newName"] = json!("scalpel");
+    let edit = editor.ask("textDocument/rename", params).unwrap();
+    editor.make(&edit);
+    assert!(editor.text(RIB_AT).contains("tool scalpel {"));
+    assert_eq!(editor.codes(RIB_AT), [""; 0]);
+}
