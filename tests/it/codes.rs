@@ -9,9 +9,9 @@ use vcutc::diagnostics::Code;
 const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
     (
         Code::Unsupported,
-        "backends/gcode/tests/it/refusals.rs",
-        "changes_of_the_blade",
-        "only one target lacks anything",
+        "tests/it/cli/outside.rs",
+        "problems_become_diagnostics_at_their_places",
+        "only outside targets lack anything",
     ),
     (
         Code::Overcut,

@@ -54,9 +54,9 @@
 
 mod change;
 mod dialect;
+mod files;
 mod keywords;
 mod limits;
-mod module;
 mod options;
 mod orient;
 mod profile;
