@@ -110,6 +110,7 @@ pub(super) fn rows(table: Table<'_>) -> impl Iterator<Item = Row> + Clone {
 fn fields_table(block: &str) -> Option<usize> {
     match block {
         "limits" => headed("| Limit |"),
+        "change" => headed("| Field of `change` |"),
         "feed" => behind("`feed { ... }`", "| Field |"),
         "points" => headed("| Field of `points` |"),
         "airfoil" => headed("| Field of `airfoil` |"),

@@ -6,14 +6,15 @@ use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::findings::Findings;
 use vcutc_backend_api::ir::{Cell, Changer, ToolId};
 
-/// The number under which the control keeps the length of a tool: that of its frame. One of several without a number is known by
+/// The number under which the control keeps the length of a tool: that of its frame. One without a number is known by
 /// its place.
 pub(crate) fn number(cell: &Cell, settings: &Settings<'_>, id: ToolId) -> u32 {
     let tool = cell.tools.at(id);
-    let of_place = match (settings.facts().number_of, changer(cell)) {
-        (NumberOf::Tool, Some(_)) | (NumberOf::Edge, Some(Changer::Hand)) => tool.place,
+    let of_place = match (settings.facts().number_of, cell.change.map(|change| change.by)) {
+        // Whether or not the program needs another one: the table of the control is the same for all programs.
+        (NumberOf::Tool, _) | (NumberOf::Edge, Some(Changer::Hand)) => tool.place,
         // The place says which tool is in the spindle, and the number only which of its edges.
-        (NumberOf::Edge, Some(Changer::Program)) | (_, None) => None,
+        (NumberOf::Edge, Some(Changer::Program) | None) => None,
     };
     tool.frame.number.or(of_place).unwrap_or(settings.tool_number)
 }

@@ -9,8 +9,9 @@ use vcutc_backend_api::ir::{Cell, Changer, Registered, Tool};
 use vcutc_backend_api::script::{Dialect, ToolChange, Written};
 
 impl KrlDialect<'_, '_, '_> {
-    /// Everything between the move to the change place and the next one. The controller plans ahead: `HALT` and the assignment
-    /// of `$TOOL` stop that [K-SI], so that no motion is planned with the tool of the one before.
+    /// Everything between the move to the change place and the next one: the change, and all that a part says at its head. The
+    /// controller plans ahead: `HALT` and the assignment of `$TOOL` stop that [K-SI], so that no motion is planned with the tool
+    /// of the one before.
     pub(crate) fn put_in(&mut self, change: &ToolChange<'_>) -> Written {
         match change.by {
             Changer::Program => {
@@ -24,13 +25,12 @@ impl KrlDialect<'_, '_, '_> {
                 self.text.line("HALT")?;
             }
         }
-        self.tool(change.tool)
-    }
-
-    /// The tool at hand, and what the flange carries with it.
-    pub(crate) fn tool(&mut self, tool: &Tool) -> Written {
-        self.frame("TOOL", tool.frame)?;
-        self.load_of(tool)
+        // The routine, or whoever moved the robot meanwhile, may leave other frames, modes and speeds.
+        self.motion_setup(change.id)?;
+        self.rates = None;
+        let later = change.op.0 as usize..self.source.program().ops.len();
+        let turning = later.into_iter().find_map(|index| self.turns.at(index));
+        self.turn_rates(turning)
     }
 
     pub(crate) fn load_of(&mut self, tool: &Tool) -> Written {

@@ -137,7 +137,7 @@ impl Dialect for KrlDialect<'_, '_, '_> {
 impl KrlDialect<'_, '_, '_> {
     /// The rates of a turn, where they are others than before. The controller limits the swivel of the tool's direction
     /// (ORI1) and the twist about it (ORI2) apart [K-SI].
-    fn turn_rates(&mut self, rates: Option<Rates>) -> Written {
+    pub(crate) fn turn_rates(&mut self, rates: Option<Rates>) -> Written {
         match rates {
             Some(now) if self.rates != rates => {
                 self.rates = rates;

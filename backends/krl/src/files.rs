@@ -86,7 +86,7 @@ impl KrlDialect<'_, '_, '_> {
         Ok(self.text.comment("&COMMENT ", &self.source.program().name)?)
     }
 
-    fn motion_setup(&mut self, tool: ToolId) -> Written {
+    pub(crate) fn motion_setup(&mut self, tool: ToolId) -> Written {
         let (cell, settings) = (self.source.cell, self.settings);
         self.text.line(";FOLD SETUP")?;
         let tool = cell.tools.at(tool);

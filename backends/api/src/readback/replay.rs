@@ -174,7 +174,7 @@ impl<'p> Replay<'p> {
             self.places.push(place);
             self.state = self.state.after(&op.action);
             if matches!(op.action, Action::ToolChange { .. }) {
-                self.tool = Seen::Not;
+                (self.tool, self.base) = (Seen::Not, Seen::Not);
             }
         } else if restates {
             // Nothing changes.

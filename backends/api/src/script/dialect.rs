@@ -102,6 +102,8 @@ pub struct LinearMove<'a> {
 /// A blade that takes the place of another.
 #[derive(Clone, Copy, Debug)]
 pub struct ToolChange<'a> {
+    /// The op.
+    pub op: OpId,
     /// Its number.
     pub id: ToolId,
     /// How the machine holds it.

@@ -57,6 +57,9 @@ pub fn head_lines<'p>(program: &'p Program, machine: &'p str) -> Vec<HeadLine<'p
         ),
         theirs: &blade.name,
     }));
+    if let [first, _, ..] = program.blades.as_slice() {
+        lines.push(with("begins with blade ", &first.name));
+    }
     lines.extend(AXES.map(|axis| ours(axis.to_owned())));
     let stock = program.stock;
     let [width, depth, height] = [stock.width, stock.depth, stock.height].map(number);

@@ -2,7 +2,7 @@
 //!
 //! The same answer serves the writer, which writes it, and the splitter, which counts it.
 
-use crate::ir::{FeedId, Op, OperationId, RateId, Site};
+use crate::ir::{Action, FeedId, Op, OperationId, RateId, Site};
 use core::num::NonZeroU32;
 
 /// A layer of the job.
@@ -58,6 +58,10 @@ impl Modal {
         }
         if let (Some(layer), Some(cut)) = (layer, cut) {
             lead.cut = changed(&mut self.cut, cut).map(|cut| (layer, cut));
+        }
+        // What changes blades may leave other speeds.
+        if matches!(op.action, Action::ToolChange { .. }) {
+            (self.feed, self.rate) = (None, None);
         }
         lead.feed = feed.and_then(|feed| changed(&mut self.feed, feed));
         lead.rate = rate.and_then(|rate| changed(&mut self.rate, rate));

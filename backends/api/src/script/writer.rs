@@ -233,7 +233,7 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
             (Path::Still, Action::Ultrasonic { state }) => self.switch(state),
             (Path::Still, Action::AwaitReady) => self.await_ready(),
             (Path::Still, Action::Dwell { time }) => self.dialect.wait(time),
-            (Path::Still, Action::ToolChange { tool }) => self.change_tool(tool),
+            (Path::Still, Action::ToolChange { tool }) => self.change_tool(segment.id, tool),
             (Path::Still, _) => Err(EmitError::Internal("a move starts from an unknown pose")),
         }
     }
@@ -259,7 +259,7 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
         })
     }
 
-    fn change_tool(&mut self, id: ToolId) -> Written {
+    fn change_tool(&mut self, op: OpId, id: ToolId) -> Written {
         let Source { cell, .. } = self.source;
         let (Some(tool), Some(change), Some(blade)) =
             (cell.tools.get(id), cell.change, self.source.program().blade(id))
@@ -267,6 +267,7 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
             return Err(EmitError::Internal("a tool is not in its table"));
         };
         self.dialect.change_tool(&ToolChange {
+            op,
             id,
             tool,
             blade: &blade.name,

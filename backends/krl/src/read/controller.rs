@@ -110,10 +110,10 @@ impl<'a> Controller<'a> {
         Effect::Command(Command::ChangeTool(None))
     }
 
-    /// Another blade is in: nobody knows where its tip is, nor what the flange carries.
+    /// Another blade is in: nobody knows where its tip is, what the flange carries, or what the routine or a person has set.
     fn changed(&mut self, tool: Option<ToolId>) {
         self.wanted.tool = tool;
-        self.setup.forget_load();
+        self.setup = Setup::started();
         self.state.position = Position::default();
     }
 

@@ -105,11 +105,6 @@ impl Setup {
         }
     }
 
-    /// The blade is changed, and with it what the flange carries.
-    pub(super) fn forget_load(&mut self) {
-        self.said &= !Said::Load.bit();
-    }
-
     /// What is missing for a motion.
     pub(super) fn missing(&self, need: Need, wanted: Wanted<'_>) -> Option<&'static str> {
         let always = Said::Start.bit() | Said::IpoMode.bit() | Said::OriType.bit() | Said::Advance.bit();

@@ -29,7 +29,7 @@ fn routine() -> (&'static str, OptionValue) {
 fn change(bundle: &Bundle) -> Vec<String> {
     let lines = lines(bundle, "two.src");
     let start = lines.iter().position(|line| line == "PTP XVC_CHANGE").unwrap();
-    lines.into_iter().skip(start).take(7).collect()
+    lines.into_iter().skip(start).take(20).collect()
 }
 
 fn read(files: &[ProgramFile], program: &ReachableProgram) -> Result<usize, Divergence> {
@@ -53,12 +53,20 @@ fn a_routine_of_the_cell_changes_the_blade() {
     let expected = [
         "PTP XVC_CHANGE",
         "CELL_TOOL(2)",
+        ";FOLD SETUP",
         "$TOOL={X 1.000,Y 2.000,Z 250.000,A 0.0000,B 0.0000,C 0.0000}",
+        "$BASE={X 1800.000,Y -25.000,Z 700.000,A 0.0000,B 0.0000,C 90.0000}",
         "$LOAD={M 2.5,CM {X 0.000,Y 0.000,Z 80.000,A 0.0,B 0.0,C 0.0},J {X 0.0,Y 0.0,Z 0.0}}",
-        "; operation 2: rough vcut with blade short",
     ];
-    assert_eq!(change(&bundle)[..5], expected);
-    assert!(change(&bundle)[5].starts_with("PTP {X "));
+    let found = change(&bundle);
+    assert_eq!(found[..6], expected);
+    let speeds = found
+        .iter()
+        .position(|line| line.starts_with("$VEL.ORI1="))
+        .unwrap();
+    let motion = found.iter().position(|line| line.starts_with("PTP {X ")).unwrap();
+    assert!(speeds < motion);
+    assert!(found[..motion].contains(&"; operation 2: rough vcut with blade short".to_owned()));
     let data = lines(&bundle, "two.dat");
     assert!(
         data.iter()
