@@ -4,6 +4,7 @@ MODULE two_tools
   ! machine hall
   ! blade 20 mm long, 1.6 mm thick: large
   ! blade 10 mm long, 0.5 mm thick: small
+  ! begins with blade large
   ! tool z: from the shank out through the tip
   ! tool x: to the edge that leads on a feed along +y
   ! tool y: normal of the flat
