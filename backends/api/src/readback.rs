@@ -170,7 +170,7 @@ impl Effect {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum FrameRole {
-    /// The blade seen from the flange ([`Cell::tool`]).
+    /// The blade seen from the flange ([`Cell::tools`]).
     Tool,
     /// The workpiece seen from the machine's root ([`Cell::base`]).
     Base,
