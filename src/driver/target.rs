@@ -290,7 +290,7 @@ pub(super) fn missing(backend: &dyn Backend, program: &VerifiedProgram) -> Vec<B
         .collect()
 }
 
-/// The first op that needs something, as far as it is told of: behind a change of the blade, what comes next of an operation.
+/// The first op that needs something, as far as it is reported: after a change of the blade, what comes next of an operation.
 fn needing(program: &VerifiedProgram, capability: Capability) -> OpId {
     let mut ops = program.ops();
     let found = match capability {

@@ -82,11 +82,11 @@ pub struct Blade {
     pub thickness: Sourced<Length>,
     /// Which sides cut.
     pub edges: Edges,
-    /// What is behind the edge; none if the job does not state it.
+    /// The body above the edge; none if the job does not state it.
     pub body: Option<Body>,
 }
 
-/// What is behind the edge of a blade: round stages about its axis, from the tip up. Each goes on up to the next one, the last
+/// The body of a blade above its edge: round stages about its axis, from the tip up. Each goes on up to the next one, the last
 /// one without end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {

@@ -287,10 +287,7 @@ impl Builder<'_> {
     fn tool(&self, place: Option<u32>, partner: Option<&Partner>) -> Option<ToolId> {
         let cell = self.program.cell.as_ref()?;
         match (place, partner.map(|partner| partner.op.action)) {
-            (Some(_), _) => {
-                let mut tools = cell.tools.iter();
-                tools.find(|(_, tool)| tool.place == place).map(|(id, _)| id)
-            }
+            (Some(place), _) => cell.tools.at_place(place),
             (None, Some(Action::ToolChange { tool })) => Some(tool),
             (None, Some(_) | None) => None,
         }

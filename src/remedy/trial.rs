@@ -26,7 +26,7 @@ pub fn looks_promising(plan: &PlannedJob) -> bool {
     }
 }
 
-/// Of a program with several blades, which this look does not tell apart, only the proof says.
+/// For a program with several blades, which this look does not distinguish, only the proof answers.
 fn follows(machine: &Machine, program: &Program) -> bool {
     program.blades.len() > 1 || CriticalMotions::of(program).are_each_followed(&Rig::of(machine))
 }

@@ -5,7 +5,7 @@
 //! linear, so it is kept exactly, by its corners ([`surface`]). [`prove`](mod@prove) reads the cuts back from the
 //! verified program (not from the plan that made it), replays them in order, and finds every chip that is not freed and
 //! every entry into the part; [`report`] gathers the figures people want to see, [`contour`] those of two contours, [`timing`] how long it all takes; [`body`] proves
-//! that what is behind the edge of a blade stays out of the work.
+//! that the body of a blade stays out of the work.
 
 pub mod body;
 pub mod contour;

@@ -1,4 +1,4 @@
-//! Programs that change the blade, through the whole compiler: what `vcutc verify` tells of changed ones, and which frame the
+//! Programs that change the blade, through the whole compiler: what `vcutc verify` reports of changed ones, and which frame the
 //! axes are computed for.
 
 use crate::pipeline::{Files, compile_on};

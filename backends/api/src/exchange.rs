@@ -69,8 +69,8 @@ mod tests {
         let form = serde_json::to_value(Exchange::of(&program, None)).unwrap();
         let mut none = form.clone();
         none["cell"]["tools"] = serde_json::json!([]);
-        let told = serde_json::from_value::<Exchange<'_>>(none).unwrap_err();
-        assert!(told.to_string().contains("at least one tool"), "{told}");
+        let error = serde_json::from_value::<Exchange<'_>>(none).unwrap_err();
+        assert!(error.to_string().contains("at least one tool"), "{error}");
         for number in [-1, 65_536] {
             let mut wrong = form.clone();
             wrong["operations"][0]["tool"] = number.into();

@@ -380,7 +380,7 @@ pub struct Blade {
     pub thickness: Length,
     /// Which sides cut.
     pub edges: Edges,
-    /// What is behind the edge, where the job states it: round stages about the tool axis, from the tip up.
+    /// The body above the edge, where the job states it: round stages about the tool axis, from the tip up.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<Vec<BodyStage>>,
 }

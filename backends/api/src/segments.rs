@@ -113,7 +113,7 @@ impl Segment<'_> {
             // Without a pose the blade is at home, where it was changed or somewhere unknown, so the motion has no line to follow.
             (Action::AxisTravel { .. }, _, Some(to)) | (_, None, Some(to)) => Path::Axes(to),
             (_, Some(from), Some(to)) => {
-                let line = LinearSegment::with(self.program, [from, to], &self.op.action, || self.turn);
+                let line = LinearSegment::with(self.program, [from, to], &self.op.action, self.turn);
                 line.map_or(Path::Still, Path::Linear)
             }
             (_, _, None) => Path::Still,
@@ -168,9 +168,12 @@ impl LinearSegment {
     #[must_use]
     pub fn of(program: &Program, from: TipPose, action: &Action) -> Option<Self> {
         let to = action.leads_to(Some(from))?;
-        Self::with(program, [from, to], action, || {
-            angle(program, [from.orientation, to.orientation])
-        })
+        Self::with(
+            program,
+            [from, to],
+            action,
+            angle(program, [from.orientation, to.orientation]),
+        )
     }
 
     /// The same with its end, and how far the blade turns, from elsewhere.
@@ -179,7 +182,7 @@ impl LinearSegment {
         program: &Program,
         [from, to]: [TipPose; 2],
         action: &Action,
-        turn: impl FnOnce() -> Option<Angle>,
+        turn: Option<Angle>,
     ) -> Option<Self> {
         let (feed, rate) = match (action.feed(), action.rate()) {
             (Some(feed), Some(rate)) => (Some(program.feed(feed)?), Some(program.rate(rate)?)),
@@ -190,7 +193,7 @@ impl LinearSegment {
         Some(Self {
             from,
             to,
-            turn: turn()?,
+            turn: turn?,
             feed,
             rate,
         })
@@ -386,5 +389,9 @@ impl Angles {
 }
 
 fn angle(program: &Program, [from, to]: [OrientationId; 2]) -> Option<Angle> {
+    // Rounding must not make a turn of none.
+    if from == to {
+        return Some(Angle::ZERO);
+    }
     Some(program.orientation(from)?.angle_to(program.orientation(to)?))
 }

@@ -112,7 +112,7 @@ pub enum Rule {
     CutPair,
     /// In an air cut the blade stays above the stock, all along and by half its thickness at least, and the generator off.
     AirCut,
-    /// The machine has a tool for every blade, and a changer that is told places has one of its own for each.
+    /// The machine has a tool for every blade, and a changer that goes by places has one of its own for each.
     Tools,
     /// Blades are changed at the change place, with the generator off.
     ChangeAway,
@@ -345,7 +345,7 @@ impl<'p> Walk<'p> {
     fn tool_change(&mut self, before: State, tool: ToolId) {
         self.needs = self.needs.with(Capability::ToolChange);
         self.require(self.program.blade(tool).is_some(), Rule::TableReference);
-        // Without a machine there is no place for changes, and nothing to be at.
+        // Without a machine no place for changes is known.
         let is_there = self.program.cell.is_none() || before.place == Place::Change;
         self.require(is_there && before.generator == Generator::Off, Rule::ChangeAway);
     }

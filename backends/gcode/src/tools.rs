@@ -21,12 +21,8 @@ pub(crate) fn number(cell: &Cell, settings: &Settings<'_>, id: ToolId) -> u32 {
 
 /// All that the control knows a tool by.
 pub(crate) fn numbers(cell: &Cell, settings: &Settings<'_>, id: ToolId) -> ToolNumbers {
-    let place = match changer(cell) {
-        Some(Changer::Program) => cell.tools.at(id).place,
-        Some(Changer::Hand) | None => None,
-    };
     ToolNumbers {
-        place,
+        place: cell.named_place(id),
         number: number(cell, settings, id),
     }
 }
@@ -37,21 +33,9 @@ pub(crate) fn numbered(cell: &Cell, settings: &Settings<'_>, is: u32) -> Option<
     tools.find(|&id| number(cell, settings, id) == is)
 }
 
-/// The tool that is kept at a place of the changer.
-pub(crate) fn at_place(cell: &Cell, is: u32) -> Option<ToolId> {
-    let mut tools = cell.tools.iter();
-    tools.find(|(_, tool)| tool.place == Some(is)).map(|(id, _)| id)
-}
-
-/// Who changes the blades of a machine that has several.
-pub(crate) fn changer(cell: &Cell) -> Option<Changer> {
-    let change = cell.change.filter(|_| cell.tools.are_several())?;
-    Some(change.by)
-}
-
 /// Two tools must not have the same length in the control's table, except that of an edge where the tool is chosen besides.
 pub(crate) fn are_distinct(cell: &Cell, settings: &Settings<'_>, found: &mut Findings) {
-    let number_alone = match (settings.facts().number_of, changer(cell)) {
+    let number_alone = match (settings.facts().number_of, cell.changer()) {
         (NumberOf::Tool, _) | (NumberOf::Edge, Some(Changer::Hand)) => true,
         (NumberOf::Edge, Some(Changer::Program) | None) => false,
     };

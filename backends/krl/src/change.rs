@@ -1,11 +1,11 @@
-//! Changes of the blade: the call of the cell's routine or a stop for a person, and the tool that is set up behind it.
+//! Changes of the blade: the call of the cell's routine or a stop for a person, and what is set up after it.
 
 use crate::dialect::KrlDialect;
 use crate::keywords::is_name;
 use crate::options::{CHANGE_ROUTINE, Settings};
-use vcutc_backend_api::backend::{BackendIssue, EmitError};
+use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::findings::Findings;
-use vcutc_backend_api::ir::{Cell, Changer, Registered, Tool};
+use vcutc_backend_api::ir::{Cell, Changer};
 use vcutc_backend_api::script::{Dialect, ToolChange, Written};
 
 impl KrlDialect<'_, '_, '_> {
@@ -13,14 +13,12 @@ impl KrlDialect<'_, '_, '_> {
     /// controller plans ahead: `HALT` and the assignment of `$TOOL` stop that [K-SI], so that no motion is planned with the tool
     /// of the one before.
     pub(crate) fn put_in(&mut self, change: &ToolChange<'_>) -> Written {
-        match change.by {
-            Changer::Program => {
-                let place = change.tool.place;
-                let place = place.ok_or(EmitError::Internal("a tool has no place"))?;
+        match change.place {
+            Some(place) => {
                 let routine = self.settings.change_routine;
                 self.text.line(&format!("{routine}({place})"))?;
             }
-            Changer::Hand => {
+            None => {
                 self.comment("put in blade ", change.blade)?;
                 self.text.line("HALT")?;
             }
@@ -32,21 +30,11 @@ impl KrlDialect<'_, '_, '_> {
         let turning = later.into_iter().find_map(|index| self.turns.at(index));
         self.turn_rates(turning)
     }
-
-    pub(crate) fn load_of(&mut self, tool: &Tool) -> Written {
-        match tool.load {
-            Some(Registered::Value(load)) => self.load(load),
-            Some(Registered::Number(number)) => Ok(self.text.line(&format!("$LOAD=LOAD_DATA[{number}]"))?),
-            None => Ok(self
-                .text
-                .line("; load as the controller has it: the job states none")?),
-        }
-    }
 }
 
 /// The routine must have a name where it is called.
 pub(crate) fn routine(cell: &Cell, settings: &Settings<'_>, found: &mut Findings) {
-    let calls = cell.tools.are_several() && cell.change.is_some_and(|change| change.by == Changer::Program);
+    let calls = cell.changer() == Some(Changer::Program);
     let name = settings.change_routine;
     let key = CHANGE_ROUTINE;
     if calls && name.is_empty() {

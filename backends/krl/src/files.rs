@@ -6,7 +6,7 @@ use crate::keywords::{CHANGE, HOME, part_name};
 use crate::options::PartNames;
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, AxisValues, Changer, Load, PlacedFrame, ToolId};
+use vcutc_backend_api::ir::{Action, AxisValues, Changer, Load, PlacedFrame, Registered, Tool, ToolId};
 use vcutc_backend_api::number::NotFinite;
 use vcutc_backend_api::script::{File, Files, Part, Written};
 use vcutc_backend_api::state::Place;
@@ -125,8 +125,18 @@ impl KrlDialect<'_, '_, '_> {
         Ok(())
     }
 
+    fn load_of(&mut self, tool: &Tool) -> Written {
+        match tool.load {
+            Some(Registered::Value(load)) => self.load(load),
+            Some(Registered::Number(number)) => Ok(self.text.line(&format!("$LOAD=LOAD_DATA[{number}]"))?),
+            None => Ok(self
+                .text
+                .line("; load as the controller has it: the job states none")?),
+        }
+    }
+
     /// Sets `$LOAD`. The job knows no inertia about the centre of mass, so that of a point mass stands.
-    pub(crate) fn load(&mut self, load: Load) -> Written {
+    fn load(&mut self, load: Load) -> Written {
         self.text.put(b"$LOAD={M ");
         self.text.trimmed(load.mass.to_kg())?;
         self.text.put(b",CM {");
@@ -154,7 +164,7 @@ impl KrlDialect<'_, '_, '_> {
     }
 
     fn calls_routine(&self, part: &Part) -> bool {
-        let by = self.source.cell.change.map(|change| change.by);
+        let by = self.source.cell.changer();
         let mut ops = self.source.ops(part).iter();
         by == Some(Changer::Program) && ops.any(|op| matches!(op.action, Action::ToolChange { .. }))
     }

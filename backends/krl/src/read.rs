@@ -17,7 +17,7 @@
 //! * `$VEL.CP`, `$VEL.ORI1` and `.ORI2`, `$TOOL` and `$BASE` by value or number, `$OUT[n]`,
 //!   `WAIT SEC`, `WAIT FOR $IN[n]`.
 //! * Calls of the cell's routine that changes the blade, or `HALT` where a person does. Tool and load have to be set again
-//!   behind it.
+//!   after it.
 //! * Modes, load, rounding distance and axis speed, where they are those of the job; anything else is not understood, nor
 //!   is a motion for which one of them was not said (the module `setup`).
 //! * Lines of the machine's profile at the head and the end of the program.

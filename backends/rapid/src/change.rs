@@ -1,9 +1,9 @@
-//! Changes of the blade: the call of the cell's routine, or a stop for a person. The moves behind it name another tool.
+//! Changes of the blade: the call of the cell's routine, or a stop for a person. The moves after it name another tool.
 
 use crate::dialect::RapidDialect;
 use crate::keywords::is_name;
 use crate::options::{CHANGE_ROUTINE, Settings, TOOL_NAME};
-use vcutc_backend_api::backend::{BackendIssue, EmitError};
+use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::findings::Findings;
 use vcutc_backend_api::ir::{Cell, Changer};
 use vcutc_backend_api::script::{Dialect, ToolChange, Written};
@@ -14,18 +14,16 @@ const LONGEST_TEXT: usize = 40;
 impl RapidDialect<'_, '_, '_> {
     /// Every move before this ends in a stop point, so that the arm stands.
     pub(crate) fn put_in(&mut self, change: &ToolChange<'_>) -> Written {
-        match change.by {
-            Changer::Program => {
-                let place = change.tool.place;
-                let place = place.ok_or(EmitError::Internal("a tool has no place"))?;
+        match change.place {
+            Some(place) => {
                 let routine = self.settings.given(CHANGE_ROUTINE).unwrap_or_default();
                 self.begin(b"");
                 Ok(self.text.line(&format!("{routine} {place};"))?)
             }
-            Changer::Hand => {
+            None => {
                 self.comment("put in blade ", change.blade)?;
                 self.begin(b"TPWrite \"");
-                self.text.put(told(change).as_bytes());
+                self.text.put(request(change).as_bytes());
                 self.text.line("\";")?;
                 self.begin(b"Stop;");
                 Ok(self.text.line("")?)
@@ -34,8 +32,8 @@ impl RapidDialect<'_, '_, '_> {
     }
 }
 
-/// What the pendant tells the person: the name of the blade, where a text of RAPID can have it.
-fn told(change: &ToolChange<'_>) -> String {
+/// What the pendant asks of the person: the name of the blade, where a text of RAPID can have it.
+fn request(change: &ToolChange<'_>) -> String {
     let text = format!("Put in blade {}", change.blade);
     let is_plain = text
         .bytes()
@@ -50,7 +48,7 @@ fn told(change: &ToolChange<'_>) -> String {
 /// The routine must have a name where it is called, and one name is not that of several tools.
 pub(crate) fn names(cell: &Cell, settings: &Settings<'_>, findings: &mut Findings) {
     let mut conflict = |key, why: String| findings.tell(key, BackendIssue::OptionConflict { key, why });
-    let calls = cell.tools.are_several() && cell.change.is_some_and(|change| change.by == Changer::Program);
+    let calls = cell.changer() == Some(Changer::Program);
     match settings.given(CHANGE_ROUTINE) {
         None if calls => conflict(
             CHANGE_ROUTINE,

@@ -26,7 +26,7 @@
 //! | `AwaitReady` | `WaitDI di7,1;` or `WaitTime t;` |
 //! | `Dwell` | `WaitTime t;` |
 //! | `ChangePlace` | `MoveAbsJ vc_change\NoEOffs,vc_axes,fine` |
-//! | `ToolChange` | the cell's routine `NAME n;` with the place of the tool, or `TPWrite` and `Stop;`; moves behind it name another tool |
+//! | `ToolChange` | the cell's routine `NAME n;` with the place of the tool, or `TPWrite` and `Stop;`; moves after it name another tool |
 //!
 //! A move of all axes to axis values leaves no doubt about how the arm stands, whatever a controller takes cfx for; should
 //! it take it for something else, the first `MoveL` stops. With frames that the controller keeps, and that may be calibrated

@@ -275,7 +275,7 @@ impl Interpreter<'_, '_> {
                             takes = self.takes(moves);
                         }
                         if let Effect::Command(Command::ChangeTool(_)) = told.0 {
-                            // Which tool is at hand is told anew by the next move.
+                            // Which tool is at hand is stated anew by the next move.
                             self.at_hand = None;
                         }
                         match told {

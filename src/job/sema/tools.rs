@@ -306,7 +306,7 @@ fn no_place(tool: &HeldTool, change: &HeldChange, machine: &Machine) -> Diagnost
         Code::NoChange,
         format!("the tool of blade `{name}` has no place"),
         span,
-        "a routine that changes blades is told their places",
+        "a routine that changes blades needs their places",
     )
     .and(change.span, "changed by the program")
     .help("add `place = 1`, or the number that the routine of the cell knows it by")

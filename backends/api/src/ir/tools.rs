@@ -1,6 +1,6 @@
 //! The blades of a program as its machine holds them, and how one takes the place of another.
 
-use super::{AxisValues, Load, PlacedFrame, Registered};
+use super::{AxisValues, Cell, Load, PlacedFrame, Registered};
 use crate::units::Duration;
 use serde::{Deserialize, Serialize};
 
@@ -136,6 +136,15 @@ impl Tools {
         (0..).map(ToolId).zip(tools)
     }
 
+    /// The tool that is kept at a place of the changer.
+    #[must_use]
+    pub fn at_place(&self, place: u32) -> Option<ToolId> {
+        let mut tools = self.iter();
+        tools
+            .find(|(_, tool)| tool.place == Some(place))
+            .map(|(id, _)| id)
+    }
+
     /// How many there are, at least one.
     #[must_use]
     pub const fn count(&self) -> usize {
@@ -146,6 +155,24 @@ impl Tools {
     #[must_use]
     pub const fn are_several(&self) -> bool {
         !self.others.is_empty()
+    }
+}
+
+impl Cell {
+    /// Who changes the blades of a program that has several.
+    #[must_use]
+    pub fn changer(&self) -> Option<Changer> {
+        let change = self.change.filter(|_| self.tools.are_several())?;
+        Some(change.by)
+    }
+
+    /// The place that a change to a tool names; none where a person changes the blades, or nobody does.
+    #[must_use]
+    pub fn named_place(&self, tool: ToolId) -> Option<u32> {
+        match self.changer()? {
+            Changer::Program => self.tools.get(tool)?.place,
+            Changer::Hand => None,
+        }
     }
 }
 
@@ -166,7 +193,7 @@ pub struct Change {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Changer {
-    /// A routine of the cell, which is told the place of the new blade.
+    /// A routine of the cell, which gets the place of the new blade.
     Program,
     /// A person, while the program waits.
     Hand,

@@ -3,9 +3,7 @@
 use super::{Command, Configuration, End, Held, Pace, Reader, Resolution, Target};
 use crate::corners::may_round;
 use crate::geometry::{Frame, Orientation, Point3};
-use crate::ir::{
-    Action, AxisKind, AxisValues, Cell, Changer, MOST_AXES, OpId, Program, Ready, Switch, ToolId,
-};
+use crate::ir::{Action, AxisKind, AxisValues, MOST_AXES, OpId, Program, Ready, Switch};
 use crate::motion::{ReachableProgram, Waypoint};
 use crate::number::is_within;
 use crate::segments::LinearSegment;
@@ -109,14 +107,6 @@ pub struct Comparator<'p> {
     resolution: Resolution,
 }
 
-/// The place that a change names for a tool; none where it is changed by hand.
-fn told_place(cell: &Cell, tool: ToolId) -> Option<u32> {
-    match cell.change?.by {
-        Changer::Program => cell.tools.get(tool)?.place,
-        Changer::Hand => None,
-    }
-}
-
 /// Numbers that are rounded down may be less by all that is printed last, twice the resolution, and more by nothing but the rounding of
 /// the arithmetic.
 fn is_at_most(is: f64, should: f64, resolution: f64) -> bool {
@@ -198,7 +188,7 @@ impl<'p> Comparator<'p> {
                 (_, _) => found.push(Mismatch::Kind),
             },
             (Action::ToolChange { tool }, &Command::ChangeTool(is), _) => {
-                let should = cell.and_then(|cell| told_place(cell, tool));
+                let should = cell.and_then(|cell| cell.named_place(tool));
                 if is != should {
                     found.push(Mismatch::ToolPlace { is, should });
                 }

@@ -7,7 +7,7 @@ use super::listing::Layer;
 use super::split::Part;
 use super::text::Written;
 use crate::backend::EmitError;
-use crate::ir::{Action, AxisValues, Cell, Changer, FeedId, Op, OpId, Program, RateId, Switch, Tool, ToolId};
+use crate::ir::{Action, AxisValues, Cell, FeedId, Op, OpId, Program, RateId, Switch, Tool, ToolId};
 use crate::motion::ReachableProgram;
 use crate::readback::End;
 use crate::segments::LinearSegment;
@@ -110,8 +110,8 @@ pub struct ToolChange<'a> {
     pub tool: &'a Tool,
     /// What the job calls it.
     pub blade: &'a str,
-    /// Who changes it.
-    pub by: Changer,
+    /// The place of the changer that it comes from; none where a person puts it in.
+    pub place: Option<u32>,
 }
 
 /// How a program lies in files.

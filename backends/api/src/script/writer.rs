@@ -9,7 +9,7 @@ use super::tables::operation_heading;
 use super::text::{Written, digits};
 use crate::backend::EmitError;
 use crate::corners::may_round;
-use crate::ir::{Action, Op, OpId, Ready, Switch, ToolId};
+use crate::ir::{Action, Changer, Op, OpId, Ready, Switch, ToolId};
 use crate::readback::End;
 use crate::segments::{LinearSegment, Path, Segment};
 use crate::state::{Generator, Place};
@@ -266,12 +266,16 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
         else {
             return Err(EmitError::Internal("a tool is not in its table"));
         };
+        let place = match change.by {
+            Changer::Program => Some(tool.place.ok_or(EmitError::Internal("a tool has no place"))?),
+            Changer::Hand => None,
+        };
         self.dialect.change_tool(&ToolChange {
             op,
             id,
             tool,
             blade: &blade.name,
-            by: change.by,
+            place,
         })
     }
 

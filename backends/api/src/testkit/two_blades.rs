@@ -57,8 +57,8 @@ pub fn two_blades(mut program: Program, by: Changer) -> Program {
     let change = [Action::ChangePlace, Action::ToolChange { tool: second }].map(op);
     match program.ops.iter().position(is_of_second) {
         Some(place) => {
-            let behind = program.ops.iter_mut().skip(place);
-            behind.take(2).for_each(by_axes);
+            let later = program.ops.iter_mut().skip(place);
+            later.take(2).for_each(by_axes);
             program.ops.splice(place..place, change);
         }
         None => program.ops.extend(change.into_iter().chain([op(Action::Home)])),

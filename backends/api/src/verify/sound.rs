@@ -48,12 +48,12 @@ pub(super) fn has_a_tool_for_each(cell: &Cell, blades: usize) -> bool {
         [Some(one), Some(other)] => one != other,
         _ => true,
     });
-    let told = match cell.change.map(|change| change.by) {
+    let placed = match cell.change.map(|change| change.by) {
         Some(Changer::Program) => places.iter().all(Option::is_some),
         Some(Changer::Hand) | None => true,
     };
     // A program without operations has no blade, and its machine a tool all the same.
-    cell.tools.count() == blades.max(1) && distinct && (told || !cell.tools.are_several())
+    cell.tools.count() == blades.max(1) && distinct && (placed || !cell.tools.are_several())
 }
 
 /// Whether a machine has a number of axes that it can have, each with a range, and rates that are positive.

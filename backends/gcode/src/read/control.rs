@@ -271,15 +271,12 @@ impl<'a> Control<'a> {
     fn call(&mut self, number: u32) -> Parsed<Effect> {
         let Context { cell, settings, .. } = self.context;
         let other = tools::numbered(cell, settings, number).filter(|&tool| tool != self.tool());
-        let (Some(tool), Some(by)) = (other, tools::changer(cell)) else {
+        let (Some(tool), Some(_)) = (other, cell.changer()) else {
             return self.modes(&[Mode::Tool(Some(number))]);
         };
         self.put_in(Some(tool));
         self.modes(&[Mode::Tool(Some(number))])?;
-        Ok(Effect::Command(Command::ChangeTool(match by {
-            Changer::Program => cell.tools.at(tool).place,
-            Changer::Hand => None,
-        })))
+        Ok(Effect::Command(Command::ChangeTool(cell.named_place(tool))))
     }
 
     /// A blade is changed, which may leave the axes anywhere.
@@ -481,9 +478,9 @@ impl<'a> Control<'a> {
                 Ready::After(_) => return Err(ReadError::Unknown),
             },
             Act::Wait(time) => Command::Wait(time),
-            Act::ChangeTool(place) => match (tools::changer(cell), place) {
+            Act::ChangeTool(place) => match (cell.changer(), place) {
                 (Some(Changer::Program), Some(place)) => {
-                    let tool = tools::at_place(cell, place);
+                    let tool = cell.tools.at_place(place);
                     self.put_in(Some(tool.ok_or(ReadError::Unknown)?));
                     Command::ChangeTool(Some(place))
                 }

@@ -11,7 +11,7 @@ use vcutc_backend_api::testkit::{Recipe, two_blades};
 
 const CHANGERS: [Changer; 2] = [Changer::Program, Changer::Hand];
 
-/// The second tool is told from the first by its number or by its place.
+/// The second tool differs from the first by its number or by its place.
 #[derive(Clone, Copy)]
 enum Numbers {
     Given,

@@ -97,7 +97,7 @@ impl<'a> Controller<'a> {
     /// A call of the routine that changes the blade, if it is one.
     pub(super) fn call(&mut self, name: &str, arguments: &str) -> Option<Effect> {
         let change = tools::called(self.wanted, name, arguments)?;
-        self.changed(tools::at_place(self.wanted, change));
+        self.changed(self.wanted.cell.tools.at_place(change));
         Some(Effect::Command(Command::ChangeTool(Some(change))))
     }
 
@@ -117,7 +117,7 @@ impl<'a> Controller<'a> {
         self.state.position = Position::default();
     }
 
-    /// What a frame is set to. That of a tool tells which one a person has put in.
+    /// What a frame is set to. From that of a tool it follows which one a person has put in.
     fn set(&mut self, role: FrameRole, setting: FrameSetting) -> Effect {
         if role == FrameRole::Tool && self.wanted.tool.is_none() {
             self.wanted.tool = tools::of_frame(self.wanted, &setting);

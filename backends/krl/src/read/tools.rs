@@ -9,25 +9,13 @@ use vcutc_backend_api::readback::FrameSetting;
 /// The place that a call of the cell's routine names, if it is one.
 pub(super) fn called(wanted: Wanted<'_>, name: &str, arguments: &str) -> Option<u32> {
     let is_it =
-        changer(wanted) == Some(Changer::Program) && is_same_name(name, wanted.settings.change_routine);
+        wanted.cell.changer() == Some(Changer::Program) && is_same_name(name, wanted.settings.change_routine);
     arguments.parse().ok().filter(|_| is_it)
-}
-
-/// The tool that is kept at a place.
-pub(super) fn at_place(wanted: Wanted<'_>, place: u32) -> Option<ToolId> {
-    let mut tools = wanted.cell.tools.iter();
-    tools
-        .find(|(_, tool)| tool.place == Some(place))
-        .map(|(id, _)| id)
 }
 
 /// Whether a stop of the program is for a person who changes the blade.
 pub(super) fn are_changed_by_hand(wanted: Wanted<'_>) -> bool {
-    changer(wanted) == Some(Changer::Hand) && wanted.cell.tools.are_several()
-}
-
-fn changer(wanted: Wanted<'_>) -> Option<Changer> {
-    wanted.cell.change.map(|change| change.by)
+    wanted.cell.changer() == Some(Changer::Hand)
 }
 
 /// The tool with a frame as it is printed.

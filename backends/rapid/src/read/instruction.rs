@@ -153,7 +153,7 @@ impl Machine<'_> {
 
     /// The call of the routine that changes the blade, or a stop for a person who does.
     fn change(&self, instruction: Instruction<'_>) -> Option<Command> {
-        let by = self.cell.change.filter(|_| self.cell.tools.are_several())?.by;
+        let by = self.cell.changer()?;
         let routine = self.settings.given(CHANGE_ROUTINE);
         match (by, instruction.required, instruction.optional) {
             (Changer::Program, [Value::Number(place)], [])

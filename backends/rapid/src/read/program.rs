@@ -409,7 +409,7 @@ fn is_list(name: &str) -> bool {
 
 /// The frame of a tool that carries what the job says.
 ///
-/// Where there are several, which one moves is told where they name it.
+/// Where there are several, which one moves is known where they name it.
 fn tool(value: &Value, view: View<'_>, machine: Machine<'_>) -> Option<(ToolId, Effect)> {
     let (frame, load) = view.tool(value)?;
     let setting = FrameSetting::Value(frame);

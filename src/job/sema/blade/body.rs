@@ -1,4 +1,4 @@
-//! `body (height, radius) ...`: what is behind the edge of a blade.
+//! `body (height, radius) ...`: the body of a blade above its edge.
 
 use crate::sema::fields::Fields;
 use crate::sema::quantity::{Measured, mm};
