@@ -16,7 +16,6 @@
 //! What is not said by the user is taken from the program only where that leaves one possibility, and reported
 //! ([`Inference`]).
 
-pub mod arc;
 pub mod asked;
 mod attitude;
 pub mod axes;

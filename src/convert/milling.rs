@@ -1,7 +1,7 @@
 //! What a milling program says, as far as a conversion needs it: motions with places, speeds and attitudes, and the
 //! statements that are none of these.
 
-use super::arc::CircularArc;
+use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::geometry::Orientation;
 use vcutc_diagnostics::source::Span;
 

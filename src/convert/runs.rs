@@ -3,10 +3,10 @@
 //! Posts divide a straight pass into many points, and round each of them by itself. So motions whose points lie within a
 //! tolerance of one another, across and in height, are one run, and its line is the middle of them.
 
-use super::arc::CircularArc;
 use super::axes::Axes;
 use super::milling::{Milling, Move, Way, Written};
 use super::types::Blank;
+use vcutc_backend_api::arc::CircularArc;
 use vcutc_diagnostics::source::Span;
 
 /// A motion to a known point, in the axes of the job.

@@ -32,6 +32,9 @@ pub fn lifted(program: &Program, lift: Length) -> Program {
         ops: Vec::new(),
         ..program.clone()
     };
+    for via in &mut air.vias {
+        via.z += lift.to_mm();
+    }
     let feeds = capped(&program.feeds, TIP_SPEED, Speed::min, &mut air.feeds);
     let rates = capped(&program.rates, TURNING_RATE, AngularSpeed::min, &mut air.rates);
     let feed = |id: FeedId| FeedId(number_of(&feeds, usize::from(id.0)));
@@ -70,8 +73,12 @@ pub fn least_gap(program: &Program) -> Option<Length> {
 
 /// The height of the lowest tip, in mm.
 fn lowest_tip(program: &Program) -> Option<f64> {
-    let poses = program.segments().filter_map(|segment| segment.end());
-    poses.map(|pose| pose.tip.z).reduce(f64::min)
+    let heights = program.segments().filter_map(|segment| {
+        let end = segment.end()?.tip.z;
+        let arc = segment.line().and_then(|line| line.arc());
+        Some(arc.map_or(end, |arc| end.min(arc.room()[0][2])))
+    });
+    heights.reduce(f64::min)
 }
 
 /// An action in the air; none for a wait that has nothing to wait for.
@@ -91,6 +98,10 @@ fn raised(
         Action::Approach { to, feed } | Action::Retract { to, feed } | Action::Cut { to, feed, .. } => {
             to.z += lift.to_mm();
             *feed = feed_of(*feed);
+        }
+        Action::Follow { to, feed, rate, .. } => {
+            to.z += lift.to_mm();
+            (*feed, *rate) = (feed_of(*feed), rate_of(*rate));
         }
         Action::Turn { rate, .. } => *rate = rate_of(*rate),
         Action::Ultrasonic { state } => *state = Switch::Off,

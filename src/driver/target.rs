@@ -298,6 +298,7 @@ fn needing(program: &VerifiedProgram, capability: Capability) -> OpId {
             let _ = ops.find(|(_, op)| matches!(op.action, Action::ToolChange { .. }));
             ops.find(|(_, op)| op.site.operation().is_some())
         }
+        Capability::Chain => ops.find(|(_, op)| matches!(op.action, Action::Follow { .. })),
         Capability::LinearMove
         | Capability::JointMove
         | Capability::StillTipTurn

@@ -485,6 +485,9 @@ const fn rule_words(rule: Rule) -> &'static str {
         Rule::Tools => "the machine has not one tool and one place for each blade",
         Rule::ChangeAway => "the blade is changed away from the change place, or with the generator on",
         Rule::OtherBlade => "the blade at hand is not that of the operation",
+        Rule::Arc => "the three points of a circular motion do not make an arc",
+        Rule::ChainJoint => "the path changes its direction without a stop, or does not end in one",
+        Rule::ChainPosture => "the blade does not stand in the plane of its path",
         Rule::Order => "operations are out of order, or a layer's cuts are not all there",
     }
 }
@@ -508,6 +511,9 @@ const fn rule_label(rule: Rule) -> &'static str {
         | Rule::AirCut
         | Rule::Tools
         | Rule::OtherBlade
+        | Rule::Arc
+        | Rule::ChainJoint
+        | Rule::ChainPosture
         | Rule::Order => "in this line",
     }
 }

@@ -7,6 +7,9 @@ pub(super) fn meaning(command: &Command) -> String {
     match command {
         Command::AxesToPose(target) => format!("to {}", target_meaning(target)),
         Command::Straight { to, pace, end } => format!("straight {} {pace:?} {end:?}", target_meaning(to)),
+        Command::Round { on, to, pace, end } => {
+            format!("round {on:?} {} {pace:?} {end:?}", target_meaning(to))
+        }
         Command::Axes(_)
         | Command::Switch { .. }
         | Command::AwaitInput(_)

@@ -1,19 +1,21 @@
 //! From what a program was read to do back to a program of ops, so that it can be proven like any other.
 //!
 //! Statements that read as they should keep the exact values of their ops. Others take the values as read, and are the kind
-//! of op that they act like: a straight move along y through the stock with the blade held still is a cut, one that only
+//! of op that they act like: a circular move and one that goes on without a stop are pieces of a chain, a straight move along y through the stock with the blade held still is a cut, one that only
 //! turns the blade is a turn, any other goes through the air, and must prove that it does.
 
 use super::comparison::Comparison;
 use super::meaning::says_the_same;
 use super::steps::Step;
+use core::num::NonZeroU32;
+use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::{
-    Action, AxisKind, AxisValues, Cell, FeedId, Flank, Op, OpId, OrientationId, Program, RateId, Ready, Site,
-    Switch, ToolId,
+    Action, AxisKind, AxisValues, Cell, FeedId, Flank, Joint, Op, OpId, OrientationId, Program, RateId,
+    Ready, Site, Switch, ToolId, ViaId,
 };
 use vcutc_backend_api::readback::{
-    Command, Effect, FrameRole, Held, Mismatch, Moment, Pace, Target, rotary_way,
+    Circle, Command, Effect, End, FrameRole, Held, Mismatch, Moment, Pace, Target, rotary_way,
 };
 use vcutc_backend_api::state::{Generator, State, TipPose};
 use vcutc_backend_api::swivel::Apart;
@@ -213,11 +215,23 @@ impl Builder<'_> {
                 let TipPose { tip, orientation } = self.pose(target, partner.as_ref(), given)?;
                 Some(Action::AxisTravel { to: tip, orientation })
             }
-            Command::Straight { to, pace, .. } => {
+            Command::Straight { to, pace, end } => {
                 let pose = self.pose(to, partner.as_ref(), given)?;
                 let speeds = self.speeds(pose, to, *pace, partner.as_ref(), given)?;
                 self.note_axes(to);
-                Some(self.straight(pose, speeds, partner.as_ref()))
+                Some(match (end, partner.as_ref().map(|partner| partner.op.action)) {
+                    (End::Through { .. }, _) | (_, Some(Action::Follow { .. })) => {
+                        self.piece(pose, None, speeds, *end)
+                    }
+                    (End::Exact | End::Rounded, _) => self.straight(pose, speeds, partner.as_ref()),
+                })
+            }
+            Command::Round { on, to, pace, end } => {
+                let pose = self.pose(to, partner.as_ref(), given)?;
+                let via = self.via(*on, pose.tip, partner.as_ref(), given)?;
+                let speeds = self.speeds(pose, to, *pace, partner.as_ref(), given)?;
+                self.note_axes(to);
+                Some(self.piece(pose, Some(via), speeds, *end))
             }
             Command::Switch { output, state } => self.switch(*output, *state),
             Command::AwaitInput(input) => self.await_input(*input),
@@ -483,6 +497,64 @@ impl Builder<'_> {
             },
             None => travel,
         }
+    }
+
+    /// A piece of a chain to a pose.
+    fn piece(
+        &mut self,
+        TipPose { tip: to, orientation }: TipPose,
+        via: Option<ViaId>,
+        (feed, rate): (FeedId, RateId),
+        end: End,
+    ) -> Action {
+        let joint = match end {
+            End::Exact => Joint::Stop,
+            End::Rounded => Joint::Through,
+            End::Through { within } => {
+                self.program.blend = self.program.blend.max(within);
+                Joint::Through
+            }
+        };
+        Action::Follow {
+            to,
+            orientation,
+            via,
+            feed,
+            rate,
+            joint,
+        }
+    }
+
+    /// The point by which an arc is known: that of its partner where it is the same within what is printed.
+    fn via(
+        &mut self,
+        on: Circle,
+        to: Point3,
+        partner: Option<&Partner>,
+        given: usize,
+    ) -> Result<ViaId, Obstacle> {
+        let asked =
+            partner.filter(|partner| !partner.differs_in(|found| matches!(found, Mismatch::Arc { .. })));
+        if let Some(via) = asked.and_then(|partner| partner.op.action.via()) {
+            return Ok(via);
+        }
+        let via = match on {
+            Circle::Via(via) => Some(via),
+            Circle::About { centre, axis } => self.here().and_then(|from| {
+                let arc = CircularArc::about(
+                    centre.to_array(),
+                    axis.to_array(),
+                    [from.tip, to].map(Point3::to_array),
+                )?;
+                Some(Point3::from(arc.at(0.5 * arc.sweep().to_rad())))
+            }),
+        };
+        let via = via.ok_or(Obstacle::NotUnderstood(given))?;
+        self.program.vias.push(via);
+        let number = u32::try_from(self.program.vias.len())
+            .ok()
+            .and_then(NonZeroU32::new);
+        number.map(ViaId).ok_or(Obstacle::TooManyKinds(given))
     }
 
     /// Whether a straight way runs along y through the whole stock, below its top.

@@ -26,6 +26,7 @@ pub(super) fn op_words(program: &Program, op: OpId) -> String {
             Flank::Right => format!("the right flank of {site}"),
         },
         Action::Cut { .. } => format!("a cut of {site}"),
+        Action::Follow { .. } => format!("a piece of the path of {site}"),
         Action::Turn { .. } => format!("the turn at {site}"),
         Action::Ultrasonic { state: Switch::On } => format!("switching the generator on for {site}"),
         Action::Ultrasonic { state: Switch::Off } => format!("switching the generator off after {site}"),
@@ -47,6 +48,7 @@ pub(super) fn command_words(command: &Command) -> String {
             format!("an axis move that brings the tip to {}", point(target.tip))
         }
         Command::Straight { to, .. } => format!("a straight move of the tip to {}", point(to.tip)),
+        Command::Round { to, .. } => format!("a circular move of the tip to {}", point(to.tip)),
         Command::Switch { output, state } => format!("output {output} is switched {}", switch(*state)),
         Command::AwaitInput(input) => format!("the program waits for input {input}"),
         Command::Wait(time) => format!("the program waits for {} s", show(time.to_s())),
@@ -131,6 +133,13 @@ pub(super) fn mismatch_words(mismatch: &Mismatch, cell: Option<&Cell>) -> String
             fine(should.to_s())
         ),
         Mismatch::NoStop => "the machine does not make the exact stop that the job needs".to_owned(),
+        Mismatch::Stops => "the machine stops where the path goes on".to_owned(),
+        Mismatch::Blend { is, should } => format!(
+            "the tip may leave the path by {} mm where it goes on, the job says {} mm",
+            fine(is.to_mm()),
+            fine(should.to_mm())
+        ),
+        Mismatch::Arc { by } => format!("the tip moves on another arc, {} mm off", fine(by.to_mm())),
         Mismatch::Output { is, should } => {
             let wanted = should
                 .0
@@ -223,7 +232,7 @@ const fn switch(state: Switch) -> &'static str {
 
 /// The speed that a statement's command has, where commands of the same text may have another.
 pub(super) fn pace_words(command: &Command) -> Option<String> {
-    let Command::Straight { pace, .. } = command else {
+    let (Command::Straight { pace, .. } | Command::Round { pace, .. }) = command else {
         return None;
     };
     match *pace {

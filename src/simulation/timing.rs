@@ -52,7 +52,7 @@ impl Kind {
     #[must_use]
     pub const fn of(action: &Action) -> Option<Self> {
         Some(match action {
-            Action::Cut { .. } => Self::Cutting,
+            Action::Cut { .. } | Action::Follow { .. } => Self::Cutting,
             Action::Turn { .. } => Self::Turning,
             Action::Travel { .. } | Action::Approach { .. } | Action::Retract { .. } => Self::Travel,
             Action::AwaitReady | Action::Dwell { .. } | Action::ToolChange { .. } => Self::Waiting,

@@ -100,6 +100,7 @@ fn name(action: &Action) -> &'static str {
         Action::Cut {
             flank: Flank::Right, ..
         } => "cut_right",
+        Action::Follow { .. } => "follow",
         Action::Turn { .. } => "turn",
         Action::Ultrasonic { .. } => "ultrasonic",
         Action::AwaitReady => "await_ready",

@@ -110,6 +110,8 @@ fn program(model: &Model, solution: &Solution) -> ReachableProgram {
         orientations: vec![orientation],
         feeds: Vec::new(),
         rates: Vec::new(),
+        vias: Vec::new(),
+        blend: Length::ZERO,
         ops: ops.to_vec(),
     };
     let motion = Motion {

@@ -333,7 +333,7 @@ fn every_op_has_its_place_in_the_text() {
         let word = match op.action {
             Action::Home | Action::ChangePlace | Action::AxisTravel { .. } => "PTP ",
             Action::Travel { .. } | Action::Approach { .. } | Action::Retract { .. } => "LIN ",
-            Action::Cut { .. } | Action::Turn { .. } => "LIN {",
+            Action::Cut { .. } | Action::Follow { .. } | Action::Turn { .. } => "LIN {",
             Action::Ultrasonic { .. } => "$OUT[12]=",
             Action::AwaitReady | Action::Dwell { .. } => "WAIT SEC ",
             Action::ToolChange { .. } => "none",

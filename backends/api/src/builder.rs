@@ -1,12 +1,13 @@
 //! Writes a program: collects its ops and the tables that they refer to.
 
-use crate::geometry::Orientation;
+use crate::geometry::{Orientation, Point3};
 use crate::ir::{
     Action, Blade, Cell, FeedId, IR_VERSION, Op, Operation, OperationId, OperationKind, OrientationId,
-    Program, Purpose, RateId, Site, SourceRef, Stock, ToolId,
+    Program, Purpose, RateId, Site, SourceRef, Stock, ToolId, ViaId,
 };
 use crate::state::State;
-use crate::units::{AngularSpeed, Speed};
+use crate::units::{AngularSpeed, Length, Speed};
+use core::num::NonZeroU32;
 
 /// A program in the making.
 #[derive(Clone, Debug)]
@@ -33,6 +34,8 @@ impl ProgramBuilder {
                 orientations: Vec::new(),
                 feeds: Vec::new(),
                 rates: Vec::new(),
+                vias: Vec::new(),
+                blend: Length::ZERO,
                 ops: Vec::new(),
             },
             state: State::START,
@@ -100,6 +103,18 @@ impl ProgramBuilder {
     #[inline]
     pub fn feed(&mut self, feed: Speed) -> FeedId {
         FeedId(id(find_or_push(&mut self.program.feeds, feed)))
+    }
+
+    /// A point by which an op knows its arc.
+    pub fn via(&mut self, point: Point3) -> ViaId {
+        self.program.vias.push(point);
+        let number = u32::try_from(self.program.vias.len()).unwrap_or(u32::MAX);
+        ViaId(NonZeroU32::new(number).unwrap_or(NonZeroU32::MAX))
+    }
+
+    /// Lets the tip leave the pieces of chains by so much where one goes on into the next.
+    pub const fn blend(&mut self, most: Length) {
+        self.program.blend = most;
     }
 
     /// A rate of the table, added where it is new.

@@ -22,6 +22,12 @@ impl Point3 {
         Self { x, y, z }
     }
 
+    /// Its coordinates, in mm.
+    #[must_use]
+    pub const fn to_array(self) -> [f64; 3] {
+        [self.x, self.y, self.z]
+    }
+
     /// Straight distance to another point.
     #[must_use]
     pub fn distance(self, other: Self) -> Length {
@@ -33,6 +39,12 @@ impl Point3 {
     #[must_use]
     pub const fn is_finite(self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.z.is_finite()
+    }
+}
+
+impl From<[f64; 3]> for Point3 {
+    fn from([x, y, z]: [f64; 3]) -> Self {
+        Self { x, y, z }
     }
 }
 
@@ -228,6 +240,31 @@ impl Orientation {
         let apart = (dw * dw + dx * dx + dy * dy + dz * dz).sqrt();
         let along = (sw * sw + sx * sx + sy * sy + sz * sz).sqrt();
         Angle::rad(4.0 * libm::atan2(apart.min(along), apart.max(along)))
+    }
+}
+
+impl Orientation {
+    /// The rotation that leads from `self` to `other` as a vector in the outer frame: about its direction, by its length in
+    /// rad, from 0 to a half turn.
+    #[must_use]
+    pub fn rotation_to(self, other: Self) -> [f64; 3] {
+        // other * self^-1
+        let [a, b] = [other.quaternion(), self.quaternion()];
+        let (v, u) = ([a[1], a[2], a[3]], [-b[1], -b[2], -b[3]]);
+        let scalar = a[0] * b[0] - (v[0] * u[0] + v[1] * u[1] + v[2] * u[2]);
+        let cross = [
+            v[1] * u[2] - v[2] * u[1],
+            v[2] * u[0] - v[0] * u[2],
+            v[0] * u[1] - v[1] * u[0],
+        ];
+        let sign = if scalar < 0.0 { -1.0 } else { 1.0 };
+        let vector: [f64; 3] = core::array::from_fn(|i| sign * (a[0] * u[i] + b[0] * v[i] + cross[i]));
+        let sine = (vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]).sqrt();
+        if sine < 1e-14 {
+            return [0.0; 3];
+        }
+        let angle = 2.0 * libm::atan2(sine, scalar.abs());
+        vector.map(|part| part * angle / sine)
     }
 }
 

@@ -6,11 +6,12 @@
 mod op;
 mod tools;
 
-pub use op::{Action, ActionKind, Flank, Op, Site, Switch};
+pub use op::{Action, ActionKind, Flank, Joint, Op, Site, Switch};
 pub use tools::{Change, Changer, NoTools, Tool, ToolId, Tools};
 
 use crate::geometry::{Frame, Orientation, Point3};
 use crate::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
+use core::num::NonZeroU32;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -45,6 +46,13 @@ pub struct Program {
     pub feeds: Vec<Speed>,
     /// Reorientation rates that the ops refer to.
     pub rates: Vec<AngularSpeed>,
+    /// Points in W by which the ops know their arcs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub vias: Vec<Point3>,
+    /// How far, at most, the tip may leave the pieces of a chain where one goes on into the next. Zero where every piece is to be
+    /// followed exactly.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub blend: Length,
     /// The ops in the order they are carried out. An op's place in this list is its [`OpId`].
     pub ops: Vec<Op>,
 }
@@ -105,11 +113,22 @@ impl Program {
         self.feeds.get(usize::from(id.0)).copied()
     }
 
+    /// A point of an arc by its number.
+    #[must_use]
+    pub fn via(&self, ViaId(number): ViaId) -> Option<Point3> {
+        self.vias.get(number.get() as usize - 1).copied()
+    }
+
     /// A reorientation rate by its number.
     #[must_use]
     pub fn rate(&self, id: RateId) -> Option<AngularSpeed> {
         self.rates.get(usize::from(id.0)).copied()
     }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_zero(length: &Length) -> bool {
+    *length == Length::ZERO
 }
 
 impl Purpose {
@@ -447,3 +466,9 @@ pub struct FeedId(pub u16);
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(transparent)]
 pub struct RateId(pub u16);
+
+/// Number of a point in [`Program::vias`], counted from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub struct ViaId(pub NonZeroU32);

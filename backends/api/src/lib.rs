@@ -41,6 +41,7 @@
 
 #![warn(missing_docs)]
 
+pub mod arc;
 pub mod arm;
 pub mod backend;
 pub mod builder;
@@ -65,5 +66,6 @@ pub mod swivel;
 #[cfg(feature = "testkit")]
 pub mod testkit;
 pub mod units;
+mod vector;
 pub mod verify;
 pub mod wrist;

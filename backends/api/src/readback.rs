@@ -205,6 +205,17 @@ pub enum Command {
         /// How it ends.
         end: End,
     },
+    /// The tip goes on an arc to a pose.
+    Round {
+        /// Which arc.
+        on: Circle,
+        /// Where it ends.
+        to: Target,
+        /// How fast.
+        pace: Pace,
+        /// How it ends.
+        end: End,
+    },
     /// A digital output is switched.
     Switch {
         /// Its number.
@@ -225,10 +236,26 @@ impl Command {
     #[must_use]
     pub const fn is_motion(&self) -> bool {
         match self {
-            Self::Axes(_) | Self::AxesToPose(_) | Self::Straight { .. } => true,
+            Self::Axes(_) | Self::AxesToPose(_) | Self::Straight { .. } | Self::Round { .. } => true,
             Self::Switch { .. } | Self::AwaitInput(_) | Self::Wait(_) | Self::ChangeTool(_) => false,
         }
     }
+}
+
+/// The arc from where the tip is to where it goes, as dialects state it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Circle {
+    /// By a point between its ends.
+    Via(Point3),
+    /// By its centre, and the axis about which it goes by the rule of the right hand.
+    About {
+        /// Its centre.
+        centre: Point3,
+        /// The direction of the axis.
+        axis: Point3,
+    },
 }
 
 /// A pose as dialects say it.
@@ -289,12 +316,17 @@ pub enum Pace {
 }
 
 /// How a motion ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum End {
     /// At a standstill on the point.
     Exact,
+    /// Without a stop where the next motion goes on in the same direction, the tip never further off the two ways than this.
+    Through {
+        /// How far.
+        within: Length,
+    },
     /// Somewhere near it, on the way to the next.
     Rounded,
 }

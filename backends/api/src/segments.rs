@@ -3,8 +3,9 @@
 //! An op says where a motion ends. Where it begins, and what holds meanwhile, follows from the ops before it. This is worked
 //! out here, once, for everything that follows a program: the verifier, the proofs, the times, the reports, read-back.
 //!
-//! A [`Segment`] is a plain value without allocation. Another kind of path (an arc, say) is another variant of [`Path`].
+//! A [`Segment`] is a plain value without allocation.
 
+use crate::arc::CircularArc;
 use crate::geometry::{Frame, Point3};
 use crate::ir::{Action, Op, OpId, OrientationId, Program};
 use crate::state::{State, TipPose};
@@ -38,18 +39,20 @@ pub enum Path {
     Change,
     /// All axes to a pose of the blade, each straight to its value.
     Axes(TipPose),
-    /// The blade, its tip on a straight line.
+    /// The blade, its tip on a line or an arc.
     Linear(LinearSegment),
 }
 
-/// A motion of the tip on a straight line while the blade turns about one fixed axis. A turn about the still tip has length
-/// zero.
+/// A motion of the tip on a straight line, or on an arc, while the blade turns about one fixed axis. A turn about the still tip
+/// has length zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearSegment {
     /// Where it begins.
     pub from: TipPose,
     /// Where it ends.
     pub to: TipPose,
+    /// A point of the arc on which the tip moves; none on a straight line.
+    pub via: Option<Point3>,
     /// How far the blade turns.
     pub turn: Angle,
     /// Speed of the tip; none for a turn about the still tip.
@@ -193,6 +196,7 @@ impl LinearSegment {
         Some(Self {
             from,
             to,
+            via: action.via().and_then(|via| program.via(via)),
             turn: turn?,
             feed,
             rate,
@@ -203,7 +207,18 @@ impl LinearSegment {
     #[must_use]
     #[inline]
     pub fn length(&self) -> Length {
-        self.from.tip.distance(self.to.tip)
+        match self.arc() {
+            Some(arc) => arc.length(),
+            None => self.from.tip.distance(self.to.tip),
+        }
+    }
+
+    /// The arc on which the tip moves; none on a straight line.
+    #[must_use]
+    #[inline]
+    pub fn arc(&self) -> Option<CircularArc> {
+        let via = self.via?;
+        CircularArc::through([self.from.tip, via, self.to.tip].map(Point3::to_array))
     }
 
     /// Whether the blade is held otherwise at its end.
@@ -244,19 +259,23 @@ impl LinearSegment {
         [moving, turning]
     }
 
-    /// The blade frame T in W when so much of the way is done, from 0 to 1: the tip on its line, the blade turned about one
+    /// The blade frame T in W when so much of the way is done, from 0 to 1: the tip on its way, the blade turned about one
     /// fixed axis. None for a motion of another program.
     #[must_use]
     pub fn frame_at(&self, program: &Program, done: f64) -> Option<Frame> {
         let [from, to] = [program.frame(self.from)?, program.frame(self.to)?];
         let between = |from: f64, to: f64| from + (to - from) * done;
         let (begin, end) = (from.origin, to.origin);
-        Some(Frame {
-            origin: Point3::new(
+        let origin = match self.arc() {
+            Some(arc) => Point3::from(arc.at(arc.sweep().to_rad() * done)),
+            None => Point3::new(
                 between(begin.x, end.x),
                 between(begin.y, end.y),
                 between(begin.z, end.z),
             ),
+        };
+        Some(Frame {
+            origin,
             orientation: from.orientation.towards(to.orientation, done),
         })
     }

@@ -4,12 +4,14 @@
 //! property test can draw recipes at random. [`reachable`] gives a program the motion of a pretend machine. [`samples`] is a
 //! fixed set with the corner cases. [`conformance`] is what the trait [`Backend`](crate::backend::Backend) promises, checked against those samples.
 
+mod chain;
 mod conformance;
 mod pretend;
 mod pretend_five_axis;
 mod recipe;
 mod two_blades;
 
+pub use chain::chained;
 pub use conformance::{conformance, conformance_with};
 pub use pretend::{axes, axes_at, blade_in_work, reachable};
 pub use pretend_five_axis::five_axes;

@@ -7,6 +7,10 @@
 //! and the two flanks of every V are there once.
 
 mod capability;
+mod chain;
+#[cfg(test)]
+#[cfg(feature = "testkit")]
+mod chain_tests;
 #[cfg(test)]
 #[cfg(feature = "testkit")]
 mod change_tests;
@@ -16,6 +20,7 @@ mod sound;
 mod tests;
 
 pub use capability::{Capabilities, Capability};
+pub use chain::{LARGEST_KINK, LARGEST_SLIP, LARGEST_SWEEP};
 
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{
@@ -25,6 +30,7 @@ use crate::ir::{
 use crate::segments::Segment;
 use crate::state::{Generator, Place, State};
 use crate::units::{Angle, Length};
+use chain::OpenChain;
 use core::fmt;
 use core::num::NonZeroU32;
 
@@ -118,6 +124,14 @@ pub enum Rule {
     ChangeAway,
     /// A motion of the blade serves an operation of the blade at hand.
     OtherBlade,
+    /// Three points make the arc of a piece of a chain, which goes round by less than [`LARGEST_SWEEP`].
+    Arc,
+    /// Where a piece of a chain is not to end in a stop the next one follows at once, in the same direction but for
+    /// [`LARGEST_KINK`].
+    ChainJoint,
+    /// All along a piece of a chain the blade stands in the plane of its way but for [`LARGEST_SLIP`], its shank leaning
+    /// along the way, and a cutting edge leads.
+    ChainPosture,
     /// Operations come in order, and the cuts of each layer are numbered from 1 without gaps. In which order an operation
     /// visits them is for the proof to judge.
     Order,
@@ -145,6 +159,9 @@ impl fmt::Display for Rule {
             Self::Tools => "the machine has not one tool and one place for each blade",
             Self::ChangeAway => "the blade is changed away from the change place, or with the generator on",
             Self::OtherBlade => "an operation has another blade at hand than its own",
+            Self::Arc => "three points do not make the arc of a piece of a chain",
+            Self::ChainJoint => "a chain does not go on in the same direction, or does not end",
+            Self::ChainPosture => "a chain holds the blade wrongly",
             Self::Order => "operations are out of order, or a layer's cuts are not all there",
         })
     }
@@ -196,6 +213,8 @@ struct Walk<'p> {
     /// The passes of the operation at hand.
     passes: Vec<Pass>,
     current: OpId,
+    /// The chain that has not come to a stop.
+    chain: Option<OpenChain>,
     overhangs: Overhangs,
     /// Half the thickness of the thickest blade, in mm.
     half_thickness: f64,
@@ -230,6 +249,7 @@ impl<'p> Walk<'p> {
             operation: None,
             passes: Vec::new(),
             current: OpId(0),
+            chain: None,
             overhangs: Overhangs(Vec::new()),
         }
     }
@@ -267,8 +287,10 @@ impl<'p> Walk<'p> {
         });
         let speeds = p.feeds.iter().all(|f| f.is_finite() && f.to_mm_per_s() > 0.0)
             && p.rates.iter().all(|r| r.is_finite() && r.to_rad_per_s() > 0.0);
+        let blend = p.blend.is_finite() && p.blend >= Length::ZERO;
+        let vias = p.vias.iter().all(|via| via.is_finite());
         let cell = p.cell.as_ref();
-        if !(stock && blades && speeds && cell.is_none_or(sound::has_sound_numbers)) {
+        if !(stock && blades && speeds && blend && vias && cell.is_none_or(sound::has_sound_numbers)) {
             broken.push(Rule::Number);
         }
         if !cell.is_none_or(|cell| sound::has_sound_axes(&cell.axes)) {
@@ -298,12 +320,14 @@ impl<'p> Walk<'p> {
             Purpose::AirCut { .. } => self.require(self.is_of_an_air_cut(segment), Rule::AirCut),
         }
         self.tables_have(segment);
+        self.chain_goes_on(op);
         match op.action {
             Action::Home => self.home(before.place),
             Action::Travel { to, .. } => self.travel(segment, to),
             Action::AxisTravel { to, .. } => self.axis_travel(before.place, to),
             Action::Approach { to, .. } | Action::Retract { to, .. } => self.straight(before.place, to),
             Action::Cut { flank, to, .. } => self.cut(segment, flank, to),
+            Action::Follow { to, joint, .. } => self.follow(segment, to, joint),
             Action::Turn { to, .. } => self.turn(segment, to),
             Action::Ultrasonic { .. } => {
                 self.needs = self.needs.with(Capability::Output);
@@ -356,6 +380,7 @@ impl<'p> Walk<'p> {
         let held = segment.end().map(|pose| pose.orientation);
         let known = action.feed().is_none_or(|id| program.feed(id).is_some())
             && action.rate().is_none_or(|id| program.rate(id).is_some())
+            && action.via().is_none_or(|id| program.via(id).is_some())
             && held.is_none_or(|id| program.orientation(id).is_some());
         self.require(known, Rule::TableReference);
     }
@@ -457,13 +482,7 @@ impl<'p> Walk<'p> {
             return;
         };
         self.require(self.crosses_stock(from.tip, to), Rule::CutAcrossStock);
-        if self.is_wired() && self.program.purpose.is_work() {
-            match segment.before.generator {
-                Generator::Off => self.fault(Rule::SilentCut),
-                Generator::Starting => self.fault(Rule::ReadyNotAwaited),
-                Generator::Running => {}
-            }
-        }
+        self.vibrates(segment.before.generator);
         let Site::Cut {
             operation,
             layer,
@@ -486,6 +505,17 @@ impl<'p> Walk<'p> {
             flank,
             op: self.current,
         });
+    }
+
+    /// The blade vibrates, where the machine has a generator and the program cuts.
+    fn vibrates(&mut self, generator: Generator) {
+        if self.is_wired() && self.program.purpose.is_work() {
+            match generator {
+                Generator::Off => self.fault(Rule::SilentCut),
+                Generator::Starting => self.fault(Rule::ReadyNotAwaited),
+                Generator::Running => {}
+            }
+        }
     }
 
     fn turn(&mut self, segment: &Segment<'_>, to: OrientationId) {
@@ -528,6 +558,7 @@ impl<'p> Walk<'p> {
 
     fn ending(&mut self, end: State) {
         self.finish_operation();
+        self.require(self.chain.is_none(), Rule::ChainJoint);
         let rests = match end.place {
             Place::Unknown => true,
             Place::Home => self.has_home(),
@@ -547,8 +578,9 @@ impl<'p> Walk<'p> {
             // The tip stays where the op before has led it.
             Action::Turn { .. } => true,
             _ => {
+                let arc = segment.line().and_then(|line| line.arc());
                 let to = segment.target();
-                to.is_none_or(|to| to.tip.z >= lowest)
+                to.is_none_or(|to| to.tip.z >= lowest) && arc.is_none_or(|arc| arc.room()[0][2] >= lowest)
             }
         }
     }

@@ -269,6 +269,7 @@ impl GcodeDialect<'_, '_, '_> {
         let block = match end {
             End::Exact => settings.facts().exact.map(str::to_owned),
             End::Rounded => settings.controller.rounded(approximation),
+            End::Through { .. } => return Err(EmitError::Internal("a chain was not refused")),
         };
         self.modes.end = end;
         self.blocks.all(block.as_slice())

@@ -105,6 +105,7 @@ impl Dialect for KrlDialect<'_, '_, '_> {
         match motion.end {
             End::Exact => {}
             End::Rounded => self.text.put(planner.approximate()),
+            End::Through { .. } => return Err(EmitError::Internal("a chain was not refused")),
         }
         Ok(self.text.end_line()?)
     }

@@ -219,6 +219,7 @@ impl RapidDialect<'_, '_, '_> {
         self.text.put(match end {
             End::Exact => b"fine",
             End::Rounded => ZONE.as_bytes(),
+            End::Through { .. } => return Err(EmitError::Internal("a chain was not refused")),
         });
         Ok(self.text.line(&self.frames)?)
     }

@@ -6,10 +6,10 @@
 
 use super::frames::Framing;
 use super::{Reader, Told, is_setting};
-use crate::arc::CircularArc;
 use crate::asked::LONGEST;
 use crate::complaints;
 use crate::milling::{Move, Way, Written};
+use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::units::Angle;
 use vcutc_backend_krl::interpreter::Context;
 use vcutc_backend_krl::interpreter::position::{Position, orientation};

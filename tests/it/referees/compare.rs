@@ -104,6 +104,7 @@ fn end(motion: &Action, next: Option<&Action>) -> End {
             | Action::Approach { .. }
             | Action::Retract { .. }
             | Action::Cut { .. }
+            | Action::Follow { .. }
             | Action::Turn { .. }
             | Action::Ultrasonic { .. }
             | Action::AwaitReady

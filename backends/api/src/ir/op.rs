@@ -1,6 +1,6 @@
 //! One op of a program: what of the job it serves, and what is done.
 
-use super::{FeedId, OperationId, OrientationId, RateId, ToolId};
+use super::{FeedId, OperationId, OrientationId, RateId, ToolId, ViaId};
 use crate::geometry::Point3;
 use crate::units::Duration;
 use core::num::NonZeroU32;
@@ -32,7 +32,7 @@ pub enum Site {
         /// The layer, from the top.
         layer: NonZeroU32,
     },
-    /// One V-cut.
+    /// One cut of a layer: a V, or a chain.
     Cut {
         /// The operation.
         operation: OperationId,
@@ -92,6 +92,23 @@ pub enum Action {
         /// Tip speed.
         feed: FeedId,
     },
+    /// Along a line or an arc through the work, the orientation turning about one fixed axis at a constant rate: one piece of a
+    /// chain.
+    Follow {
+        /// Where the tip ends.
+        to: Point3,
+        /// How the blade is held there.
+        orientation: OrientationId,
+        /// A point of the arc on which the tip moves, between its ends; none on a straight line.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        via: Option<ViaId>,
+        /// Tip speed.
+        feed: FeedId,
+        /// Rate at which the orientation turns at most.
+        rate: RateId,
+        /// How the next piece follows.
+        joint: Joint,
+    },
     /// Orientation changes while the tip stays where it is.
     Turn {
         /// How the blade is held afterwards.
@@ -119,6 +136,18 @@ pub enum Action {
         /// The blade at hand afterwards.
         tool: ToolId,
     },
+}
+
+/// What happens at the end of a piece of a chain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Joint {
+    /// The chain goes on in the same direction without a stop; the tip may leave the pieces by the program's
+    /// [`blend`](super::Program::blend).
+    Through,
+    /// An exact stop: the chain ends.
+    Stop,
 }
 
 /// The two flanks of a V, seen looking along +y.
@@ -160,6 +189,8 @@ pub enum ActionKind {
     CutLeft,
     /// [`Action::Cut`] of a right flank.
     CutRight,
+    /// [`Action::Follow`].
+    Follow,
     /// [`Action::Turn`].
     Turn,
     /// [`Action::Ultrasonic`].
@@ -176,7 +207,7 @@ pub enum ActionKind {
 
 impl ActionKind {
     /// The names of all of them, in their order.
-    pub const NAMES: [&'static str; 13] = [
+    pub const NAMES: [&'static str; 14] = [
         "home",
         "travel",
         "axis_travel",
@@ -184,6 +215,7 @@ impl ActionKind {
         "retract",
         "cut_left",
         "cut_right",
+        "follow",
         "turn",
         "ultrasonic",
         "await_ready",
@@ -210,7 +242,8 @@ impl Action {
             | Self::AxisTravel { to, .. }
             | Self::Approach { to, .. }
             | Self::Retract { to, .. }
-            | Self::Cut { to, .. } => Some(*to),
+            | Self::Cut { to, .. }
+            | Self::Follow { to, .. } => Some(*to),
             Self::Home
             | Self::Turn { .. }
             | Self::Ultrasonic { .. }
@@ -228,6 +261,7 @@ impl Action {
         match self {
             Self::Travel { orientation, .. }
             | Self::AxisTravel { orientation, .. }
+            | Self::Follow { orientation, .. }
             | Self::Turn { to: orientation, .. } => Some(*orientation),
             Self::Home
             | Self::Approach { .. }
@@ -249,7 +283,8 @@ impl Action {
             Self::Travel { feed, .. }
             | Self::Approach { feed, .. }
             | Self::Retract { feed, .. }
-            | Self::Cut { feed, .. } => Some(*feed),
+            | Self::Cut { feed, .. }
+            | Self::Follow { feed, .. } => Some(*feed),
             Self::Home
             | Self::AxisTravel { .. }
             | Self::Turn { .. }
@@ -266,7 +301,7 @@ impl Action {
     #[inline(always)]
     pub const fn rate(&self) -> Option<RateId> {
         match self {
-            Self::Travel { rate, .. } | Self::Turn { rate, .. } => Some(*rate),
+            Self::Travel { rate, .. } | Self::Follow { rate, .. } | Self::Turn { rate, .. } => Some(*rate),
             Self::Home
             | Self::AxisTravel { .. }
             | Self::Approach { .. }
@@ -277,6 +312,16 @@ impl Action {
             | Self::Dwell { .. }
             | Self::ChangePlace
             | Self::ToolChange { .. } => None,
+        }
+    }
+
+    /// The point by which an arc is known; none for an action whose tip moves on a line, or not at all.
+    #[must_use]
+    #[inline(always)]
+    pub const fn via(&self) -> Option<ViaId> {
+        match self {
+            Self::Follow { via, .. } => *via,
+            _ => None,
         }
     }
 
@@ -295,6 +340,7 @@ impl Action {
             Self::Cut {
                 flank: Flank::Right, ..
             } => ActionKind::CutRight,
+            Self::Follow { .. } => ActionKind::Follow,
             Self::Turn { .. } => ActionKind::Turn,
             Self::Ultrasonic { .. } => ActionKind::Ultrasonic,
             Self::AwaitReady => ActionKind::AwaitReady,

@@ -1,15 +1,16 @@
 //! What is different between an op and a command.
 
-use super::{Command, Configuration, End, Held, Pace, Reader, Resolution, Target};
+use super::{Circle, Command, Configuration, End, Held, Pace, Reader, Resolution, Target};
 use crate::corners::may_round;
 use crate::geometry::{Frame, Orientation, Point3};
-use crate::ir::{Action, AxisKind, AxisValues, MOST_AXES, OpId, Program, Ready, Switch};
+use crate::ir::{Action, AxisKind, AxisValues, Joint, MOST_AXES, OpId, Program, Ready, Switch};
 use crate::motion::{ReachableProgram, Waypoint};
 use crate::number::is_within;
 use crate::segments::LinearSegment;
 use crate::state::{Generator, State, TipPose};
 use crate::swivel::Apart;
 use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
+use crate::vector::dot;
 
 /// A difference between an op and a command.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,6 +68,20 @@ pub enum Mismatch {
     },
     /// The machine does not stop where it must.
     NoStop,
+    /// The machine stops where a chain goes on.
+    Stops,
+    /// The tip may leave a chain further than it should where it goes on.
+    Blend {
+        /// How far.
+        is: Length,
+        /// How far it should at most.
+        should: Length,
+    },
+    /// The tip goes on another arc.
+    Arc {
+        /// How far the point between the ends, or the centre, is from where it should be.
+        by: Length,
+    },
     /// Another output is switched, or to another state.
     Output {
         /// Which and to what.
@@ -115,6 +130,12 @@ fn is_at_most(is: f64, should: f64, resolution: f64) -> bool {
     (-(1e-3 * resolution + rounding)..=2.0 * resolution * (1.0 + 1e-6) + rounding).contains(&below)
 }
 
+/// Least cosine between the axes of arcs that are one: dialects state main axes exactly, and the sense is what may be wrong.
+const ALONG: f64 = 1.0 - 1e-6;
+
+/// By how much a blend may be larger than stated, in mm: rounding.
+const BLEND_SLACK: f64 = 1e-9;
+
 impl<'p> Comparator<'p> {
     /// A comparator of a program that was printed so finely.
     #[must_use]
@@ -161,14 +182,20 @@ impl<'p> Comparator<'p> {
             (Action::AxisTravel { to: tip, orientation }, Command::AxesToPose(target), Some(_)) => {
                 self.target(moment.op, target, TipPose { tip, orientation }, &mut found);
             }
-            (action, Command::Straight { to, pace, end }, Some(_)) => match self.line(moment) {
-                Some(line) => {
-                    self.target(moment.op, to, line.to, &mut found);
-                    self.pace(moment.op, &line, *pace, &mut found);
-                    self.end(moment, &action, *end, &mut found);
+            (action, Command::Straight { to, pace, end } | Command::Round { to, pace, end, .. }, Some(_)) => {
+                match (self.line(moment), command) {
+                    (Some(line @ LinearSegment { via: None, .. }), Command::Straight { .. }) => {
+                        self.motion(moment, &line, (to, *pace), &mut found);
+                        self.end(moment, &action, *end, &mut found);
+                    }
+                    (Some(line), Command::Round { on, .. }) if line.via.is_some() => {
+                        self.circle(&line, on, &mut found);
+                        self.motion(moment, &line, (to, *pace), &mut found);
+                        self.end(moment, &action, *end, &mut found);
+                    }
+                    (_, _) => found.push(Mismatch::Kind),
                 }
-                None => found.push(Mismatch::Kind),
-            },
+            }
             (Action::Ultrasonic { state }, Command::Switch { output, state: is }, _) => {
                 let should = cell.and_then(|cell| cell.ultrasonic);
                 if (Some(*output), *is) != (should, state) {
@@ -231,6 +258,40 @@ impl<'p> Comparator<'p> {
         found
     }
 
+    /// Where a motion of the tip leads, and how fast.
+    fn motion(
+        &self,
+        moment: Moment,
+        line: &LinearSegment,
+        (to, pace): (&Target, Pace),
+        found: &mut Vec<Mismatch>,
+    ) {
+        self.target(moment.op, to, line.to, found);
+        self.pace(moment.op, line, pace, found);
+    }
+
+    /// The arc on which the tip goes.
+    fn circle(&self, line: &LinearSegment, is: &Circle, found: &mut Vec<Mismatch>) {
+        let (Some(via), Some(arc)) = (line.via, line.arc()) else {
+            found.push(Mismatch::Kind);
+            return;
+        };
+        let (is, should) = match is {
+            Circle::Via(is) => (*is, via),
+            Circle::About { centre, axis } => {
+                if dot(axis.to_array(), arc.axis()) < ALONG {
+                    // The other way round, or in another plane.
+                    found.push(Mismatch::Kind);
+                }
+                (*centre, Point3::from(arc.centre()))
+            }
+        };
+        if !self.is_at(is, should) {
+            let by = is.distance(should);
+            found.push(Mismatch::Arc { by });
+        }
+    }
+
     /// The straight motion of the op at a moment.
     fn line(&self, moment: Moment) -> Option<LinearSegment> {
         let program = self.program();
@@ -274,7 +335,14 @@ impl<'p> Comparator<'p> {
                 (Generator::Running, Some(Ready::After(should))) => self.wait(*is, should, &mut found),
                 (Generator::Running | Generator::Starting | Generator::Off, _) => return false,
             },
-            (Command::AxesToPose(_) | Command::Straight { .. } | Command::ChangeTool(_), _, _) => {
+            (
+                Command::AxesToPose(_)
+                | Command::Straight { .. }
+                | Command::Round { .. }
+                | Command::ChangeTool(_),
+                _,
+                _,
+            ) => {
                 return false;
             }
         }
@@ -361,13 +429,16 @@ impl<'p> Comparator<'p> {
     }
 
     fn tip(&self, is: Point3, should: Point3, found: &mut Vec<Mismatch>) {
-        let resolution = self.resolution.length.to_mm();
-        let near = [(is.x, should.x), (is.y, should.y), (is.z, should.z)]
-            .into_iter()
-            .all(|(is, should)| is_within(is, should, resolution));
-        if !near {
+        if !self.is_at(is, should) {
             found.push(Mismatch::Tip { is, should });
         }
+    }
+
+    fn is_at(&self, is: Point3, should: Point3) -> bool {
+        let resolution = self.resolution.length.to_mm();
+        [(is.x, should.x), (is.y, should.y), (is.z, should.z)]
+            .into_iter()
+            .all(|(is, should)| is_within(is, should, resolution))
     }
 
     fn pace(&self, op: OpId, line: &LinearSegment, pace: Pace, found: &mut Vec<Mismatch>) {
@@ -480,10 +551,24 @@ impl<'p> Comparator<'p> {
         let program = self.program();
         let next = program.ops.get(moment.op.0 as usize + 1).map(|op| &op.action);
         let before = moment.before.place;
-        match end {
-            End::Exact => {}
-            End::Rounded if may_round(program.stock, before, action, next) => {}
-            End::Rounded => found.push(Mismatch::NoStop),
+        let joint = match action {
+            Action::Follow { joint, .. } => *joint,
+            _ => Joint::Stop,
+        };
+        match (joint, end) {
+            (Joint::Stop, End::Exact) => {}
+            (Joint::Stop, End::Rounded) if may_round(program.stock, before, action, next) => {}
+            (Joint::Through, End::Through { within }) => {
+                // A dialect rounds it down.
+                if within.to_mm() > program.blend.to_mm() + BLEND_SLACK {
+                    let (is, should) = (within, program.blend);
+                    found.push(Mismatch::Blend { is, should });
+                }
+            }
+            (Joint::Through, End::Exact) => found.push(Mismatch::Stops),
+            (Joint::Stop | Joint::Through, End::Rounded | End::Through { .. }) => {
+                found.push(Mismatch::NoStop)
+            }
         }
     }
 }

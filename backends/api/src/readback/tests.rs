@@ -1,14 +1,16 @@
 //! Programs told faithfully are followed to their end; told wrongly in one place, they are left right there.
 
 use super::{
-    Command, Comparator, Configuration, Divergence, DivergenceKind, Effect, End, FrameRole, FrameSetting,
-    Frames, Held, Mismatch, Pace, Place, Reader, Replay, Resolution, Sources, Statement, Target,
+    Circle, Command, Comparator, Configuration, Divergence, DivergenceKind, Effect, End, FrameRole,
+    FrameSetting, Frames, Held, Mismatch, Pace, Place, Reader, Replay, Resolution, Sources, Statement,
+    Target,
 };
 use crate::geometry::{Orientation, Point3};
-use crate::ir::{Action, AxisValues, OpId, Program, Ready, Switch};
+use crate::ir::{Action, AxisValues, Joint, OpId, Program, Ready, Switch};
 use crate::motion::{Branch, Motion, ReachableProgram, Waypoint, Wrist};
 use crate::options::Options;
-use crate::testkit::{Crossing, Recipe, axes_at, blade_in_work, reachable, samples};
+use crate::segments::LinearSegment;
+use crate::testkit::{Crossing, Recipe, axes_at, blade_in_work, chained, reachable, samples};
 use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
 use crate::verify::verify;
 use proptest::prelude::*;
@@ -89,11 +91,27 @@ fn told(reachable: &ReachableProgram) -> Vec<Command> {
                 let line = segment.line().unwrap();
                 Command::Straight {
                     to: target(),
-                    pace: Pace::Speeds {
-                        tip: line.feed,
-                        turn: line.rate,
-                    },
+                    pace: speeds(&line),
                     end: End::Exact,
+                }
+            }
+            Action::Follow { joint, .. } => {
+                let line = segment.line().unwrap();
+                let end = match joint {
+                    Joint::Through => End::Through {
+                        within: program.blend,
+                    },
+                    Joint::Stop => End::Exact,
+                };
+                let (to, pace) = (target(), speeds(&line));
+                match line.via {
+                    Some(via) => Command::Round {
+                        on: Circle::Via(via),
+                        to,
+                        pace,
+                        end,
+                    },
+                    None => Command::Straight { to, pace, end },
                 }
             }
             Action::ChangePlace => Command::Axes(cell.change.unwrap().at),
@@ -101,6 +119,13 @@ fn told(reachable: &ReachableProgram) -> Vec<Command> {
         });
     }
     commands
+}
+
+fn speeds(line: &LinearSegment) -> Pace {
+    Pace::Speeds {
+        tip: line.feed,
+        turn: line.rate,
+    }
 }
 
 fn frames(program: &Program) -> Vec<Effect> {
@@ -139,12 +164,14 @@ fn sample() -> ReachableProgram {
         dwell: Some(Duration::s(0.25)),
         ..Recipe::default()
     };
-    reachable(verify(recipe.program()).unwrap()).unwrap()
+    let program = chained(recipe.program(), Angle::deg(60.0), Length::mm(0.1));
+    reachable(verify(program).unwrap()).unwrap()
 }
 
 #[test]
 fn faithful_programs_are_followed_op_by_op() {
-    for (name, program) in samples().unwrap() {
+    let all = samples().unwrap().into_iter().chain([("chain", sample())]);
+    for (name, program) in all {
         let commands = told(&program);
         let count = commands.len();
         let replayed = replayed(&program, whole(&program, commands)).unwrap();
@@ -349,18 +376,22 @@ fn waypoints_are_passed_in_their_order() {
     assert!(!with(&[steps[0], steps[0]]));
 }
 
+fn tip_moved(mut tip: Point3, which: usize, by: f64) -> Option<Point3> {
+    let coordinate = match which {
+        0 => &mut tip.x,
+        1 => &mut tip.y,
+        2 => &mut tip.z,
+        _ => return None,
+    };
+    *coordinate += by * RESOLUTION.length.to_mm();
+    Some(tip)
+}
+
 /// Each number of a command that the op says.
 fn nudged(command: Command, which: usize, by: f64) -> Option<Command> {
     let tip = |target: Target| {
-        let mut target = target;
-        let coordinate = match which {
-            0 => &mut target.tip.x,
-            1 => &mut target.tip.y,
-            2 => &mut target.tip.z,
-            _ => return None,
-        };
-        *coordinate += by * RESOLUTION.length.to_mm();
-        Some(target)
+        let tip = tip_moved(target.tip, which, by)?;
+        Some(Target { tip, ..target })
     };
     match command {
         Command::Axes(mut values) => {
@@ -385,6 +416,14 @@ fn nudged(command: Command, which: usize, by: f64) -> Option<Command> {
                 end,
             }),
             _ => None,
+        },
+        Command::Round { on, to, pace, end } => match on {
+            Circle::Via(via) if which > 2 => {
+                let moved = tip_moved(via, which - 3, by)?;
+                let on = Circle::Via(moved);
+                Some(Command::Round { on, to, pace, end })
+            }
+            Circle::Via(_) | Circle::About { .. } => tip(to).map(|to| Command::Round { on, to, pace, end }),
         },
         Command::Wait(time) => (which == 0).then(|| Command::Wait(time + RESOLUTION.time * by)),
         Command::Switch { .. } | Command::AwaitInput(_) | Command::ChangeTool(_) => None,

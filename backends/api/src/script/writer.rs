@@ -9,7 +9,7 @@ use super::tables::operation_heading;
 use super::text::{Written, digits};
 use crate::backend::EmitError;
 use crate::corners::may_round;
-use crate::ir::{Action, Changer, Op, OpId, Ready, Switch, ToolId};
+use crate::ir::{Action, Changer, Joint, Op, OpId, Ready, Switch, ToolId};
 use crate::readback::End;
 use crate::segments::{LinearSegment, Path, Segment};
 use crate::state::{Generator, Place};
@@ -247,9 +247,18 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
 
     fn linear_move(&mut self, segment: &Segment<'_>, line: &LinearSegment, next: Option<&Action>) -> Written {
         let (stock, action) = (self.source.program().stock, &segment.op.action);
-        let end = match self.common.approximation {
-            Some(_) if may_round(stock, segment.before.place, action, next) => End::Rounded,
-            Some(_) | None => End::Exact,
+        let end = match (self.common.approximation, action) {
+            (
+                _,
+                Action::Follow {
+                    joint: Joint::Through,
+                    ..
+                },
+            ) => End::Through {
+                within: self.source.program().blend,
+            },
+            (Some(_), _) if may_round(stock, segment.before.place, action, next) => End::Rounded,
+            (Some(_) | None, _) => End::Exact,
         };
         self.dialect.linear_move(&LinearMove {
             op: segment.id,

@@ -217,6 +217,8 @@ impl Recipe {
             ],
             feeds: vec![self.cut_feed, self.travel_feed],
             rates: vec![self.rate],
+            vias: Vec::new(),
+            blend: Length::ZERO,
             ops: writer.ops,
         }
     }
@@ -473,7 +475,7 @@ impl Writer<'_> {
 }
 
 /// `R = Ry(swing) Rx(-sense (90 deg - rake)) R0` with `R0 = [+Y +X -Z]`, the posture of a straight blade.
-fn posture(swing: Angle, rake: Angle, sense: f64) -> Orientation {
+pub(super) fn posture(swing: Angle, rake: Angle, sense: f64) -> Orientation {
     let (sin_swing, cos_swing) = libm::sincos(swing.to_rad() / 2.0);
     let lean = -sense * (Angle::deg(90.0) - rake).to_rad() / 2.0;
     let (sin_lean, cos_lean) = libm::sincos(lean);
@@ -484,7 +486,7 @@ fn posture(swing: Angle, rake: Angle, sense: f64) -> Orientation {
 }
 
 /// Product of two quaternions, scalar part first.
-fn product([aw, ax, ay, az]: [f64; 4], [bw, bx, by, bz]: [f64; 4]) -> [f64; 4] {
+pub(super) fn product([aw, ax, ay, az]: [f64; 4], [bw, bx, by, bz]: [f64; 4]) -> [f64; 4] {
     [
         aw * bw - ax * bx - ay * by - az * bz,
         aw * bx + ax * bw + ay * bz - az * by,

@@ -21,11 +21,13 @@ pub enum Capability {
     Dwell,
     /// Changing the blade.
     ToolChange,
+    /// Lines and arcs through the work without a stop between them.
+    Chain,
 }
 
 impl Capability {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::LinearMove,
         Self::JointMove,
         Self::StillTipTurn,
@@ -33,6 +35,7 @@ impl Capability {
         Self::AwaitInput,
         Self::Dwell,
         Self::ToolChange,
+        Self::Chain,
     ];
 
     /// What it is, for people.
@@ -46,6 +49,7 @@ impl Capability {
             Self::AwaitInput => "waiting for a digital input",
             Self::Dwell => "waiting for some time",
             Self::ToolChange => "changes of the blade",
+            Self::Chain => "lines and arcs without a stop between them",
         }
     }
 }

@@ -227,6 +227,7 @@ fn compare(program: &ReachableProgram, bundle: &Bundle, dialect: &str, grain: f6
             | Action::Approach { .. }
             | Action::Retract { .. }
             | Action::Cut { .. }
+            | Action::Follow { .. }
             | Action::Turn { .. } => false,
             Action::Ultrasonic { .. }
             | Action::AwaitReady

@@ -39,6 +39,7 @@ pub(crate) fn steps(program: &ReachableProgram, status: &dyn Fn(&AxisValues) -> 
             | Action::Approach { .. }
             | Action::Retract { .. }
             | Action::Cut { .. }
+            | Action::Follow { .. }
             | Action::Turn { .. } => line(program, from, at.unwrap(), speeds),
             Action::Ultrasonic { state } => Event::Output(cell.ultrasonic.unwrap(), state == Switch::On),
             Action::AwaitReady => match cell.ready {

@@ -1,7 +1,8 @@
-//! A circular arc through three points, or round by an angle, and the room that it takes.
+//! Circular arcs in space: through three points, or round by an angle.
 
+use crate::units::{Angle, Length};
+use crate::vector::{cross, dot, length, minus, plus, scaled};
 use core::f64::consts::TAU;
-use vcutc_backend_api::units::Angle;
 
 /// An arc in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +21,8 @@ const BENT: f64 = 1e-9;
 
 impl CircularArc {
     /// From one point through another to a third; none where they lie on a line, or two of them in one place.
-    pub(super) fn through([from, through, to]: [[f64; 3]; 3]) -> Option<Self> {
+    #[must_use]
+    pub fn through([from, through, to]: [[f64; 3]; 3]) -> Option<Self> {
         let (a, b) = (minus(through, from), minus(to, from));
         let normal = cross(a, b);
         let (aa, bb, nn) = (dot(a, a), dot(b, b), dot(normal, normal));
@@ -43,8 +45,28 @@ impl CircularArc {
         })
     }
 
+    /// About a centre from one point to another, by the rule of the right hand about an axis; none where the first point is on
+    /// the axis.
+    #[must_use]
+    pub fn about(centre: [f64; 3], axis: [f64; 3], [from, to]: [[f64; 3]; 2]) -> Option<Self> {
+        let along = length(axis);
+        let first = minus(from, centre);
+        let second = scaled(cross(axis, first), 1.0 / along);
+        let end = minus(to, centre);
+        let angle = libm::atan2(dot(end, second), dot(end, first));
+        let sweep = if angle > 0.0 { angle } else { angle + TAU };
+        let is_round = along > 0.0 && length(second) > 0.0 && sweep.is_finite();
+        is_round.then_some(Self {
+            centre,
+            first,
+            second,
+            sweep,
+        })
+    }
+
     /// The arc on its circle that goes round by an angle: the way it led for angles above 0, the other way for others.
-    pub(super) fn turned_by(self, angle: Angle) -> Self {
+    #[must_use]
+    pub fn turned_by(self, angle: Angle) -> Self {
         let sweep = angle.to_rad();
         Self {
             second: if sweep < 0.0 {
@@ -58,7 +80,8 @@ impl CircularArc {
     }
 
     /// As seen in other axes: where they put a direction, and where a point.
-    pub(super) fn seen(
+    #[must_use]
+    pub fn seen(
         self,
         direction: impl Fn([f64; 3]) -> [f64; 3],
         point: impl Fn([f64; 3]) -> [f64; 3],
@@ -71,23 +94,67 @@ impl CircularArc {
         }
     }
 
-    pub(super) fn end(&self) -> [f64; 3] {
+    /// The point at which it ends.
+    #[must_use]
+    pub fn end(&self) -> [f64; 3] {
         self.at(self.sweep)
     }
 
     /// The point so far round from where it begins, in rad.
-    pub(super) fn at(&self, angle: f64) -> [f64; 3] {
+    #[must_use]
+    pub fn at(&self, angle: f64) -> [f64; 3] {
         let [x, y] = [libm::cos(angle), libm::sin(angle)];
         plus(self.centre, plus(scaled(self.first, x), scaled(self.second, y)))
     }
 
+    /// The direction in which it goes on, so far round from where it begins, in rad; of unit length.
+    #[must_use]
+    pub fn direction(&self, angle: f64) -> [f64; 3] {
+        let [x, y] = [-libm::sin(angle), libm::cos(angle)];
+        let along = plus(scaled(self.first, x), scaled(self.second, y));
+        scaled(along, 1.0 / self.radius().to_mm())
+    }
+
+    /// The point about which it goes.
+    #[must_use]
+    pub const fn centre(&self) -> [f64; 3] {
+        self.centre
+    }
+
+    /// The axis about which it goes, by the rule of the right hand; of unit length.
+    #[must_use]
+    pub fn axis(&self) -> [f64; 3] {
+        let normal = cross(self.first, self.second);
+        scaled(normal, 1.0 / length(normal))
+    }
+
+    /// How far it goes round; at least 0.
+    #[must_use]
+    pub const fn sweep(&self) -> Angle {
+        Angle::rad(self.sweep)
+    }
+
+    /// The radius of its circle.
+    #[must_use]
+    pub fn radius(&self) -> Length {
+        Length::mm(length(self.first))
+    }
+
+    /// The length of the way along it.
+    #[must_use]
+    pub fn length(&self) -> Length {
+        self.radius() * self.sweep
+    }
+
     /// Points along it, its end among them.
-    pub(super) fn points(&self, count: u32) -> impl Iterator<Item = [f64; 3]> {
+    #[must_use]
+    pub fn points(&self, count: u32) -> impl Iterator<Item = [f64; 3]> {
         (1..=count).map(move |i| self.at(self.sweep * f64::from(i) / f64::from(count)))
     }
 
     /// The least and the greatest x, y and z on it.
-    pub(super) fn room(&self) -> [[f64; 3]; 2] {
+    #[must_use]
+    pub fn room(&self) -> [[f64; 3]; 2] {
         let mut room = [self.at(0.0); 2];
         let mut take = |[x, y, z]: [f64; 3]| {
             let [[x0, y0, z0], [x1, y1, z1]] = room;
@@ -108,30 +175,6 @@ impl CircularArc {
         }
         room
     }
-}
-
-fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn scaled(a: [f64; 3], by: f64) -> [f64; 3] {
-    a.map(|value| value * by)
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 #[cfg(test)]
@@ -185,6 +228,8 @@ mod tests {
             prop_assume!(radius < 1e4);
             prop_assert!(distance(arc.at(0.0), a) < 1e-6);
             prop_assert!(distance(arc.at(arc.sweep), c) < 1e-5);
+            let same = CircularArc::about(arc.centre(), arc.axis(), [a, c]).unwrap();
+            prop_assert!(distance(same.at(0.4 * arc.sweep), arc.at(0.4 * arc.sweep)) < 1e-4);
             let steps = 4000;
             let near_b = arc.points(steps).map(|point| distance(point, b)).fold(f64::INFINITY, f64::min);
             prop_assert!(near_b <= 1e-5 + radius * TAU / f64::from(steps), "{near_b}");

@@ -1,0 +1,136 @@
+//! Rules of chains: pieces of a way through the work that go on into each other.
+
+use super::{Capability, Rule, Walk};
+use crate::geometry::{Orientation, Point3};
+use crate::ir::{Action, Blade, Edges, Joint, Op, OperationId};
+use crate::segments::{LinearSegment, Segment};
+use crate::units::{Angle, Length};
+use crate::vector::{cross, dot, length, minus, scaled};
+
+/// Arcs go round by less than this: beyond it a small error of the point between its ends makes a large one of the arc.
+pub const LARGEST_SWEEP: Angle = Angle::deg(340.0);
+
+/// How far the direction may change at once where a chain goes on: rounding of the points of small arcs.
+pub const LARGEST_KINK: Angle = Angle::deg(0.5);
+
+/// How far the way may lie out of the plane of a straight blade.
+pub const LARGEST_SLIP: Angle = Angle::deg(0.05);
+
+/// Shorter pieces have no direction that could be relied on.
+const SHORTEST: Length = Length::mm(1e-3);
+
+/// The end of a piece that the next one continues.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OpenChain {
+    operation: Option<OperationId>,
+    direction: [f64; 3],
+}
+
+impl Walk<'_> {
+    /// A chain that is not at its end goes on with this op.
+    pub(super) fn chain_goes_on(&mut self, op: &Op) {
+        let Some(chain) = self.chain else { return };
+        let follows = matches!(op.action, Action::Follow { .. }) && op.site.operation() == chain.operation;
+        self.require(follows, Rule::ChainJoint);
+        if !follows {
+            self.chain = None;
+        }
+    }
+
+    /// A piece of a chain.
+    pub(super) fn follow(&mut self, segment: &Segment<'_>, to: Point3, joint: Joint) {
+        self.needs = self.needs.with(Capability::Chain);
+        self.require(to.is_finite(), Rule::Number);
+        let before = self.chain.take();
+        let (Some(_), Some(line)) = (segment.start(), segment.line()) else {
+            self.fault(Rule::KnownStart);
+            return;
+        };
+        self.rotation(segment);
+        self.vibrates(segment.before.generator);
+        let Some([begins, ends]) = directions(&line) else {
+            self.fault(Rule::Arc);
+            return;
+        };
+        let operation = segment.op.site.operation();
+        let blade = operation.and_then(|id| self.program.blade_of(id));
+        self.require(blade.is_some(), Rule::OtherBlade);
+        let held = [line.from, line.to].map(|pose| self.program.orientation(pose.orientation));
+        if let (Some(blade), [Some(from), Some(to)]) = (blade, held) {
+            let good = stands_in_its_way(blade, &line, [from, to], [begins, ends]);
+            self.require(good, Rule::ChainPosture);
+        }
+        let goes_on = before.is_none_or(|before| angle(before.direction, begins) <= LARGEST_KINK);
+        self.require(goes_on, Rule::ChainJoint);
+        self.chain = match joint {
+            Joint::Through => Some(OpenChain {
+                operation,
+                direction: ends,
+            }),
+            Joint::Stop => None,
+        };
+    }
+}
+
+/// The directions in which a piece begins and ends, of unit length; none where it is no line and no arc.
+fn directions(line: &LinearSegment) -> Option<[[f64; 3]; 2]> {
+    let way = line.length();
+    if !way.is_finite() || way < SHORTEST {
+        return None;
+    }
+    match (line.via, line.arc()) {
+        (Some(_), Some(arc)) if arc.sweep() < LARGEST_SWEEP => {
+            Some([arc.direction(0.0), arc.direction(arc.sweep().to_rad())])
+        }
+        (Some(_), _) => None,
+        (None, _) => {
+            let [from, to] = [line.from.tip, line.to.tip].map(Point3::to_array);
+            Some([scaled(minus(to, from), 1.0 / way.to_mm()); 2])
+        }
+    }
+}
+
+/// Whether a blade follows a piece in its own plane, an edge in front and its shank not leaning back.
+///
+/// With `y` the normal of the blade's plane, which turns by the vector `b`, and `t` the direction of the way, which turns by `a`
+/// (both in rad a piece), `(y t)' = (b - a) (y x t)`. As `y x t` is square to `y`, that is at most `|(b - a) x y|`; and `y`
+/// is off `y(0)` by `|b x y(0)|` at most. So between its ends `y t` exceeds the greater value there by no more than half of this.
+fn stands_in_its_way(
+    blade: &Blade,
+    line: &LinearSegment,
+    held: [Orientation; 2],
+    directions: [[f64; 3]; 2],
+) -> bool {
+    let matrices = held.map(Orientation::matrix);
+    let axis = |end: usize, column: usize| -> [f64; 3] {
+        matrices
+            .get(end)
+            .map_or([0.0; 3], |matrix| core::array::from_fn(|row| matrix[row][column]))
+    };
+    let [from, to] = held;
+    let blade_turns = from.rotation_to(to);
+    let way_turns = line
+        .arc()
+        .map_or([0.0; 3], |arc| scaled(arc.axis(), arc.sweep().to_rad()));
+    let apart = minus(blade_turns, way_turns);
+    let normal = axis(0, 1);
+    let between = length(cross(apart, normal)) + length(apart) * length(cross(blade_turns, normal));
+    let slips = (0..2)
+        .zip(directions)
+        .map(|(end, way)| dot(axis(end, 1), way).abs());
+    let slip = slips.fold(0.0, f64::max) + 0.5 * between;
+    let leads = (0..2).zip(directions).all(|(end, way)| {
+        let along = -dot(axis(end, 2), way);
+        let edge = match blade.edges {
+            Edges::Double => true,
+            Edges::Single => dot(axis(end, 0), way) > 0.0,
+        };
+        along >= -1e-6 && axis(end, 2)[2] < 0.0 && edge
+    });
+    slip <= libm::sin(LARGEST_SLIP.to_rad()) && leads
+}
+
+/// The angle between two directions of unit length.
+fn angle(one: [f64; 3], other: [f64; 3]) -> Angle {
+    Angle::rad(libm::atan2(length(cross(one, other)), dot(one, other)))
+}
