@@ -149,7 +149,7 @@ mod tests {
             };
             let start: Joints = first.map(f64::to_radians);
             let wanted: Joints = core::array::from_fn(|axis| start[axis] + turns[axis].to_radians());
-            let course = Course {
+            let course = Course { arc: None,
                 from: rig.blade_in_work(&start),
                 to: rig.blade_in_work(&wanted),
                 duration: 1.0,

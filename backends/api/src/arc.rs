@@ -121,6 +121,12 @@ impl CircularArc {
         self.centre
     }
 
+    /// From the centre to where it begins, and to where it would be a quarter further.
+    #[must_use]
+    pub const fn radii(&self) -> [[f64; 3]; 2] {
+        [self.first, self.second]
+    }
+
     /// The axis about which it goes, by the rule of the right hand; of unit length.
     #[must_use]
     pub fn axis(&self) -> [f64; 3] {

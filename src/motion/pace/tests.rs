@@ -402,6 +402,7 @@ fn an_arm_keeps_its_accelerations_all_along_a_cut() {
     to.origin = Point3::new(to.origin.x + 400.0, to.origin.y - 900.0, to.origin.z + 100.0);
     let to = Pose::from(to);
     let course = Course {
+        arc: None,
         from,
         to,
         duration: 1.0,

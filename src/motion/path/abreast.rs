@@ -7,7 +7,7 @@
 use super::arm::{Carrying, LANES};
 use super::arm_course::{ArmCourse, Solver};
 use super::bounds::{Bounds, Progress, Stretch};
-use super::course::Turning;
+use super::course::Shape;
 use super::march::{Effort, March};
 use super::types::{Breach, Clearance, Course, Proof, Violation};
 use crate::rig::Rig;
@@ -88,16 +88,17 @@ impl<'r> Underway<'r> {
 /// What comes of all courses, in their order.
 pub(super) fn finish(courses: Vec<Result<Underway<'_>, Breach>>) -> Vec<Result<Proof, Breach>> {
     let mut proofs = Vec::with_capacity(courses.len());
-    let (mut still, mut turning) = (Vec::new(), Vec::new());
+    let (mut straight, mut turning, mut round) = (Vec::new(), Vec::new(), Vec::new());
     for (index, course) in courses.into_iter().enumerate() {
         proofs.push(match course {
             Err(breach) => Err(breach),
-            Ok(underway) => match (underway.way.solver, underway.way.flight.turning()) {
+            Ok(underway) => match (underway.way.solver, underway.way.flight.shape()) {
                 (Solver::Numeric(_), _) => underway.alone(),
-                (Solver::ClosedForm(..), turns) => {
-                    let waiting = match turns {
-                        Turning::Still => &mut still,
-                        Turning::Turns => &mut turning,
+                (Solver::ClosedForm(..), shape) => {
+                    let waiting = match shape {
+                        Shape::Straight => &mut straight,
+                        Shape::Turning => &mut turning,
+                        Shape::Arc => &mut round,
                     };
                     waiting.push((index, underway));
                     // Known below.
@@ -109,7 +110,7 @@ pub(super) fn finish(courses: Vec<Result<Underway<'_>, Breach>>) -> Vec<Result<P
             },
         });
     }
-    for waiting in [still, turning] {
+    for waiting in [straight, turning, round] {
         for (index, proof) in abreast(waiting) {
             if let Some(place) = proofs.get_mut(index) {
                 *place = proof;
@@ -119,15 +120,15 @@ pub(super) fn finish(courses: Vec<Result<Underway<'_>, Breach>>) -> Vec<Result<P
     proofs
 }
 
-/// Proves courses of one arm on one branch, all of which turn or none, in the order in which they come to their ends.
+/// Proves courses of one arm on one branch, all of one shape, in the order in which they come to their ends.
 fn abreast(waiting: Vec<(usize, Underway<'_>)>) -> Vec<(usize, Result<Proof, Breach>)> {
     let Some(Solver::ClosedForm(arm, branch)) = waiting.first().map(|(_, first)| first.way.solver) else {
         return Vec::new();
     };
-    let turning = waiting
+    let shape = waiting
         .first()
-        .map_or(Turning::Still, |(_, first)| first.way.flight.turning());
-    let mut carrying = Carrying::new(arm, branch, turning);
+        .map_or(Shape::Straight, |(_, first)| first.way.flight.shape());
+    let mut carrying = Carrying::new(arm, branch, shape);
     let mut proven = Vec::with_capacity(waiting.len());
     let mut waiting = waiting.into_iter();
     let mut lanes: [Option<(usize, Underway<'_>)>; LANES] = [const { None }; LANES];

@@ -5,7 +5,7 @@
 //! branch. Several courses are computed side by side, as lanes of a vector.
 
 use super::bounds::Stretch;
-use super::course::{CARRIED, Flange, Flight, Span, Turning};
+use super::course::{CARRIED, Flange, Flight, Shape, Span};
 use super::types::{Clearance, Singularity, Violation};
 use super::wide::Wide;
 use core::f64::consts::PI;
@@ -69,7 +69,7 @@ type Row = [f64; LANES];
 pub(super) struct Carrying<'a> {
     pub(super) arm: &'a Opw,
     pub(super) branch: ArmBranch,
-    turning: Turning,
+    shape: Shape,
     carried: [Row; CARRIED],
     middle: Row,
     half: Row,
@@ -80,11 +80,11 @@ pub(super) struct Carrying<'a> {
 }
 
 impl<'a> Carrying<'a> {
-    pub(super) const fn new(arm: &'a Opw, branch: ArmBranch, turning: Turning) -> Self {
+    pub(super) const fn new(arm: &'a Opw, branch: ArmBranch, shape: Shape) -> Self {
         Self {
             arm,
             branch,
-            turning,
+            shape,
             carried: [[0.0; LANES]; CARRIED],
             middle: [0.5; LANES],
             half: [0.5; LANES],
@@ -93,7 +93,7 @@ impl<'a> Carrying<'a> {
         }
     }
 
-    /// Puts a course into a lane. It turns as all do, or does not, as all do not.
+    /// Puts a course into a lane. It has the shape of all others.
     pub(super) fn take(&mut self, lane: usize, flight: &Flight) {
         let numbers = flight.carried(DVec3::new(0.0, 0.0, -self.arm.c4)).numbers();
         for (row, number) in self.carried.iter_mut().zip(numbers) {
@@ -133,12 +133,12 @@ impl WithSimd for Sweep<'_, '_> {
         let Self(all) = self;
         for first in (0..all.lanes).step_by(S::F64_LANES) {
             let mut carried = [Wide::new(simd, &[]); CARRIED];
-            for (wide, row) in carried.iter_mut().zip(&all.carried) {
+            for (wide, row) in carried.iter_mut().zip(&all.carried).take(all.shape.numbers()) {
                 *wide = Wide::new(simd, rest(row, first));
             }
             let middle = Wide::new(simd, rest(&all.middle, first));
             let half = Wide::new(simd, rest(&all.half, first));
-            let flange = Flange::over(&carried, all.turning, middle, half);
+            let flange = Flange::over(&carried, all.shape, middle, half);
             let posture = posture(all.arm, all.branch, &flange);
             all.swept.write(first, &posture, half);
         }

@@ -3,6 +3,7 @@
 use super::types::Course;
 use crate::rig::Rig;
 use glam::{DMat3, DQuat, DVec3};
+use vcutc_backend_api::arc::CircularArc;
 use vcutc_geometry::number::{Along, Interval, Number};
 use vcutc_machine::kinematics::pose::Pose;
 
@@ -19,7 +20,7 @@ pub(super) struct Span {
     pub(super) half: f64,
 }
 
-/// The flange on its way: a fixed point of it (where the blade's tip is) on a line, its orientation turning about an axis
+/// The flange on its way: a fixed point of it (where the blade's tip is) on a line or an arc, its orientation turning about an axis
 /// that is fixed in the root.
 ///
 /// With `R(s) = R0 exp(s angle [axis in blade])`, the rotation `B R(s) F` of the flange in the root is
@@ -30,12 +31,44 @@ pub(super) struct Flight {
     tip: DVec3,
     /// What the tip moves by, in mm.
     way: DVec3,
+    /// The arc on which it moves instead of a line.
+    arc: Option<Arc>,
     /// What the flange turns about, in the root; of unit length.
     axis: DVec3,
     /// How far it turns, in rad; zero or more.
     angle: f64,
     /// The flange in the root at the start.
     start: Pose,
+}
+
+/// The points `centre + cos(s sweep) first + sin(s sweep) second` in the root.
+#[derive(Clone, Copy, Debug)]
+struct Arc {
+    centre: DVec3,
+    first: DVec3,
+    second: DVec3,
+    /// How far it goes round, in rad.
+    sweep: f64,
+}
+
+impl Arc {
+    fn new(rig: &Rig<'_>, in_work: &CircularArc) -> Self {
+        let work = rig.work_in_root;
+        let [first, second] = in_work
+            .radii()
+            .map(|radius| work.rotation * DVec3::from_array(radius));
+        Self {
+            centre: work.rotation * DVec3::from_array(in_work.centre()) + work.position,
+            first,
+            second,
+            sweep: in_work.sweep().to_rad(),
+        }
+    }
+
+    fn at(&self, s: f64) -> DVec3 {
+        let (sin, cos) = libm::sincos(s * self.sweep);
+        self.centre + self.first * cos + self.second * sin
+    }
 }
 
 impl Flight {
@@ -49,6 +82,7 @@ impl Flight {
         let flight = Self {
             tip,
             way: end - tip,
+            arc: course.arc.map(|arc| Arc::new(rig, &arc)),
             axis,
             angle,
             start,
@@ -56,6 +90,9 @@ impl Flight {
         let is_near = |point: DVec3| point.is_finite() && point.abs().max_element() <= FARTHEST;
         let is_sound = is_near(tip)
             && is_near(end)
+            && flight
+                .arc
+                .is_none_or(|arc| is_near(arc.centre) && arc.sweep.is_finite())
             && is_near(start.position)
             && start.rotation.is_finite()
             && axis.is_finite()
@@ -68,11 +105,15 @@ impl Flight {
         let turned = DMat3::from_quat(quaternion(self.axis, s * self.angle));
         Pose {
             rotation: turned * self.start.rotation,
-            position: self.tip + self.way * s + turned * (self.start.position - self.tip),
+            position: self.tip_at(s) + turned * (self.start.position - self.tip),
         }
     }
 
-    /// How fast the tip moves, in mm a course, and how fast the flange turns, as a vector in rad a course.
+    fn tip_at(&self, s: f64) -> DVec3 {
+        self.arc.map_or(self.tip + self.way * s, |arc| arc.at(s))
+    }
+
+    /// On a line: how fast the tip moves, in mm a course, and how fast the flange turns, as a vector in rad a course.
     pub(super) fn velocity(&self) -> (DVec3, DVec3) {
         (self.way, self.axis * self.angle)
     }
@@ -82,7 +123,7 @@ impl Flight {
         self.start.rotation.transpose() * (self.tip - self.start.position)
     }
 
-    /// Where the tip is in the root on a span.
+    /// On a line: where the tip is in the root on a span.
     pub(super) fn tip_over(&self, span: Span) -> [Interval; 3] {
         let (tip, slope) = (self.tip + self.way * span.middle, self.way * span.half);
         core::array::from_fn(|i| Interval::around(tip[i], slope[i].abs() + ROUNDING))
@@ -97,29 +138,32 @@ impl Flight {
         Carried {
             tip: self.tip,
             way: self.way,
+            arc: self.arc,
             angle: self.angle,
             turned: [from_tip, x, y, z].map(|vector| self.parts(vector)),
         }
     }
 
-    /// Whether the flange turns at all.
-    pub(super) const fn turning(&self) -> Turning {
-        if self.angle == 0.0 {
-            Turning::Still
+    /// What it is computed by.
+    pub(super) const fn shape(&self) -> Shape {
+        if self.arc.is_some() {
+            Shape::Arc
+        } else if self.angle == 0.0 {
+            Shape::Straight
         } else {
-            Turning::Turns
+            Shape::Turning
         }
     }
 
     /// A vector as Rodrigues' formula takes it.
     fn parts(&self, vector: DVec3) -> Parts {
-        match self.turning() {
-            Turning::Still => Parts {
+        match self.shape() {
+            Shape::Straight => Parts {
                 along: vector,
                 square: DVec3::ZERO,
                 across: DVec3::ZERO,
             },
-            Turning::Turns => {
+            Shape::Turning | Shape::Arc => {
                 let along = self.axis * self.axis.dot(vector);
                 Parts {
                     along,
@@ -131,12 +175,25 @@ impl Flight {
     }
 }
 
-/// Whether a flange turns on its way.
+/// How a flange is on its way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Turning {
-    /// It only moves along.
-    Still,
-    Turns,
+pub(super) enum Shape {
+    /// It only moves along a line.
+    Straight,
+    /// It turns while its point moves along a line.
+    Turning,
+    /// Its point goes round, whether it turns or not.
+    Arc,
+}
+
+impl Shape {
+    /// How many of the numbers that a course carries it needs.
+    pub(super) const fn numbers(self) -> usize {
+        match self {
+            Self::Straight | Self::Turning => ON_LINES,
+            Self::Arc => CARRIED,
+        }
+    }
 }
 
 /// A vector that is carried along: its part along the axis of the turn, and what cosine and sine belong to.
@@ -152,12 +209,16 @@ struct Parts {
 pub(super) struct Carried {
     tip: DVec3,
     way: DVec3,
+    arc: Option<Arc>,
     angle: f64,
     turned: [Parts; 4],
 }
 
-/// How many numbers that is.
-pub(super) const CARRIED: usize = 43;
+/// How many numbers that is on a line: the angle, tip and way, and four vectors in three parts.
+const ON_LINES: usize = 1 + 2 * 3 + 4 * 3 * 3;
+
+/// How many it is at most: on an arc its sweep and two radii come on top, and its centre is in the place of the tip.
+pub(super) const CARRIED: usize = ON_LINES + 1 + 2 * 3;
 
 impl Carried {
     /// All of it, in the order in which [`Flange::over`] takes it.
@@ -166,13 +227,15 @@ impl Carried {
             .turned
             .iter()
             .flat_map(|part| [part.along, part.square, part.across]);
-        let vectors = [self.tip, self.way].into_iter().chain(parts);
+        let tip = self.arc.map_or(self.tip, |arc| arc.centre);
+        let vectors = [tip, self.way].into_iter().chain(parts);
+        let on_line = vectors.flat_map(|vector| vector.to_array());
+        let round = self.arc.into_iter().flat_map(|arc| {
+            let radii = [arc.first, arc.second].map(|radius| radius.to_array());
+            core::iter::once(arc.sweep).chain(radii.into_iter().flatten())
+        });
         let mut all = [self.angle; CARRIED];
-        for (place, number) in all
-            .iter_mut()
-            .skip(1)
-            .zip(vectors.flat_map(|vector| vector.to_array()))
-        {
+        for (place, number) in all.iter_mut().skip(1).zip(on_line.chain(round)) {
             *place = number;
         }
         all
@@ -190,19 +253,32 @@ pub(super) struct Flange<N> {
 impl<N: Number> Flange<N> {
     /// The flange on the span within `half` of `middle`, by the numbers of [`Carried::numbers`].
     #[inline(always)]
-    pub(super) fn over(carried: &[N; CARRIED], turning: Turning, middle: N, half: N) -> Self {
+    pub(super) fn over(carried: &[N; CARRIED], shape: Shape, middle: N, half: N) -> Self {
         let (angle, tip, way) = (carried[0], vector(carried, 1), vector(carried, 4));
-        let sin_cos = match turning {
-            Turning::Still => None,
-            Turning::Turns => Some(Along::line(angle * middle, angle * half).sin_cos()),
+        let sin_cos = match shape {
+            Shape::Straight => None,
+            Shape::Turning | Shape::Arc => Some(Along::line(angle * middle, angle * half).sin_cos()),
+        };
+        let tip = match shape {
+            Shape::Straight | Shape::Turning => [
+                Along::line(tip[0] + way[0] * middle, way[0] * half),
+                Along::line(tip[1] + way[1] * middle, way[1] * half),
+                Along::line(tip[2] + way[2] * middle, way[2] * half),
+            ],
+            Shape::Arc => {
+                let sweep = carried[ON_LINES];
+                let (sin, cos) = Along::line(sweep * middle, sweep * half).sin_cos();
+                let (first, second) = (vector(carried, ON_LINES + 1), vector(carried, ON_LINES + 4));
+                [
+                    rodrigues(sin, cos, tip[0], first[0], second[0]),
+                    rodrigues(sin, cos, tip[1], first[1], second[1]),
+                    rodrigues(sin, cos, tip[2], first[2], second[2]),
+                ]
+            }
         };
         let [x, y, z] = turned(carried, 0, sin_cos);
         Self {
-            point: [
-                Along::line(tip[0] + way[0] * middle, way[0] * half) + x,
-                Along::line(tip[1] + way[1] * middle, way[1] * half) + y,
-                Along::line(tip[2] + way[2] * middle, way[2] * half) + z,
-            ],
+            point: [tip[0] + x, tip[1] + y, tip[2] + z],
             axes: [
                 turned(carried, 1, sin_cos),
                 turned(carried, 2, sin_cos),

@@ -9,6 +9,7 @@ mod windows;
 use super::*;
 use core::f64::consts::{FRAC_PI_2, PI};
 use glam::{DMat3, DQuat, DVec3};
+use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
 use vcutc_machine::kinematics::opw::{Coupling, Opw};
@@ -169,7 +170,12 @@ fn random_move(
         position: from.position + dice.direction() * length,
     };
     let duration = length / dice.between(20.0, 600.0);
-    let course = Course { from, to, duration };
+    let course = Course {
+        arc: None,
+        from,
+        to,
+        duration,
+    };
     (course, branch_of(rig, &start), start)
 }
 
@@ -196,6 +202,39 @@ fn branch_of(rig: &Rig<'_>, joints: &Joints) -> Branch {
     nearest.map_or(Branch::Numbered(0), |solution| solution.branch)
 }
 
+/// The same on an arc, which goes round by up to 300 deg.
+fn random_arc(
+    dice: &mut Dice,
+    rig: &Rig<'_>,
+    ranges: &[Axis],
+    longest: f64,
+    most_turn: f64,
+) -> (Course, Branch, Joints) {
+    let (course, branch, start) = random_move(dice, rig, ranges, longest, most_turn);
+    let axis = dice.direction();
+    let centre = course.from.position + axis.any_orthonormal_vector() * dice.between(1.0, longest);
+    let sweep = dice.between(0.05, 300.0_f64.to_radians());
+    let at = |share: f64| {
+        let turned = DQuat::from_axis_angle(axis, share * sweep);
+        centre + turned * (course.from.position - centre)
+    };
+    let points = [at(0.0), at(0.6), at(1.0)].map(|point| point.to_array());
+    let arc = CircularArc::through(points).expect("points that lie apart");
+    let to = Pose {
+        position: at(1.0),
+        ..course.to
+    };
+    let duration = arc.length().to_mm() / dice.between(20.0, 600.0);
+    let arc = Some(arc);
+    let course = Course {
+        to,
+        arc,
+        duration,
+        ..course
+    };
+    (course, branch, start)
+}
+
 /// The interpolation by another formula than the proof's.
 fn blade_at(course: &Course, s: f64) -> Pose {
     let (one, other) = (
@@ -204,7 +243,14 @@ fn blade_at(course: &Course, s: f64) -> Pose {
     );
     Pose {
         rotation: DMat3::from_quat(one.slerp(other, s)),
-        position: course.from.position.lerp(course.to.position, s),
+        position: match course.arc {
+            None => course.from.position.lerp(course.to.position, s),
+            Some(arc) => {
+                let centre = DVec3::from_array(arc.centre());
+                let turned = DQuat::from_axis_angle(DVec3::from_array(arc.axis()), s * arc.sweep().to_rad());
+                centre + turned * (course.from.position - centre)
+            }
+        },
     }
 }
 
@@ -219,7 +265,10 @@ struct Sampled {
 }
 
 fn sample(rig: &Rig<'_>, arm: &Opw, course: &Course, branch: Branch, start: &Joints) -> Option<Sampled> {
-    let length = course.from.position.distance(course.to.position);
+    let length = match course.arc {
+        None => course.from.position.distance(course.to.position),
+        Some(arc) => arc.length().to_mm(),
+    };
     let steps = (length / 0.05).ceil().max(200.0);
     let mut found = Sampled {
         low: *start,

@@ -1,11 +1,12 @@
 //! What is asked of a machine's axes, and what comes of it: a course, its proof, or the first breach.
 
+use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::ir::Program;
 use vcutc_backend_api::segments::LinearSegment;
 use vcutc_machine::kinematics::Joints;
 use vcutc_machine::kinematics::pose::Pose;
 
-/// A motion as controllers interpolate it: the tip on a straight line, the orientation on one rotation axis (of a robot) or
+/// A motion as controllers interpolate it: the tip on a straight line or an arc, the orientation on one rotation axis (of a robot) or
 /// the rotary axes each at a constant rate (of a five-axis machine), both at a constant rate and finishing together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Course {
@@ -13,17 +14,20 @@ pub struct Course {
     pub from: Pose,
     /// Blade frame T in W at the end.
     pub to: Pose,
+    /// The arc of the tip in W, from where it is at the start to where it is at the end; none on a straight line.
+    pub arc: Option<CircularArc>,
     /// How long it takes, in s; positive.
     pub duration: f64,
 }
 
 impl Course {
-    /// That of a straight motion of a program.
+    /// That of a motion of a program.
     #[must_use]
     pub fn of(program: &Program, line: &LinearSegment) -> Option<Self> {
         Some(Self {
             from: Pose::from(program.frame(line.from)?),
             to: Pose::from(program.frame(line.to)?),
+            arc: line.arc(),
             duration: line.duration().to_s(),
         })
     }

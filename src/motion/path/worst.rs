@@ -68,7 +68,7 @@ pub fn worst(
 fn stretches(way: &ArmCourse<'_>, samples: &[(f64, Joints)]) -> Vec<Result<Stretch, Violation>> {
     match way.solver {
         Solver::ClosedForm(arm, branch) => {
-            let mut carrying = Carrying::new(arm, branch, way.flight.turning());
+            let mut carrying = Carrying::new(arm, branch, way.flight.shape());
             (0..LANES).for_each(|lane| carrying.take(lane, &way.flight));
             let mut found = Vec::with_capacity(samples.len());
             for some in samples.chunks(LANES) {

@@ -88,6 +88,7 @@ fn solved(rig: &Rig<'_>, rotary: [f64; 3], tip: DVec3) -> DVec3 {
 /// A course from and to what axis values give, in a second and a half.
 fn course(rig: &Rig<'_>, start: &Joints, end: &Joints) -> Course {
     Course {
+        arc: None,
         from: rig.blade_in_work(start),
         to: rig.blade_in_work(end),
         duration: 1.5,
@@ -180,7 +181,7 @@ proptest! {
         let mut end = start;
         end[3] += turn;
         let to = Pose { position: from.position, ..rig(&mechanism, &free).blade_in_work(&end) };
-        let course = Course { from, to, duration: 1.0 };
+        let course = Course { arc: None, from, to, duration: 1.0 };
         let proof = prove(&machine, &rig(&mechanism, &free), &course, branch, &start).unwrap();
         let (place, high) = peak(&rig(&mechanism, &free), &course, &proof, axis);
         let ends = start[axis].max(proof.end[axis]);
@@ -207,6 +208,7 @@ fn a_cut_needs_two_looks() {
         let start = [10.0, 20.0, 30.0, 0.3, 0.4, 0.2];
         let from = rig.blade_in_work(&start);
         let course = |duration| Course {
+            arc: None,
             from,
             to: Pose {
                 position: from.position + DVec3::new(0.0, 1000.0, 0.0),

@@ -1,6 +1,7 @@
 //! The proof against dense sampling, on random moves of several arms.
 
 use super::*;
+use vcutc_machine::kinematics::serial::SerialArm;
 
 /// By how much the axes keep within all bounds, in parts of the margin below which the proof may refuse: 1 deg of angle,
 /// 5 mm, 5 percent of the rate. Negative where a bound is broken.
@@ -21,13 +22,20 @@ fn margin(rig: &Rig<'_>, found: &Sampled) -> f64 {
         .min((clearance.shoulder - LEAST.shoulder) / 5.0)
 }
 
+/// How moves are drawn: on lines or on arcs.
+type Draw = fn(&mut Dice, &Rig<'_>, &[Axis], f64, f64) -> (Course, Branch, Joints);
+
 fn agrees_with_sampling(model: &Model, moves: u32, longest: f64, most_turn: f64) {
+    agree_with_sampling(random_move, model, moves, longest, most_turn);
+}
+
+fn agree_with_sampling(draw: Draw, model: &Model, moves: u32, longest: f64, most_turn: f64) {
     let rig = rig(model);
     let arm = arm_of(model);
     let mut dice = Dice(u64::from(moves));
     let (mut proven, mut refused, mut seen_sooner) = (0, 0, 0);
     for number in 0..moves {
-        let (course, branch, start) = random_move(&mut dice, &rig, rig.axes, longest, most_turn);
+        let (course, branch, start) = draw(&mut dice, &rig, rig.axes, longest, most_turn);
         let proof = prove(&rig, &course, branch, &start, &LEAST);
         let sampled = sample(&rig, &arm, &course, branch, &start);
         if let Some(seen) = refuted(&rig, &course, branch, &start) {
@@ -112,4 +120,43 @@ fn agrees_with_dense_sampling_on_long_moves() {
     for model in [kuka(), beside(), rods()] {
         agrees_with_sampling(&model, 100, 1000.0, PI * 0.9);
     }
+}
+
+#[test]
+fn arcs() {
+    for model in [kuka(), beside(), rods()] {
+        agree_with_sampling(random_arc, &model, 300, 60.0, 0.6);
+    }
+}
+
+/// Arms and machines for which there is no proof of arcs do not follow any.
+#[test]
+fn arcs_are_refused_where_they_cannot_be_proven() {
+    let model = kuka();
+    let serial = SerialArm::from(&arm_of(&model));
+    let numeric = Model {
+        mechanism: Mechanism::Serial(serial),
+        ..model.clone()
+    };
+    let rig_of_both = rig(&model);
+    let (course, _, start) = random_arc(&mut Dice(3), &rig_of_both, &model.axes, 60.0, 0.6);
+    let rig = rig(&numeric);
+    let straight = Course { arc: None, ..course };
+    let slow = Course {
+        duration: 1e4,
+        ..straight
+    };
+    let on_line = prove(&rig, &slow, Branch::Numbered(0), &start, &LEAST);
+    let on_arc = prove(
+        &rig,
+        &Course {
+            arc: course.arc,
+            ..slow
+        },
+        Branch::Numbered(0),
+        &start,
+        &LEAST,
+    );
+    assert!(on_line.is_ok(), "{on_line:?}");
+    assert_eq!(on_arc.map_err(|breach| breach.what), Err(Violation::OutOfReach));
 }

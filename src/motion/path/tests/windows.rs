@@ -125,6 +125,7 @@ fn past_the_stretched_hand(rig: &Rig<'_>, arm: &Opw, aside: f64) -> (Course, Bra
         rig.work_in_root.inverse() * flange * rig.flange_in_blade.inverse()
     };
     let course = Course {
+        arc: None,
         from: at(-0.3),
         to: at(0.3),
         duration: 1.0,
@@ -284,6 +285,7 @@ fn cuts_of_a_metre(model: &Model) -> Vec<(Rig<'_>, Course, Branch, Joints)> {
                 position: DVec3::new(x, y, z),
             };
             let course = Course {
+                arc: None,
                 from: at(0.0),
                 to: at(1000.0),
                 duration: 1000.0 / 300.0,
