@@ -2,8 +2,8 @@
 //!
 //! # What is proven
 //!
-//! A robot's controller moves the tip on a straight line, `p(s) = p0 + s (p1 - p0)`, and turns the blade about one axis,
-//! `R(s) = R0 exp(s phi [a])`, with `s` going from 0 to 1 at a constant rate during the time that the motion takes. A
+//! A robot's controller moves the tip on a straight line, `p(s) = p0 + s (p1 - p0)`, or on an arc about a centre,
+//! `p(s) = c + cos(s sigma) u + sin(s sigma) v`, and turns the blade about one axis, `R(s) = R0 exp(s phi [a])`, with `s` going from 0 to 1 at a constant rate during the time that the motion takes. A
 //! [`Proof`] says of such a [`Course`]:
 //!
 //! > There is **one continuous motion of the axes** that begins with the given values, carries the blade along the whole
@@ -51,8 +51,9 @@
 //! where sampling every millimetre would solve a thousand poses and prove nothing about the places between.
 //!
 //! Arms without a closed form are proven by way of their Jacobian; [`mod@serial`] has the theorem. Of their distance from
-//! singular poses nothing is measured: a proof says that they meet none, and the least clearance asked for is not checked. Five-axis machines are
-//! interpolated in another way and have a check of their own, [`five_axis`].
+//! singular poses nothing is measured: a proof says that they meet none, and the least clearance asked for is not checked.
+//! Five-axis machines are interpolated in another way and have a check of their own, [`five_axis`]. For both, arcs are not
+//! proven, and therefore refused.
 //!
 //! # What is assumed
 //!
