@@ -3,8 +3,8 @@
 //! # What is proven
 //!
 //! A robot's controller moves the tip on a straight line, `p(s) = p0 + s (p1 - p0)`, or on an arc about a centre,
-//! `p(s) = c + cos(s sigma) u + sin(s sigma) v`, and turns the blade about one axis, `R(s) = R0 exp(s phi [a])`, with `s` going from 0 to 1 at a constant rate during the time that the motion takes. A
-//! [`Proof`] says of such a [`Course`]:
+//! `p(s) = c + cos(s sigma) u + sin(s sigma) v`, and turns the blade about one axis, `R(s) = R0 exp(s phi [a])`, with `s`
+//! going from 0 to 1 at a constant rate during the time that the motion takes. A [`Proof`] says of such a [`Course`]:
 //!
 //! > There is **one continuous motion of the axes** that begins with the given values, carries the blade along the whole
 //! > course, stays on its branch, and keeps at every moment within the ranges and rates of the axes, and as far from
@@ -152,7 +152,7 @@ pub fn joints_on(
 pub struct Followed<'r>(Follower<'r>);
 
 enum Follower<'r> {
-    Arm(ArmCourse<'r>),
+    Arm(Box<ArmCourse<'r>>),
     FiveAxis {
         machine: &'r FiveAxis,
         rig: &'r Rig<'r>,
@@ -173,7 +173,7 @@ impl<'r> Followed<'r> {
                 ends,
             }
         } else {
-            Follower::Arm(ArmCourse::new(rig, course, branch)?)
+            Follower::Arm(Box::new(ArmCourse::new(rig, course, branch)?))
         }))
     }
 

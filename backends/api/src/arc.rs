@@ -153,7 +153,6 @@ impl CircularArc {
     }
 
     /// Points along it, its end among them.
-    #[must_use]
     pub fn points(&self, count: u32) -> impl Iterator<Item = [f64; 3]> {
         (1..=count).map(move |i| self.at(self.sweep * f64::from(i) / f64::from(count)))
     }
