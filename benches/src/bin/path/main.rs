@@ -85,6 +85,7 @@ fn cuts(rig: &Rig<'_>) -> Vec<Cut> {
             position: DVec3::new(10.0 * f64::from(column), y, 6.0 * f64::from(row)),
         };
         let course = Course {
+            arc: None,
             from: at(500.0 - 500.0 * sense),
             to: at(500.0 + 500.0 * sense),
             duration: 1000.0 / 300.0,
