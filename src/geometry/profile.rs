@@ -5,8 +5,11 @@
 //! knows how low and high it reaches, so that most blocks are passed over unopened.
 
 mod blocks;
+mod contour;
 mod level;
 mod nearest;
+
+pub use contour::{Contour, Nearest};
 
 use super::point::Point2;
 use blocks::Blocks;

@@ -1,9 +1,9 @@
-//! The machined contour held against the part: distances, and the correlation of both [Cui IV.B].
+//! The machined contour compared with the part: distances, and the correlation of both [Cui IV.B].
 
 use super::prove::merge_heights;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
-use vcutc_geometry::profile::Profile;
+use vcutc_geometry::profile::Nearest;
 
 /// A point of one contour, by its distance from the other: material left standing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,14 +16,14 @@ pub struct Scallop {
 /// Scallops are found to within this, in mm.
 const SCALLOP_TOLERANCE: f64 = 1e-3;
 
-/// The point of a polyline farthest from a profile.
+/// The point of a polyline farthest from another.
 ///
 /// Corners of the polyline come first. Between two of them the distance may still be larger, over the middle of a hollow. But
 /// it is the distance from a segment, which is largest at an end of a stretch, where one segment is nearest to both ends;
 /// and it never changes faster than the place, so on a stretch of length `l` between points `a` and `b` away it is at most
 /// `(a + b + l) / 2`. Stretches where that is no more than what is known are left out, others are halved.
 #[must_use]
-pub fn farthest(corners: &[Point2], from: &Profile) -> Scallop {
+pub fn farthest(corners: &[Point2], from: &impl Nearest) -> Scallop {
     let mut highest = Scallop {
         height: Length::ZERO,
         peak: Point2 { x: 0.0, z: 0.0 },
@@ -120,7 +120,7 @@ fn grid(points: &[Point2]) -> Vec<Point2> {
     all.map(|x| Point2 { x, z: 0.0 }).collect()
 }
 
-/// Heights of a polyline over its grid.
+/// Heights of a polyline over its grid; at a wall that of its left side.
 fn resample(points: &[Point2]) -> Vec<f64> {
     let grid = grid(points);
     let mut heights = Vec::with_capacity(grid.len());
@@ -138,6 +138,7 @@ fn resample(points: &[Point2]) -> Vec<f64> {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use vcutc_geometry::profile::Profile;
 
     fn polyline(heights: &[f64]) -> Vec<Point2> {
         (0_u32..)

@@ -7,7 +7,7 @@ use super::timing::Times;
 use vcutc_backend_api::ir::{OperationId, Stock};
 use vcutc_backend_api::units::{Area, Length};
 use vcutc_geometry::curve::Point2;
-use vcutc_geometry::profile::Profile;
+use vcutc_geometry::profile::{Contour, Profile};
 
 /// Figures of a program.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,9 +66,7 @@ pub fn report(replay: Replay, stock: Stock, part: &Profile, times: Times) -> Rep
     let whole = stock.width.to_mm() * stock.height.to_mm();
     let residual = Area::mm2(machined) - theoretical;
     let scallop = farthest(&corners, part);
-    // Corners ascend, so that this is a profile.
-    let deepest =
-        Profile::new(corners.clone()).map_or(scallop, |machined| farthest(part.points(), &machined));
+    let deepest = farthest(part.points(), &Contour::new(&corners));
     Report {
         layers: replay.layers,
         times,

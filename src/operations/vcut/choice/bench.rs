@@ -114,7 +114,7 @@ impl<'j> Bench<'j> {
         let failing = replay.findings.iter().map(|(count, _)| count).sum();
         let corners: Vec<_> = replay.surface.corners().collect();
         let part = self.job.profile.area_below(0.0, self.job.stock.width.to_mm());
-        let height = farthest(&corners, &self.job.profile).height;
+        let height = farthest(&corners, &*self.job.profile).height;
         Contender {
             laid,
             standing: match failing {
