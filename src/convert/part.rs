@@ -84,10 +84,7 @@ pub(super) fn least_edge(passes: &[Pass], flanks: &Flanks, [width, height]: [f64
     let mut surface = Surface::flat(width, height);
     let mut reach = 0.0_f64;
     for pass in passes {
-        let vee = Vee {
-            tip: Point2 { x: pass.x, z: pass.z },
-            slope: flanks.slope,
-        };
+        let vee = Vee::even(Point2 { x: pass.x, z: pass.z }, flanks.slope);
         if surface.covers(vee.tip) {
             for side in [Side::Left, Side::Right] {
                 reach = reach.max(surface.flank(vee, side).reach);

@@ -28,10 +28,7 @@ pub(super) fn sorted(plunges: &[Plunge], passes: &[Pass], blank: Blank, slope: f
         return sorted;
     }
     let mut surface = Surface::flat(blank.width, blank.height);
-    let vee = |pass: &Pass| Vee {
-        tip: Point2 { x: pass.x, z: pass.z },
-        slope,
-    };
+    let vee = |pass: &Pass| Vee::even(Point2 { x: pass.x, z: pass.z }, slope);
     let stands = |surface: &mut Surface, plunge: &Plunge| {
         let [x, _, z] = plunge.low;
         surface.covers(Point2 { x, z: z + SAME })

@@ -166,6 +166,16 @@ fn over_limit(
 pub fn explained(asked: &dyn Operation, finding: Finding) -> Diagnostic {
     let span = asked.setup().head_span;
     match finding.fault {
+        CutFault::NotFreed { needed, .. } if !needed.is_finite() => Diagnostic::new(
+            Code::ChipNotFreed,
+            format!(
+                "{} has one flank, and its tip lies in the material",
+                place(&finding)
+            ),
+            span,
+            "a cut of this operation",
+        )
+        .help("cut the other flank too, or begin at a wall or a side of the stock"),
         CutFault::NotFreed { needed, available } => Diagnostic::new(
             Code::ChipNotFreed,
             format!(

@@ -392,6 +392,10 @@ impl Read<'_> {
         let cut = self.cuts().filter(|cut| cut.site == site).last()?;
         let place = op_words(self.program(), cut.op);
         let (message, label) = match finding.fault {
+            CutFault::NotFreed { needed, .. } if !needed.is_finite() => (
+                format!("{place} is the only flank of its cut, and its tip lies in the material"),
+                "its chip is not cut free".to_owned(),
+            ),
             CutFault::NotFreed { needed, available } => (
                 format!(
                     "{place} needs {} mm of edge, {} mm may be used",
@@ -480,7 +484,7 @@ const fn rule_words(rule: Rule) -> &'static str {
         Rule::SilentCut => "the blade cuts without vibrating",
         Rule::ReadyNotAwaited => "the blade cuts before the generator is known to run",
         Rule::Ending => "the program does not end at home with the generator off",
-        Rule::CutPair => "a V is not made of one left and one right flank",
+        Rule::CutFlanks => "a cut has a flank twice",
         Rule::AirCut => "an air cut comes down to the stock, or starts the generator",
         Rule::Tools => "the machine has not one tool and one place for each blade",
         Rule::ChangeAway => "the blade is changed away from the change place, or with the generator on",
@@ -507,7 +511,7 @@ const fn rule_label(rule: Rule) -> &'static str {
         | Rule::AmbiguousTurn
         | Rule::CutAcrossStock
         | Rule::CutPosture
-        | Rule::CutPair
+        | Rule::CutFlanks
         | Rule::AirCut
         | Rule::Tools
         | Rule::OtherBlade

@@ -4,21 +4,25 @@
 //! the flank is and how much of the edge is left for it. They are replayed in the program's order. A flank is measured
 //! against the surface as it is when it is cut; when the second flank of a V is cut its chip is taken out. A chip that is
 //! not freed is taken out all the same after it has been noted, so that each finding stands for itself and not for those
-//! before.
+//! before. A cut of a single flank takes out what that flank closes off together with the surface, as soon as it is cut; if
+//! its tip lies in the material there is nothing to take out, and that is noted as a chip that no edge frees.
 //!
 //! Beside the surface that all cuts leave together, each operation has one of its own: what its cuts alone would leave of
 //! the stock, made by the blade's side towards the part, which lies a standoff deeper than its middle plane. That one must
 //! stay out of the part and the operation's allowance everywhere (a later operation may come closer to the part than an
 //! earlier one). They are compared corner by corner at the end; between corners both are straight.
 
-use super::surface::{Side, Surface, Vee};
+#[cfg(test)]
+mod tests;
+
+use super::surface::{Side, Single, Surface, Vee};
 use core::num::NonZeroU32;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Orientation;
 use vcutc_backend_api::ir::{Action, Blade, Flank, Op, OpId, OperationId, OrientationId, Program, Site};
 use vcutc_backend_api::state::{State, TipPose};
 use vcutc_backend_api::units::{Angle, Length};
-use vcutc_backend_api::verify::VerifiedProgram;
+use vcutc_backend_api::verify::{UPRIGHT, VerifiedProgram};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 
@@ -52,7 +56,8 @@ pub struct Finding {
 pub enum CutFault {
     /// A flank does not come out within the cutting length.
     NotFreed {
-        /// Edge length that would free the chip.
+        /// Edge length that would free the chip; infinite for a single flank whose tip lies in the material, which no edge
+        /// frees.
         needed: Length,
         /// Edge length that may be used: what the blade has, or less.
         available: Length,
@@ -105,7 +110,7 @@ pub fn replay(program: &VerifiedProgram, bounds: &[Bound<'_>]) -> Replay {
     watched(program, bounds, &mut |_, _| {})
 }
 
-/// As [`replay`], and shows the surface before each V is released from it.
+/// As [`replay`], and shows the surface before each chip is released from it.
 #[must_use]
 pub fn watched(
     program: &VerifiedProgram,
@@ -131,24 +136,25 @@ fn played(
 ) -> Replay {
     let mut player = Player::new(surface, program.program(), bounds);
     let cuts = Cut::all(program.program());
-    cuts.for_each(|cut| player.cut(&cut, watch));
+    cuts.for_each(|(id, cut)| player.cut(&cut, program.is_single(id), watch));
     player.finish()
 }
 
-/// Shows the surface before every op as the cuts before it have left it. A chip counts as material until both of its flanks are
+/// Shows the surface before every op as the cuts before it have left it. A chip counts as material until all of its flanks are
 /// cut.
 pub fn accompanied(program: &VerifiedProgram, show: &mut dyn FnMut(OpId, &mut Surface)) {
-    let program = program.program();
+    let verified = program;
+    let program = verified.program();
     let mut player = Player::new(Surface::untouched(program.stock), program, &[]);
     for (id, op, after) in program.ends() {
         show(id, &mut player.surface);
         if let Some(cut) = Cut::of(op, after) {
-            player.cut(&cut, &mut |_, _| {});
+            player.cut(&cut, verified.is_single(id), &mut |_, _| {});
         }
     }
 }
 
-/// A V whose chip comes free: its second flank has just been cut.
+/// A cut whose chip comes free: its last flank has just been cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Release {
     pub operation: OperationId,
@@ -156,7 +162,7 @@ pub struct Release {
     pub layer: NonZeroU32,
     /// The cut in its layer.
     pub cut: NonZeroU32,
-    /// The V.
+    /// Its flanks.
     pub vee: Vee,
 }
 
@@ -166,6 +172,7 @@ const OVERCUT: f64 = 1e-6;
 /// How a posture's flank lies in the x-z plane.
 #[derive(Clone, Copy)]
 struct FlankGeometry {
+    /// Rise over x; infinite for a wall.
     slope: f64,
     /// Edge length per millimetre of height.
     edge_per_height: f64,
@@ -184,9 +191,16 @@ struct Cut {
 
 impl Cut {
     /// The cuts of a program, in its order.
-    fn all(program: &Program) -> impl Iterator<Item = Self> {
+    fn all(program: &Program) -> impl Iterator<Item = (OpId, Self)> {
         let ends = program.ends();
-        ends.filter_map(|(_, op, after)| Self::of(op, after))
+        ends.filter_map(|(id, op, after)| Some((id, Self::of(op, after)?)))
+    }
+
+    const fn side(&self) -> Side {
+        match self.flank {
+            Flank::Left => Side::Left,
+            Flank::Right => Side::Right,
+        }
     }
 
     /// The cut that an op is, with the state after it.
@@ -233,9 +247,11 @@ struct Player<'p> {
     /// Geometry of each orientation with the blade of the operation at hand.
     flanks: Vec<FlankGeometry>,
     operation: Option<OperationId>,
-    /// Vs of which one flank is done, by layer and cut.
-    half_done: BTreeSet<(NonZeroU32, NonZeroU32)>,
+    /// Slope of the flank that is done, of Vs of which one is, by layer and cut.
+    half_done: BTreeMap<(NonZeroU32, NonZeroU32), f64>,
     findings: Findings,
+    /// The deepest entry of a slit into the part, and how deep that is.
+    slit: Option<(Finding, f64)>,
     longest_edge: f64,
     /// How many cuts each layer has.
     layers: BTreeMap<(OperationId, NonZeroU32), usize>,
@@ -251,46 +267,86 @@ impl<'p> Player<'p> {
             surface,
             flanks: Vec::new(),
             operation: None,
-            half_done: BTreeSet::new(),
+            half_done: BTreeMap::new(),
             findings: Findings::default(),
+            slit: None,
             longest_edge: 0.0,
             layers: BTreeMap::new(),
         }
     }
 
-    fn cut(&mut self, cut: &Cut, watch: &mut dyn FnMut(&mut Surface, Release)) {
+    /// `is_single` says that the cut has no other flank.
+    fn cut(&mut self, cut: &Cut, is_single: bool, watch: &mut dyn FnMut(&mut Surface, Release)) {
         self.enter(cut.operation);
         let Some(&geometry) = self.flanks.get(cut.held.0 as usize) else {
             return;
         };
-        let vee = Vee {
-            tip: cut.tip,
-            slope: geometry.slope,
-        };
-        let side = match cut.flank {
-            Flank::Left => Side::Left,
-            Flank::Right => Side::Right,
-        };
-        let blocked_at = if self.surface.covers(vee.tip) {
-            let run = self.surface.flank(vee, side);
-            let needed = run.reach * geometry.edge_per_height;
-            self.note_edge(needed, cut);
-            self.longest_edge = self.longest_edge.max(needed);
+        let side = cut.side();
+        let vee = Vee::one(cut.tip, side, geometry.slope);
+        if is_single {
+            self.single(cut, vee, geometry, watch);
+            return;
+        }
+        let blocked_at = if let Some(run) = self.surface.flank_if_covered(vee, side) {
+            self.use_edge(run.reach * geometry.edge_per_height, cut);
             run.blocked_at
         } else {
             self.surface.obstacle(vee)
         };
-        if let Some(at) = blocked_at {
+        self.note_blocked(blocked_at, cut);
+        let place = (cut.layer, cut.cut);
+        // The verifier has made sure that both flanks are there, once each.
+        match self.half_done.remove(&place) {
+            None => {
+                self.half_done.insert(place, geometry.slope);
+                self.count(cut);
+            }
+            Some(other) => self.release(cut, vee.with(side.opposite(), other), watch),
+        }
+    }
+
+    /// A cut of one flank.
+    fn single(
+        &mut self,
+        cut: &Cut,
+        vee: Vee,
+        geometry: FlankGeometry,
+        watch: &mut dyn FnMut(&mut Surface, Release),
+    ) {
+        self.count(cut);
+        match self.surface.single(vee) {
+            Single::Inside => {
+                // Its slit is cut all the same.
+                let run = self.surface.flank(vee, cut.side());
+                self.longest_edge = self.longest_edge.max(run.reach * geometry.edge_per_height);
+                self.note_blocked(run.blocked_at, cut);
+                self.note_edge(f64::INFINITY, cut);
+            }
+            Single::Outside => {}
+            Single::Frees(run) => {
+                self.use_edge(run.reach * geometry.edge_per_height, cut);
+                self.note_blocked(run.blocked_at, cut);
+            }
+        }
+        self.release(cut, vee, watch);
+    }
+
+    /// Notes how much edge a flank uses.
+    fn use_edge(&mut self, needed: f64, cut: &Cut) {
+        self.note_edge(needed, cut);
+        self.longest_edge = self.longest_edge.max(needed);
+    }
+
+    fn note_blocked(&mut self, at: Option<Point2>, cut: &Cut) {
+        if let Some(at) = at {
             let finding = cut.finding(CutFault::Blocked { at });
             note(&mut self.findings.blocked, finding, |_, _| false);
         }
-        let release = Release {
-            operation: cut.operation,
-            layer: cut.layer,
-            cut: cut.cut,
-            vee,
-        };
-        self.finish_flank(release, watch);
+    }
+
+    /// Counts a cut in its layer.
+    fn count(&mut self, cut: &Cut) {
+        *self.layers.entry((cut.operation, cut.layer)).or_default() += 1;
     }
 
     /// Notes a flank that needs more edge than there is.
@@ -317,31 +373,44 @@ impl<'p> Player<'p> {
         Some(limit.map_or(blade, |limit| limit.min(blade)).to_mm())
     }
 
-    /// Takes the chip out once both flanks are cut.
-    fn finish_flank(&mut self, release: Release, watch: &mut dyn FnMut(&mut Surface, Release)) {
-        let Release {
-            operation,
-            layer,
-            cut,
+    /// Takes the chip of a cut out, all of whose flanks are cut.
+    fn release(&mut self, cut: &Cut, vee: Vee, watch: &mut dyn FnMut(&mut Surface, Release)) {
+        let release = Release {
+            operation: cut.operation,
+            layer: cut.layer,
+            cut: cut.cut,
             vee,
-        } = release;
-        // The verifier has made sure that every V has both flanks, once each.
-        if !self.half_done.remove(&(layer, cut)) {
-            self.half_done.insert((layer, cut));
-            *self.layers.entry((operation, layer)).or_default() += 1;
-            return;
-        }
+        };
         watch(&mut self.surface, release);
         self.surface.release(vee);
-        let index = usize::from(operation.0);
-        if let (Some(guard), Some(bound)) = (self.guards.get_mut(index), self.bounds.get(index)) {
-            guard.release(Vee {
-                tip: Point2 {
-                    z: vee.tip.z - bound.drop.to_mm(),
-                    ..vee.tip
-                },
-                ..vee
-            });
+        let index = usize::from(cut.operation.0);
+        let (Some(guard), Some(bound)) = (self.guards.get_mut(index), self.bounds.get(index)) else {
+            return;
+        };
+        let vee = Vee {
+            tip: Point2 {
+                z: vee.tip.z - bound.drop.to_mm(),
+                ..vee.tip
+            },
+            ..vee
+        };
+        // A flank that frees nothing spoils what it enters all the same.
+        let stuck = vee.is_single() && guard.single(vee) == Single::Inside;
+        guard.release(if stuck { vee.walled() } else { vee });
+        if vee.walled().is_slit() {
+            self.note_slit(vee.tip, bound, cut);
+        }
+    }
+
+    /// Notes a slit, which leaves no trace in a surface, where it enters the part.
+    fn note_slit(&mut self, tip: Point2, bound: &Bound<'_>, cut: &Cut) {
+        let (start, end) = bound.part.span();
+        let part = bound.part.height(tip.x).min(self.surface.top());
+        let deepest = self.slit.map_or(OVERCUT, |(_, known)| known);
+        if (start..=end).contains(&tip.x) && part - tip.z > deepest {
+            let depth = Length::mm(part - tip.z);
+            let fault = CutFault::Overcut { at: tip, depth };
+            self.slit = Some((cut.finding(fault), part - tip.z));
         }
     }
 
@@ -354,7 +423,13 @@ impl<'p> Player<'p> {
     }
 
     fn finish(mut self) -> Replay {
-        self.findings.overcut = self.overcut();
+        let (overcut, slit) = (self.overcut(), self.slit);
+        let deepest = match (overcut, slit) {
+            (Some((_, depth)), Some((_, deeper))) if deeper > depth => slit,
+            (Some(_), _) => overcut,
+            (None, _) => slit,
+        };
+        self.findings.overcut = deepest.map(|(finding, _)| finding);
         Replay {
             surface: self.surface,
             findings: self.findings,
@@ -367,8 +442,8 @@ impl<'p> Player<'p> {
         }
     }
 
-    /// The deepest entry of any operation into its bound.
-    fn overcut(&self) -> Option<Finding> {
+    /// The deepest entry of any operation into its bound, and how deep that is.
+    fn overcut(&self) -> Option<(Finding, f64)> {
         let top = self.program.stock.height.to_mm();
         let guarded = (0..).map(OperationId).zip(self.bounds.iter().zip(&self.guards));
         let entries = guarded.map(|(operation, (bound, guard))| {
@@ -380,18 +455,20 @@ impl<'p> Player<'p> {
             return None;
         }
         let depth = Length::mm(-gap);
-        self.cut_through(operation, at, CutFault::Overcut { at, depth })
+        let finding = self.cut_through(operation, at, CutFault::Overcut { at, depth })?;
+        Some((finding, -gap))
     }
 
     /// The cut of an operation whose V passes lowest through a point's x.
     fn cut_through(&self, operation: OperationId, at: Point2, fault: CutFault) -> Option<Finding> {
         let flanks = flanks(self.program, operation);
         let mut lowest: Option<(f64, Cut)> = None;
-        for cut in Cut::all(self.program).filter(|cut| cut.operation == operation) {
+        let cuts = Cut::all(self.program).map(|(_, cut)| cut);
+        for cut in cuts.filter(|cut| cut.operation == operation) {
             let Some(geometry) = flanks.get(cut.held.0 as usize) else {
                 continue;
             };
-            let height = cut.tip.z + (at.x - cut.tip.x).abs() * geometry.slope;
+            let height = Vee::one(cut.tip, cut.side(), geometry.slope).height(at.x);
             if lowest.as_ref().is_none_or(|(known, _)| height < *known) {
                 lowest = Some((height, cut));
             }
@@ -416,7 +493,12 @@ fn flank(blade: &Blade, held: Orientation) -> FlankGeometry {
     let rake = Angle::rad(libm::acos(y.abs().min(1.0)));
     let cos_swing = z / libm::hypot(x, z);
     FlankGeometry {
-        slope: z / x.abs(),
+        // Over a metre of height such a flank leans by a nanometre.
+        slope: if x.abs() <= UPRIGHT {
+            f64::INFINITY
+        } else {
+            z / x.abs()
+        },
         edge_per_height: 1.0 / (cos_swing * (rake - blade.half_apex).sin()),
     }
 }
@@ -480,7 +562,8 @@ fn deepest_entry(corners: &[Point2], part: &[Point2]) -> (Point2, f64) {
     deepest
 }
 
-/// Visits every x at which one of two polylines over the same span has a corner, with both heights there.
+/// Visits every x at which one of two polylines over the same span has a corner, with both heights there. A wall, two corners
+/// at one x, is visited at both of its heights, the one left of it first.
 pub(super) fn merge_heights(a: &[Point2], b: &[Point2], visit: &mut impl FnMut(f64, f64, f64)) {
     let (mut i, mut j) = (0, 0);
     while let (Some(&p), Some(&q)) = (a.get(i), b.get(j)) {

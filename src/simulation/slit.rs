@@ -118,6 +118,33 @@ mod tests {
         }
     }
 
+    /// A wall's edge stands straight above its tip, which alone can be in the part.
+    #[test]
+    fn an_upright_edge_is_as_deep_as_its_tip() {
+        let part = Profile::new(vec![
+            Point2::new(0.0, 10.0),
+            Point2::new(40.0, 10.0),
+            Point2::new(60.0, 30.0),
+        ])
+        .unwrap();
+        let bound = Bound {
+            part: &part,
+            drop: Length::ZERO,
+            edge: None,
+        };
+        for (x, z, depth) in [
+            (20.0, 8.0, Some(2.0)),
+            (50.0, 15.0, Some(5.0)),
+            (50.0, 20.0, None),
+            (0.0, 9.0, Some(1.0)),
+            (-1.0, 5.0, None),
+        ] {
+            let (from, to) = (Point3::new(x, -5.0, z), Point3::new(x, 55.0, z));
+            let found = deepest(&bound, Point2::new(0.0, 20.0), from, to);
+            assert_eq!(found.map(|entry| entry.depth.to_mm()), depth, "{x} {z}");
+        }
+    }
+
     #[test]
     fn a_cut_that_runs_down_is_as_deep_as_its_end() {
         let part = Profile::new(vec![Point2::new(0.0, 10.0), Point2::new(80.0, 10.0)]).unwrap();

@@ -15,9 +15,31 @@
 //! A flank rises from the tip with slope `cot(swing)` and comes out at the first point where the surface is not above
 //! it: at a corner it touches, in a segment it crosses, or at the stock's side. The height of that point above the tip is
 //! the vertical reach the blade needs: beyond `d cos(swing)` the chip is not freed (`docs/process.md`, "One V-cut").
+//!
+//! # Walls
+//!
+//! A flank of swing 0 rises straight up and leaves a wall: two corners at one x. There the surface has two heights, one
+//! on either side, and [`Surface::height`] is the higher one. What is beside a tip that lies at a wall is looked up on
+//! either side: its left flank meets what stands left of the wall, its right flank what stands right of it. The stock's own
+//! sides are walls with nothing beyond them.
+//!
+//! # Single flanks
+//!
+//! The surface is a height field, so that every point of the material hangs together with the bottom straight below it.
+//! A single flank whose tip lies in the material ends there, and all that is above it still hangs on beside the tip: it
+//! frees nothing. If the tip lies on the surface or outside, the flank enters the material somewhere, comes out
+//! again, and what is above it in between is free.
 
 use vcutc_backend_api::ir::Stock;
 use vcutc_geometry::curve::Point2;
+
+mod stack;
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+pub(crate) mod wall_tests;
+
+use stack::{Ray, Stack};
 
 /// Heights this close are equal: a nanometre, a thousandth of the grid that tips lie on. Without it the flank of a cut
 /// that passes exactly through an older tip, as interlaced lattices want it, would miss it by rounding.
@@ -27,22 +49,24 @@ const TOUCH: f64 = 1e-6;
 #[derive(Clone, Debug)]
 pub struct Surface {
     /// Corners with x at or left of the place of work, nearest last; never empty.
-    left: Vec<Point2>,
+    left: Stack,
     /// Corners right of the place of work, nearest last; never empty unless the place of work is the right side.
-    right: Vec<Point2>,
+    right: Stack,
     width: f64,
     top: f64,
     /// Slope of the steepest flank cut so far: flanks at least as steep can never meet material again.
     steepest: f64,
 }
 
-/// The V that a cut makes.
+/// What a cut makes: a V, or a single flank of one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vee {
     /// Where the flanks meet.
     pub tip: Point2,
-    /// Rise of the flanks over x: `cot(swing)`; positive.
-    pub slope: f64,
+    /// Rise of the left flank over x, if there is one: `cot(swing)`; positive, and infinite for a wall.
+    pub left: Option<f64>,
+    /// The same of the right one.
+    pub right: Option<f64>,
 }
 
 /// A side of a V.
@@ -54,10 +78,21 @@ pub enum Side {
     Right,
 }
 
+impl Side {
+    /// The other one.
+    #[must_use]
+    pub const fn opposite(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+        }
+    }
+}
+
 /// How a flank runs through the material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlankRun {
-    /// Where it comes out.
+    /// Where it comes out; the tip where it does not enter.
     pub exit: Point2,
     /// Height of that point above the tip.
     pub reach: f64,
@@ -67,11 +102,35 @@ pub struct FlankRun {
     pub blocked_at: Option<Point2>,
 }
 
+/// What a single flank does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Single {
+    /// Its tip lies in the material: it frees nothing.
+    Inside,
+    /// It stays outside of the material.
+    Outside,
+    /// It takes a piece off, between where it enters and where it comes out.
+    Frees(FlankRun),
+}
+
 /// A walk along one flank: how many corners lie above it, and where it comes out.
+#[derive(Clone, Copy)]
 struct FlankWalk {
     passed: usize,
     exit: Point2,
     met: f64,
+}
+
+/// Where a single flank runs into the material.
+#[derive(Clone, Copy)]
+struct Entry {
+    /// Corners that it passes above before.
+    passed: usize,
+    at: Point2,
+    /// The first point of the surface above it.
+    above: Point2,
+    /// Whether that is straight above the tip, which then lies at a wall.
+    is_at_wall: bool,
 }
 
 impl Surface {
@@ -85,8 +144,8 @@ impl Surface {
     #[must_use]
     pub fn flat(width: f64, top: f64) -> Self {
         Self {
-            left: vec![Point2 { x: 0.0, z: top }],
-            right: vec![Point2 { x: width, z: top }],
+            left: Stack::of(Point2 { x: 0.0, z: top }),
+            right: Stack::of(Point2 { x: width, z: top }),
             width,
             top,
             steepest: 0.0,
@@ -105,42 +164,83 @@ impl Surface {
         self.top
     }
 
+    /// Height at x; at a wall the higher one of both.
     pub fn height(&mut self, x: f64) -> f64 {
-        self.go_to(x);
-        self.height_here(x)
+        let [left, right] = self.heights(x);
+        left.max(right)
     }
 
-    /// Whether a V with this tip would cut anything at its tip.
+    /// Heights at x just left and just right of it: they differ at a wall, and nowhere else. At a side of the stock both
+    /// are that of the side within.
+    pub fn heights(&mut self, x: f64) -> [f64; 2] {
+        self.go_between(x);
+        self.heights_here(x)
+    }
+
+    /// Whether a V with this tip would cut anything at its tip: whether the surface is above it on either side.
     pub fn covers(&mut self, tip: Point2) -> bool {
         self.height(tip.x) > tip.z + TOUCH
     }
 
     /// How one flank of a V would run through the present surface. The tip should be covered.
     pub fn flank(&mut self, vee: Vee, side: Side) -> FlankRun {
-        self.go_to(vee.tip.x);
-        let walk = self.walk(vee, side);
-        let blocked_at = if self.is_final_for(vee.slope) {
-            None
-        } else {
-            self.beyond(vee, side, walk.passed)
+        self.go_between(vee.tip.x);
+        let height = self.height_beside(vee.tip.x, side);
+        self.run(vee, side, height)
+    }
+
+    /// The same of a tip that need not be covered: none where it is not.
+    pub fn flank_if_covered(&mut self, vee: Vee, side: Side) -> Option<FlankRun> {
+        self.go_between(vee.tip.x);
+        let [left, right] = self.heights_here(vee.tip.x);
+        let height = match side {
+            Side::Left => left,
+            Side::Right => right,
         };
+        (left.max(right) > vee.tip.z + TOUCH).then(|| self.run(vee, side, height))
+    }
+
+    /// How a flank runs from the place of work, where the surface is that high.
+    fn run(&mut self, vee: Vee, side: Side, height: f64) -> FlankRun {
+        let Some(ray) = vee.ray(side) else {
+            return FlankRun::none(vee.tip);
+        };
+        let walk = self.walk_from_tip(ray, side, height);
         FlankRun {
             exit: walk.exit,
             met: walk.met,
             reach: walk.exit.z - vee.tip.z,
-            blocked_at,
+            blocked_at: self.beyond(ray, side, walk.passed),
         }
     }
 
     /// Where material stands above a V whose tip is not covered. Only where steeper flanks have been cut before can there be
     /// any: the tip then lies in an older, narrower cut, and the V would cut its walls from below.
     pub fn obstacle(&mut self, vee: Vee) -> Option<Point2> {
-        self.go_to(vee.tip.x);
-        if self.is_final_for(vee.slope) {
-            return None;
+        self.go_between(vee.tip.x);
+        [Side::Left, Side::Right]
+            .into_iter()
+            .find_map(|side| self.beyond(vee.ray(side)?, side, 0))
+    }
+
+    /// What the only flank of a cut does; a V of two flanks is none.
+    pub fn single(&mut self, vee: Vee) -> Single {
+        let Some((vee, side, ray)) = self.single_ray(vee) else {
+            return Single::Outside;
+        };
+        if self.is_within(vee.tip) {
+            return Single::Inside;
         }
-        self.beyond(vee, Side::Left, 0)
-            .or_else(|| self.beyond(vee, Side::Right, 0))
+        let Some(entry) = self.entry(ray, side) else {
+            return Single::Outside;
+        };
+        let walk = self.stack(side).walk(ray, entry.passed, entry.above);
+        Single::Frees(FlankRun {
+            exit: walk.exit,
+            met: walk.met,
+            reach: walk.exit.z - vee.tip.z,
+            blocked_at: self.beyond(ray, side, walk.passed),
+        })
     }
 
     /// Whether flanks of that slope can never meet material again once they are out: none that was cut before is steeper.
@@ -149,54 +249,107 @@ impl Surface {
         slope >= self.steepest - 1e-12
     }
 
-    /// The chip that a V would take out: its outline from where the left flank comes out along the surface to where the right
-    /// one does, and last the tip. None for a V whose tip is not covered.
+    /// The chip that a cut would take out: its outline from where the left flank comes out along the surface to where the
+    /// right one does, and last the tip; that of a single flank along the surface from one end of the flank to the other. None
+    /// for a cut that takes nothing out.
     pub fn chip(&mut self, vee: Vee) -> Option<Vec<Point2>> {
-        if !self.covers(vee.tip) {
-            return None;
+        let mut outline = Vec::new();
+        if vee.is_single() {
+            let (_, side, ray) = self.single_ray(vee)?;
+            let (entry, walk) = self.piece(ray, side)?;
+            if entry.is_at_wall {
+                return self.chip(Vee { tip: ray.tip, ..vee }.walled());
+            }
+            let corners = self.stack(side).corners();
+            let over = corners.iter().rev().take(walk.passed).skip(entry.passed);
+            outline.push(entry.at);
+            outline.extend(over);
+            outline.push(walk.exit);
+            if side == Side::Left {
+                outline.reverse();
+            }
+            return Some(outline);
         }
-        let left = self.walk(vee, Side::Left);
-        let right = self.walk(vee, Side::Right);
-        let mut outline = vec![left.exit];
-        outline.extend(self.left.iter().skip(self.left.len() - left.passed));
-        outline.extend(self.right.iter().rev().take(right.passed));
+        let [left, right] = self.walks(vee)?;
+        outline.push(left.exit);
+        outline.extend(self.left.nearest(left.passed));
+        outline.extend(self.right.nearest(right.passed).iter().rev());
         outline.extend([right.exit, vee.tip]);
         Some(outline)
     }
 
-    /// Takes the chip of a V out. A V whose tip is not covered changes nothing.
+    /// Takes out what a cut frees. A V whose tip is not covered changes nothing, and neither does a single flank whose tip is
+    /// in the material.
     pub fn release(&mut self, vee: Vee) {
-        if !self.covers(vee.tip) {
+        if vee.is_single() {
+            self.release_single(vee);
             return;
         }
-        let left = self.walk(vee, Side::Left);
-        let right = self.walk(vee, Side::Right);
-        self.left.truncate(self.left.len() - left.passed);
-        self.right.truncate(self.right.len() - right.passed);
-        push_corner(&mut self.left, left.exit);
-        push_corner(&mut self.left, vee.tip);
-        if right.exit.x - vee.tip.x > TOUCH {
-            push_corner(&mut self.right, right.exit);
+        let Some([left, right]) = self.walks(vee) else {
+            return;
+        };
+        self.left.drop_nearest(left.passed);
+        self.right.drop_nearest(right.passed);
+        self.left.push_corner(left.exit);
+        self.left.push_corner(vee.tip);
+        // A right flank that comes out where it starts leaves what stands right of the tip as it is.
+        let ends_at_tip = right.exit.x - vee.tip.x <= TOUCH && right.exit.z - vee.tip.z <= TOUCH;
+        if !ends_at_tip {
+            self.right.push_corner(right.exit);
+        } else if self.right.last().is_some_and(|corner| is_same(corner, vee.tip)) {
+            self.right.drop_nearest(1);
         }
-        self.steepest = self.steepest.max(vee.slope);
+        self.note_slopes(vee);
+    }
+
+    fn release_single(&mut self, vee: Vee) {
+        let Some((_, side, ray)) = self.single_ray(vee) else {
+            return;
+        };
+        let Some((entry, walk)) = self.piece(ray, side) else {
+            return;
+        };
+        if entry.is_at_wall {
+            // As a V, of whose other flank nothing is in the material.
+            self.release(Vee { tip: ray.tip, ..vee }.walled());
+            return;
+        }
+        let stack = self.stack_mut(side);
+        let before: Vec<Point2> = stack.nearest(entry.passed).to_vec();
+        stack.drop_nearest(walk.passed);
+        stack.push_corner(walk.exit);
+        stack.push_corner(entry.at);
+        for corner in before {
+            stack.push_corner(corner);
+        }
+        self.note_slopes(vee);
+    }
+
+    fn note_slopes(&mut self, vee: Vee) {
+        for slope in [vee.left, vee.right].into_iter().flatten() {
+            self.steepest = self.steepest.max(slope);
+        }
     }
 
     /// The corners from left to right.
     pub fn corners(&self) -> impl Iterator<Item = Point2> + '_ {
-        self.left.iter().chain(self.right.iter().rev()).copied()
+        let (left, right) = (self.left.corners(), self.right.corners());
+        left.iter().chain(right.iter().rev()).copied()
     }
 
-    /// The corners between two x, from left to right.
+    /// The corners between two x, from left to right; those of a wall at the first x are left out.
     pub fn corners_between(&mut self, from: f64, to: f64) -> impl Iterator<Item = Point2> + '_ {
         self.go_to(from);
         self.right
+            .corners()
             .iter()
             .rev()
             .copied()
             .take_while(move |corner| corner.x <= to)
     }
 
-    /// The surface between two x: its corners there, and its points at both, as far as they are over the stock.
+    /// The surface between two x: its corners there, and its points at both, as far as they are over the stock. Of a wall at
+    /// either x it has the height within the stretch.
     pub fn stretch(&mut self, from: f64, to: f64) -> impl Iterator<Item = Point2> + '_ {
         let (from, to) = (from.max(0.0), to.min(self.width));
         self.go_to(from);
@@ -205,7 +358,7 @@ impl Surface {
             z: self.height_here(from),
         };
         let mut before = Some(first);
-        let rest = self.right.iter().rev().map_while(move |&corner| {
+        let rest = self.right.corners().iter().rev().map_while(move |&corner| {
             let last = before?;
             if corner.x < to {
                 before = Some(corner);
@@ -221,7 +374,8 @@ impl Surface {
         core::iter::once(first).chain(rest).filter(move |_| from <= to)
     }
 
-    /// Moves the place of work to x: corner by corner, because it is nearly always a neighbour's.
+    /// Moves the place of work to x: corner by corner, because it is nearly always a neighbour's. Both corners of a wall at x
+    /// are left of it then.
     fn go_to(&mut self, x: f64) {
         while let Some(corner) = self.left.pop_if(|corner| corner.x > x) {
             self.right.push(corner);
@@ -231,269 +385,281 @@ impl Surface {
         }
     }
 
-    /// Follows a flank from the place of work (which is the tip's x) to where it comes out.
-    fn walk(&self, vee: Vee, side: Side) -> FlankWalk {
-        let stack = self.stack(side);
-        let mut before = Point2 {
-            x: vee.tip.x,
-            z: self.height_here(vee.tip.x),
-        };
-        for (passed, &corner) in stack.iter().rev().enumerate() {
-            let above = corner.z - vee.height(corner.x);
-            if above > TOUCH {
-                before = corner;
-                continue;
+    /// Moves the place of work to x, and at a wall between its two corners.
+    fn go_between(&mut self, x: f64) {
+        self.go_to(x);
+        let stands_at = |corner: Option<Point2>| corner.is_some_and(|corner| (corner.x - x).abs() <= TOUCH);
+        if stands_at(self.left.last()) {
+            while stands_at(self.left.second())
+                && let Some(corner) = self.left.pop_if(|_| true)
+            {
+                self.right.push(corner);
             }
-            let above_before = before.z - vee.height(before.x);
-            // The surface comes down from `before` to `corner` through the flank, or touches it in `corner`.
-            let share = if above >= -TOUCH {
-                1.0
-            } else {
-                above_before / (above_before - above)
+        } else if stands_at(self.right.last())
+            && stands_at(self.right.second())
+            && let Some(corner) = self.right.pop_if(|_| true)
+        {
+            self.left.push(corner);
+        }
+    }
+
+    /// How both flanks of a V run from its tip, to where they come out. None for one that takes nothing out.
+    fn walks(&mut self, vee: Vee) -> Option<[FlankWalk; 2]> {
+        self.go_between(vee.tip.x);
+        let heights = self.heights_here(vee.tip.x);
+        if heights[0].max(heights[1]) <= vee.tip.z + TOUCH {
+            return None;
+        }
+        let (left, right) = (vee.ray(Side::Left)?, vee.ray(Side::Right)?);
+        let walks = [
+            self.walk_from_tip(left, Side::Left, heights[0]),
+            self.walk_from_tip(right, Side::Right, heights[1]),
+        ];
+        // Between two walls that rise from one tip is nothing.
+        (walks[0].exit.x < walks[1].exit.x).then_some(walks)
+    }
+
+    /// Follows a flank from the place of work (which is the tip's x), where the surface is that high, to where it comes out.
+    fn walk_from_tip(&self, ray: Ray, side: Side, height: f64) -> FlankWalk {
+        let stack = self.stack(side);
+        let tip = ray.tip;
+        if self.is_at_side(tip.x, side) {
+            return stack.all(ray);
+        }
+        if height <= tip.z + TOUCH {
+            return FlankWalk {
+                passed: 0,
+                exit: tip,
+                met: tip.x,
             };
-            let x = before.x + (corner.x - before.x) * share;
-            let exit = Point2 { x, z: vee.height(x) };
-            // The surface falls from the exit to the older tip, unless it is the stock's flat top.
-            let met = if corner.z < exit.z - TOUCH { corner.x } else { x };
-            return FlankWalk { passed, exit, met };
         }
-        // Out at the side of the stock.
-        let x = before.x;
-        FlankWalk {
-            passed: stack.len(),
-            exit: Point2 { x, z: vee.height(x) },
-            met: x,
+        let start = Point2 { x: tip.x, z: height };
+        if ray.is_wall() {
+            return FlankWalk {
+                passed: 0,
+                exit: start,
+                met: tip.x,
+            };
         }
+        stack.walk(ray, 0, start)
+    }
+
+    /// The only flank of a cut, with the place of work at its tip. A tip beside the stock is moved along the flank to the
+    /// stock's side.
+    fn single_ray(&mut self, vee: Vee) -> Option<(Vee, Side, Ray)> {
+        let side = match (vee.left, vee.right) {
+            (Some(_), None) => Side::Left,
+            (None, Some(_)) => Side::Right,
+            (Some(_), Some(_)) | (None, None) => return None,
+        };
+        let mut ray = vee.ray(side)?;
+        let x = ray.tip.x.clamp(0.0, self.width);
+        let inwards = match side {
+            Side::Left => x < ray.tip.x,
+            Side::Right => x > ray.tip.x,
+        };
+        if x != ray.tip.x {
+            if !inwards || ray.is_wall() {
+                return None;
+            }
+            ray.tip = Point2 { x, z: ray.height(x) };
+        }
+        self.go_between(x);
+        Some((vee, side, ray))
+    }
+
+    /// What a single flank takes out: where it enters, and how it runs from the place of work to where it comes out.
+    fn piece(&self, ray: Ray, side: Side) -> Option<(Entry, FlankWalk)> {
+        if self.is_within(ray.tip) {
+            return None;
+        }
+        let entry = self.entry(ray, side)?;
+        Some((entry, self.stack(side).walk(ray, entry.passed, entry.above)))
+    }
+
+    /// Where a single flank runs into the material, if it does. A wall never does: it would have to come from below.
+    fn entry(&self, ray: Ray, side: Side) -> Option<Entry> {
+        let tip = ray.tip;
+        if ray.is_wall() || self.is_at_side(tip.x, side) {
+            return None;
+        }
+        let height = self.height_beside(tip.x, side);
+        let start = Point2 { x: tip.x, z: height };
+        if height > tip.z + TOUCH {
+            return Some(Entry {
+                passed: 0,
+                at: tip,
+                above: start,
+                is_at_wall: true,
+            });
+        }
+        self.stack(side).entry(ray, start, self.top)
+    }
+
+    /// Whether a tip lies in the material: with material above it on both sides.
+    fn is_within(&self, tip: Point2) -> bool {
+        [Side::Left, Side::Right]
+            .into_iter()
+            .all(|side| !self.is_at_side(tip.x, side) && self.height_beside(tip.x, side) > tip.z + TOUCH)
     }
 
     /// The first corner beyond a flank's exit that stands above it.
-    fn beyond(&self, vee: Vee, side: Side, passed: usize) -> Option<Point2> {
-        let corners = self.stack(side).iter().rev().skip(passed);
-        corners
-            .take_while(|corner| vee.height(corner.x) < self.top)
-            .find(|corner| corner.z > vee.height(corner.x) + TOUCH)
-            .copied()
+    fn beyond(&mut self, ray: Ray, side: Side, passed: usize) -> Option<Point2> {
+        if self.is_final_for(ray.slope) {
+            return None;
+        }
+        let top = self.top;
+        self.stack_mut(side).beyond(ray, passed, top)
     }
 
-    fn stack(&self, side: Side) -> &[Point2] {
+    const fn stack(&self, side: Side) -> &Stack {
         match side {
             Side::Left => &self.left,
             Side::Right => &self.right,
         }
     }
 
-    /// Height at the place of work.
+    const fn stack_mut(&mut self, side: Side) -> &mut Stack {
+        match side {
+            Side::Left => &mut self.left,
+            Side::Right => &mut self.right,
+        }
+    }
+
+    /// Whether the stock ends at x on that side.
+    fn is_at_side(&self, x: f64, side: Side) -> bool {
+        match side {
+            Side::Left => x <= TOUCH,
+            Side::Right => x >= self.width - TOUCH,
+        }
+    }
+
+    /// Heights just left and just right of the place of work, which is between the corners of a wall there.
+    fn heights_here(&self, x: f64) -> [f64; 2] {
+        let at = |corner: Option<Point2>| corner.filter(|corner| (corner.x - x).abs() <= TOUCH);
+        match (at(self.left.last()), at(self.right.last())) {
+            (Some(left), Some(right)) => [left.z, right.z],
+            (Some(both), None) | (None, Some(both)) => [both.z; 2],
+            (None, None) => [self.height_here(x); 2],
+        }
+    }
+
+    /// The one of them on that side.
+    fn height_beside(&self, x: f64, side: Side) -> f64 {
+        let [left, right] = self.heights_here(x);
+        match side {
+            Side::Left => left,
+            Side::Right => right,
+        }
+    }
+
+    /// Height at the place of work, which is not at a wall.
     fn height_here(&self, x: f64) -> f64 {
         match (self.left.last(), self.right.last()) {
-            (Some(&a), Some(&b)) if b.x - a.x > TOUCH => a.z + (b.z - a.z) * ((x - a.x) / (b.x - a.x)),
-            (Some(&a), Some(_)) => a.z,
-            (Some(&a), None) | (None, Some(&a)) => a.z,
+            (Some(a), Some(b)) if b.x - a.x > TOUCH => a.z + (b.z - a.z) * ((x - a.x) / (b.x - a.x)),
+            (Some(a), Some(_)) => a.z,
+            (Some(a), None) | (None, Some(a)) => a.z,
             (None, None) => self.top,
         }
     }
 }
 
 impl Vee {
-    /// Height of the V over x.
+    /// A V with both flanks at one swing.
+    #[must_use]
+    pub const fn even(tip: Point2, slope: f64) -> Self {
+        Self {
+            tip,
+            left: Some(slope),
+            right: Some(slope),
+        }
+    }
+
+    /// A cut of one flank.
+    #[must_use]
+    pub const fn one(tip: Point2, side: Side, slope: f64) -> Self {
+        let none = Self {
+            tip,
+            left: None,
+            right: None,
+        };
+        none.with(side, slope)
+    }
+
+    /// With a flank on that side.
+    #[must_use]
+    pub const fn with(self, side: Side, slope: f64) -> Self {
+        let slope = Some(slope);
+        match side {
+            Side::Left => Self { left: slope, ..self },
+            Side::Right => Self { right: slope, ..self },
+        }
+    }
+
+    /// With a wall where a flank is missing: above a flank is then between both.
+    #[must_use]
+    pub fn walled(self) -> Self {
+        let wall = Some(f64::INFINITY);
+        Self {
+            left: self.left.or(wall),
+            right: self.right.or(wall),
+            ..self
+        }
+    }
+
+    /// Whether both flanks are walls, with nothing between them.
+    #[must_use]
+    pub fn is_slit(self) -> bool {
+        let is_wall = |slope: Option<f64>| slope.is_some_and(f64::is_infinite);
+        is_wall(self.left) && is_wall(self.right)
+    }
+
+    /// Whether one of the flanks is missing.
+    #[must_use]
+    pub const fn is_single(self) -> bool {
+        self.left.is_none() || self.right.is_none()
+    }
+
+    /// Height of the V over x; infinite where no flank is.
     #[must_use]
     pub fn height(self, x: f64) -> f64 {
-        self.tip.z + (x - self.tip.x).abs() * self.slope
+        let side = if x < self.tip.x { Side::Left } else { Side::Right };
+        if (x - self.tip.x).abs() <= TOUCH && self.is_steep() {
+            return self.tip.z;
+        }
+        self.ray(side).map_or(f64::INFINITY, |ray| ray.height(x))
+    }
+
+    /// Whether a flank is a wall or missing, so that the V stands at its tip over no width on that side.
+    fn is_steep(self) -> bool {
+        let steep = |slope: Option<f64>| slope.is_none_or(f64::is_infinite);
+        steep(self.left) || steep(self.right)
+    }
+
+    const fn ray(self, side: Side) -> Option<Ray> {
+        let slope = match side {
+            Side::Left => self.left,
+            Side::Right => self.right,
+        };
+        match slope {
+            Some(slope) => Some(Ray { tip: self.tip, slope }),
+            None => None,
+        }
     }
 }
 
-/// Pushes a corner unless it is the one already there.
-fn push_corner(stack: &mut Vec<Point2>, corner: Point2) {
-    if let Some(last) = stack.last_mut()
-        && (last.x - corner.x).abs() < TOUCH
-    {
-        last.z = last.z.min(corner.z);
-        return;
+impl FlankRun {
+    const fn none(tip: Point2) -> Self {
+        Self {
+            exit: tip,
+            reach: 0.0,
+            met: tip.x,
+            blocked_at: None,
+        }
     }
-    stack.push(corner);
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    /// The envelope by its definition.
-    fn lowest(top: f64, vees: &[Vee], x: f64) -> f64 {
-        vees.iter().map(|vee| vee.height(x)).fold(top, f64::min)
-    }
-
-    /// Where a flank comes out, by looking every hundredth of a millimetre, and at the older tips, whose Vs may be
-    /// narrower than that where the flank passes just above them.
-    fn exit_by_sampling(width: f64, top: f64, vees: &[Vee], vee: Vee, side: Side) -> f64 {
-        let (sense, room) = match side {
-            Side::Left => (-1.0, vee.tip.x),
-            Side::Right => (1.0, width - vee.tip.x),
-        };
-        let steps = (0..10_001).map(|step| f64::from(step) * 0.01);
-        let tips = vees.iter().map(|older| (older.tip.x - vee.tip.x) * sense);
-        let mut distances: Vec<f64> = steps
-            .chain(tips)
-            .filter(|far| (0.0..=room).contains(far))
-            .collect();
-        distances.sort_by(f64::total_cmp);
-        let x_at = |far: f64| vee.tip.x + sense * far;
-        let comes_out = |&far: &f64| lowest(top, vees, x_at(far)) <= vee.height(x_at(far));
-        let exit = distances.into_iter().find(comes_out).unwrap_or(room);
-        vee.height(x_at(exit)) - vee.tip.z
-    }
-
-    fn a_vee() -> impl Strategy<Value = Vee> {
-        (
-            0.0..100.0_f64,
-            1.0..40.0_f64,
-            prop::sample::select(vec![0.7, 1.0, 1.5]),
-        )
-            .prop_map(|(x, z, slope)| Vee {
-                tip: Point2 { x, z },
-                slope,
-            })
-    }
-
-    /// Releases the Vs that a program may release: tip in the material, blade's body clear. Gives those back.
-    fn release_possible(surface: &mut Surface, vees: &[Vee]) -> Vec<Vee> {
-        let possible = |surface: &mut Surface, vee: Vee| {
-            surface.covers(vee.tip)
-                && [Side::Left, Side::Right]
-                    .into_iter()
-                    .all(|side| surface.flank(vee, side).blocked_at.is_none())
-        };
-        let mut released = Vec::new();
-        for &vee in vees {
-            if possible(surface, vee) {
-                surface.release(vee);
-                released.push(vee);
-            }
-        }
-        released
-    }
-
-    proptest! {
-        #[test]
-        fn is_the_lower_envelope(vees in prop::collection::vec(a_vee(), 0..60), xs in prop::collection::vec(0.0..=100.0_f64, 20)) {
-            let mut surface = Surface::flat(100.0, 40.0);
-            let vees = release_possible(&mut surface, &vees);
-            for x in xs {
-                prop_assert!((surface.height(x) - lowest(40.0, &vees, x)).abs() < 1e-5);
-            }
-            let corners: Vec<_> = surface.corners().collect();
-            prop_assert!(corners.windows(2).all(|pair| pair[0].x < pair[1].x));
-            prop_assert!(corners[0].x.abs() < 1e-9 && (corners[corners.len() - 1].x - 100.0).abs() < 1e-9);
-        }
-
-        #[test]
-        fn flanks_come_out_where_the_surface_is_below(vees in prop::collection::vec(a_vee(), 0..30), vee in a_vee()) {
-            let mut surface = Surface::flat(100.0, 40.0);
-            let vees = release_possible(&mut surface, &vees);
-            prop_assume!(surface.covers(vee.tip));
-            for side in [Side::Left, Side::Right] {
-                let sampled = exit_by_sampling(100.0, 40.0, &vees, vee, side);
-                let run = surface.flank(vee, side);
-                // Looking from hundredth to hundredth passes over narrower gaps: it may find the exit later, not earlier.
-                prop_assert!(run.reach < sampled + 0.04, "{:?} {}", run, sampled);
-                let at_side = !(1e-9..=100.0 - 1e-9).contains(&run.exit.x);
-                let below = lowest(40.0, &vees, run.exit.x) - run.exit.z;
-                prop_assert!(at_side || below < 1e-5, "{:?} is {} below", run, below);
-            }
-        }
-    }
-
-    #[test]
-    fn cuts_at_the_sides_of_the_stock() {
-        let mut surface = Surface::flat(10.0, 10.0);
-        for x in [0.0, 10.0] {
-            let vee = Vee {
-                tip: Point2 { x, z: 5.0 },
-                slope: 1.0,
-            };
-            assert_eq!(
-                surface
-                    .flank(vee, if x > 0.0 { Side::Right } else { Side::Left })
-                    .reach,
-                0.0
-            );
-            surface.release(vee);
-        }
-        assert_eq!(surface.height(0.0), 5.0);
-        assert_eq!(surface.height(10.0), 5.0);
-        assert_eq!(surface.height(5.0), 10.0);
-        assert_eq!(surface.height(2.0), 7.0);
-    }
-
-    #[test]
-    fn a_wide_cut_next_to_a_steep_wall_is_blocked_above_its_exit() {
-        let mut surface = Surface::flat(100.0, 40.0);
-        // A narrow slot leaves a steep wall; a wide V beside it comes out in the slot, but its blade runs on into the wall.
-        surface.release(Vee {
-            tip: Point2 { x: 50.0, z: 10.0 },
-            slope: 10.0,
-        });
-        let wide = Vee {
-            tip: Point2 { x: 45.0, z: 12.0 },
-            slope: 1.0,
-        };
-        let run = surface.flank(wide, Side::Right);
-        assert!(run.exit.x < 50.0);
-        assert_eq!(run.blocked_at, Some(Point2 { x: 53.0, z: 40.0 }));
-        assert_eq!(surface.flank(wide, Side::Left).blocked_at, None);
-    }
-
-    /// Cuts every lattice point of the 85 x 50 mm block above z = 13.1: cuts, layers, removed area, longest edge needed by
-    /// a blade with rake - half apex = 52.87 degrees.
-    fn block(layer: f64, step: f64, swing: f64, first: f64, shift: f64) -> (usize, u32, f64, f64) {
-        let swing = vcutc_backend_api::units::Angle::deg(swing);
-        let lead = vcutc_backend_api::units::Angle::deg(52.87);
-        let mut surface = Surface::flat(85.0, 50.0);
-        let (mut cuts, mut reach, mut j) = (0, 0.0_f64, 0);
-        while 50.0 - f64::from(j + 1) * layer >= 13.1 {
-            j += 1;
-            let mut x = if j % 2 == 0 { first + shift } else { first };
-            while x <= 85.0 {
-                let vee = Vee {
-                    tip: Point2 {
-                        x,
-                        z: 50.0 - f64::from(j) * layer,
-                    },
-                    slope: 1.0 / swing.tan(),
-                };
-                reach = reach
-                    .max(surface.flank(vee, Side::Left).reach)
-                    .max(surface.flank(vee, Side::Right).reach);
-                surface.release(vee);
-                cuts += 1;
-                x += step;
-            }
-        }
-        let corners: Vec<_> = surface.corners().collect();
-        let removed = corners
-            .windows(2)
-            .map(|p| (p[1].x - p[0].x) * (50.0 - (p[0].z + p[1].z) / 2.0))
-            .sum();
-        (cuts, j, removed, reach / (swing.cos() * lead.sin()))
-    }
-
-    /// The table of `docs/process.md`, "Lattices and reach", which a simulation of polygons confirmed.
-    #[test]
-    fn agrees_with_the_polygon_simulation() {
-        let (cuts, layers, removed, edge) = block(4.40, 5.97, 34.16, 5.97 / 2.0, 0.0);
-        assert_eq!((cuts, layers), (112, 8));
-        assert!((removed - 2799.0).abs() < 2.0 && edge < 10.01, "{removed} {edge}");
-        let (cuts, layers, removed, edge) = block(6.470, 4.658, 35.75, 4.658 / 2.0, 0.0);
-        assert_eq!((cuts, layers), (90, 5));
-        assert!((removed - 2609.0).abs() < 1.0 && edge <= 10.0, "{removed} {edge}");
-        // Interlaced: the step of 11.909 is rounded down from 2 h tan(50 deg) = 11.9105, a hair over works.
-        let (cuts, layers, removed, edge) = block(4.997, 11.911, 50.0, 0.0, 11.911 / 2.0);
-        assert_eq!((cuts, layers), (53, 7));
-        assert!((removed - 2764.0).abs() < 1.0 && edge <= 10.0, "{removed} {edge}");
-        let (cuts, layers, removed, edge) = block(6.0, 10.07, 40.0, 0.0, 10.07 / 2.0);
-        assert_eq!((cuts, layers), (51, 6));
-        assert!((removed - 2780.0).abs() < 1.0 && edge <= 10.0, "{removed} {edge}");
-        // One per cent of overlap makes interlaced cuts pass under their neighbours and need about 2h.
-        let (_, _, _, edge) = block(6.0, 9.97, 40.0, 0.0, 9.97 / 2.0);
-        assert!((edge - 2.0 * 9.82).abs() < 0.5, "{edge}");
-    }
+/// Whether two corners are one, but for rounding.
+fn is_same(a: Point2, b: Point2) -> bool {
+    (a.x - b.x).abs() < TOUCH && (a.z - b.z).abs() < TOUCH
 }

@@ -171,7 +171,7 @@ fn measured_chip(swing: f64, layer: f64, shift: f64) -> f64 {
                 z: layer * (10.0 - f64::from(number)),
             };
             let before = area(&surface);
-            surface.release(Vee { tip, slope });
+            surface.release(Vee::even(tip, slope));
             if (number, column) == (6, 15) {
                 chip = before - area(&surface);
             }

@@ -100,7 +100,7 @@ impl Mark {
             z: grid::nearest((stock.height - self.depth.value).to_mm()),
         };
         let slope = 1.0 / self.swing.value.to_rad().tan();
-        Vee { tip, slope }
+        Vee::even(tip, slope)
     }
 
     const fn holder(&self) -> Holder {
@@ -303,7 +303,7 @@ impl PlannedOperation for Marked {
     }
 
     fn to_remove(&self, _: &Profile, _: &[Point2]) -> Area {
-        Area::mm2(self.asked.depth.value.to_mm().powi(2) / self.vee.slope)
+        Area::mm2(self.asked.depth.value.to_mm().powi(2) / self.vee.right.unwrap())
     }
 
     fn tables(&self) -> Vec<ParameterTable> {

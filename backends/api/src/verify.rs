@@ -4,7 +4,7 @@
 //! the blade is held, whether it vibrates), and checks each op against that. What it promises to backends: every table reference is valid, every
 //! number finite, every speed positive, every straight motion starts from a known pose, the first motion is `Home` where
 //! there is a home and the next one a move of all axes, no rotation is ambiguous, the blade only meets the stock in cuts,
-//! and the two flanks of every V are there once.
+//! and every cut has one flank on either side at most.
 
 mod capability;
 mod chain;
@@ -39,6 +39,8 @@ use core::num::NonZeroU32;
 pub struct VerifiedProgram {
     program: Program,
     needs: Capabilities,
+    /// Cuts of one flank, in order.
+    singles: Vec<OpId>,
 }
 
 impl VerifiedProgram {
@@ -52,6 +54,12 @@ impl VerifiedProgram {
     #[must_use]
     pub const fn needs(&self) -> Capabilities {
         self.needs
+    }
+
+    /// Whether an op is the only flank of its cut.
+    #[must_use]
+    pub fn is_single(&self, op: OpId) -> bool {
+        !self.singles.is_empty() && self.singles.binary_search(&op).is_ok()
     }
 
     /// The orientation behind an id (the identity for an id of another program).
@@ -106,7 +114,7 @@ pub enum Rule {
     TurnInStock,
     /// A cut runs along y through the whole depth of the stock.
     CutAcrossStock,
-    /// In a cut the shank leans along the feed and to the side of its flank, and a cutting edge leads.
+    /// In a cut the shank leans along the feed, and to the side of its flank or to none, and a cutting edge leads.
     CutPosture,
     /// The blade vibrates while it cuts.
     SilentCut,
@@ -114,8 +122,8 @@ pub enum Rule {
     ReadyNotAwaited,
     /// The generator is off at the end, and the machine at home where there is one.
     Ending,
-    /// Every V-cut has one left and one right flank.
-    CutPair,
+    /// A cut is a cut of an operation, and has no flank twice: one left and one right flank, or one of them.
+    CutFlanks,
     /// In an air cut the blade stays above the stock, all along and by half its thickness at least, and the generator off.
     AirCut,
     /// The machine has a tool for every blade, and a changer that goes by places has one of its own for each.
@@ -154,7 +162,7 @@ impl fmt::Display for Rule {
             Self::SilentCut => "a cut without vibration",
             Self::ReadyNotAwaited => "the generator is not awaited before a cut",
             Self::Ending => "the program does not end at home with the generator off",
-            Self::CutPair => "a V-cut without exactly one left and one right flank",
+            Self::CutFlanks => "a cut that is of no operation, or has a flank twice",
             Self::AirCut => "an air cut lets the blade down to the stock, or starts the generator",
             Self::Tools => "the machine has not one tool and one place for each blade",
             Self::ChangeAway => "the blade is changed away from the change place, or with the generator on",
@@ -186,11 +194,19 @@ pub fn verify(program: Program) -> Result<VerifiedProgram, Vec<Fault>> {
     }
     walk.ending(segments.state());
     let Walk {
-        mut faults, needs, ..
+        mut faults,
+        needs,
+        mut singles,
+        ..
     } = walk;
     faults.sort_by_key(|fault| fault.op);
+    singles.sort_unstable();
     if faults.is_empty() {
-        Ok(VerifiedProgram { program, needs })
+        Ok(VerifiedProgram {
+            program,
+            needs,
+            singles,
+        })
     } else {
         Err(faults)
     }
@@ -212,6 +228,8 @@ struct Walk<'p> {
     operation: Option<OperationId>,
     /// The passes of the operation at hand.
     passes: Vec<Pass>,
+    /// Cuts of one flank.
+    singles: Vec<OpId>,
     current: OpId,
     /// The chain that has not come to a stop.
     chain: Option<OpenChain>,
@@ -248,6 +266,7 @@ impl<'p> Walk<'p> {
             needs: Capabilities::NONE,
             operation: None,
             passes: Vec::new(),
+            singles: Vec::new(),
             current: OpId(0),
             chain: None,
             overhangs: Overhangs(Vec::new()),
@@ -399,7 +418,7 @@ impl<'p> Walk<'p> {
         }
     }
 
-    /// Each V has both flanks once, each layer its cuts from 1 on.
+    /// Each cut has no flank twice, each layer its cuts from 1 on.
     fn finish_operation(&mut self) {
         let mut passes = core::mem::take(&mut self.passes);
         passes.sort_by_key(|pass| (pass.layer, pass.cut, pass.flank as u8));
@@ -414,8 +433,9 @@ impl<'p> Walk<'p> {
                 self.fault_at(first.op, Rule::Order);
             }
             match cut {
+                [single] => self.singles.push(single.op),
                 [left, right] if left.flank != right.flank => {}
-                [.., last] => self.fault_at(last.op, Rule::CutPair),
+                [.., last] => self.fault_at(last.op, Rule::CutFlanks),
                 [] => {}
             }
             before = Some((first.layer, first.cut.get()));
@@ -489,7 +509,7 @@ impl<'p> Walk<'p> {
             cut,
         } = segment.op.site
         else {
-            self.fault(Rule::CutPair);
+            self.fault(Rule::CutFlanks);
             return;
         };
         let program = self.program;
@@ -668,14 +688,18 @@ fn has_sound_stages(stages: &[BodyStage]) -> bool {
         && stages.is_sorted_by(|below, above| below.from < above.from)
 }
 
+/// Swings this small, in rad, are 0.
+pub const UPRIGHT: f64 = 1e-9;
+
 /// Whether a cut along `dy` holds the blade as its flank wants, with an edge in front.
 fn posture_fits(blade: &Blade, held: Orientation, flank: Flank, dy: f64) -> bool {
     let m = held.matrix();
     // Tip to shank is -z_t.
     let (lean_x, lean_y, lean_z) = (-m[0][2], -m[1][2], -m[2][2]);
+    // A flank of swing 0, a wall, leans to neither side but for rounding.
     let to_its_side = match flank {
-        Flank::Left => lean_x < 0.0,
-        Flank::Right => lean_x > 0.0,
+        Flank::Left => lean_x <= UPRIGHT,
+        Flank::Right => lean_x >= -UPRIGHT,
     };
     let edge_leads = match blade.edges {
         Edges::Double => true,

@@ -141,10 +141,7 @@ impl Scene {
     fn surface(&self) -> Surface {
         let mut surface = Surface::untouched(STOCK);
         for &(x, z, slope) in &self.vees {
-            surface.release(Vee {
-                tip: Point2 { x, z },
-                slope,
-            });
+            surface.release(Vee::even(Point2 { x, z }, slope));
         }
         surface
     }

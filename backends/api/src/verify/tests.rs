@@ -2,10 +2,10 @@
 
 use super::{Fault, Rule, verify};
 use crate::ir::{
-    Action, AxisValues, BodyStage, FeedId, OpId, OrientationId, Program, Purpose, RateId, Switch,
+    Action, AxisValues, BodyStage, FeedId, Flank, OpId, OrientationId, Program, Purpose, RateId, Switch,
 };
-use crate::testkit::{Crossing, Recipe};
-use crate::units::Length;
+use crate::testkit::{Crossing, Passes, Recipe};
+use crate::units::{Angle, Length};
 
 /// Two operations with a move of all axes between them.
 fn program() -> Program {
@@ -214,6 +214,67 @@ fn air_cut() -> Program {
     }
     program.ops.retain(|op| op.action != Action::AwaitReady);
     program
+}
+
+/// Every flank on a way of its own.
+fn one_by_one(swing: f64) -> Program {
+    Recipe {
+        passes: Passes::Layer,
+        swing: Angle::deg(swing),
+        ..Recipe::default()
+    }
+    .program()
+}
+
+/// Places of the cuts of one flank.
+fn cuts_of(program: &Program, wanted: Flank) -> Vec<usize> {
+    let ops = program.ops.iter().enumerate();
+    ops.filter(|(_, op)| matches!(op.action, Action::Cut { flank, .. } if flank == wanted))
+        .map(|(place, _)| place)
+        .collect()
+}
+
+#[test]
+fn a_flank_of_swing_0_leans_to_no_side() {
+    let upright = one_by_one(0.0);
+    assert_eq!(faults(upright.clone()), []);
+    assert_eq!(faults(one_by_one(1e-3)), []);
+    // A lean to the other side is still wrong.
+    let mut swapped = one_by_one(1e-3);
+    swapped.orientations.swap(0, 2);
+    assert!(rules(swapped).iter().all(|&rule| rule == Rule::CutPosture));
+    let mut towards = upright;
+    for op in &mut towards.ops {
+        // Held for the way back.
+        if let Action::Travel { orientation, .. } = &mut op.action {
+            *orientation = OrientationId(1);
+        }
+    }
+    assert!(rules(towards).contains(&Rule::CutPosture));
+}
+
+#[test]
+fn a_cut_of_one_flank_is_known_as_such_and_none_has_a_flank_twice() {
+    let whole = one_by_one(34.16);
+    let lefts = cuts_of(&whole, Flank::Left);
+    let verified = verify(whole.clone()).unwrap();
+    assert!(verified.ops().all(|(id, _)| !verified.is_single(id)));
+    // Without the right flank of the first cut: approach, cut and retract.
+    let right = cuts_of(&whole, Flank::Right)[0];
+    let mut single = whole.clone();
+    single.ops.drain(right - 1..=right + 1);
+    let verified = verify(single).unwrap();
+    let singles: Vec<usize> = verified
+        .ops()
+        .filter(|&(id, _)| verified.is_single(id))
+        .map(|(id, _)| id.0.try_into().unwrap())
+        .collect();
+    assert_eq!(singles, [lefts[0]]);
+    // Its left flank twice.
+    let mut twice = whole;
+    let again = twice.ops[lefts[0] - 2..=lefts[0] + 1].to_vec();
+    twice.ops.splice(lefts[0] + 2..lefts[0] + 2, again);
+    assert_eq!(rules(twice), [Rule::CutFlanks]);
 }
 
 #[test]

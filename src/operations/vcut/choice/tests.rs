@@ -57,10 +57,7 @@ fn surface_after(plan: &PlannedJob) -> Vec<Point2> {
 /// cut is made, as far as its flanks go, the surface must not stand higher, and the flanks must not need more.
 fn relies_on_nothing_to_come(plan: &PlannedJob) -> Result<(), TestCaseError> {
     let vcut = vcut(plan);
-    let vee = |index: usize| Vee {
-        tip: vcut.cuts[index].tip,
-        slope: vcut.parameters.flanks.slope,
-    };
+    let vee = |index: usize| Vee::even(vcut.cuts[index].tip, vcut.parameters.flanks.slope);
     let mut planned = Vec::new();
     let mut above = Surface::untouched(plan.stock);
     for layer in layers(&vcut.cuts) {
@@ -129,7 +126,7 @@ proptest! {
             let others = surface_after(&plan);
             let mut one = Surface::untouched(rows.stock);
             for cut in &vcut(&rows).cuts {
-                one.release(Vee { tip: cut.tip, slope: vcut(&rows).parameters.flanks.slope });
+                one.release(Vee::even(cut.tip, vcut(&rows).parameters.flanks.slope));
             }
             prop_assert!((other.report.removed.to_mm2() - proven.report.removed.to_mm2()).abs() < 1e-4);
             for corner in corners.iter().chain(&others) {

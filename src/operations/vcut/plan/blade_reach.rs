@@ -177,10 +177,7 @@ mod tests {
             let mut x = shift;
             let mut vees = Vec::new();
             while x <= width {
-                vees.push(Vee {
-                    tip: Point2 { x, z },
-                    slope,
-                });
+                vees.push(Vee::even(Point2 { x, z }, slope));
                 x += step;
             }
             for vee in vees {

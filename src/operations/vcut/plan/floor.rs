@@ -94,7 +94,7 @@ impl Followed<'_> {
                     for &column in columns {
                         if let Some(z) = last(column, parity) {
                             let tip = Point2 { x: column.x, z };
-                            surface.release(Vee { tip, slope });
+                            surface.release(Vee::even(tip, slope));
                         }
                     }
                 }

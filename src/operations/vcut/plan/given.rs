@@ -121,7 +121,7 @@ impl Planner<'_> {
         }
         let slope = self.parameters.flanks.slope;
         for tip in kept {
-            self.surface.release(Vee { tip, slope });
+            self.surface.release(Vee::even(tip, slope));
         }
     }
 

@@ -338,9 +338,6 @@ impl<'p> LayerPlanner<'p> {
     }
 
     const fn vee(&self, tip: Point2) -> Vee {
-        Vee {
-            tip,
-            slope: self.parameters.flanks.slope,
-        }
+        Vee::even(tip, self.parameters.flanks.slope)
     }
 }

@@ -346,9 +346,6 @@ impl<'p> Walker<'p> {
     }
 
     const fn vee(&self, tip: Point2) -> Vee {
-        Vee {
-            tip,
-            slope: self.terrain.parameters.flanks.slope,
-        }
+        Vee::even(tip, self.terrain.parameters.flanks.slope)
     }
 }

@@ -120,7 +120,7 @@ impl<'p> Survey<'p> {
         let slope = self.terrain.parameters.flanks.slope;
         let cuts = self.terrain.cuts.get(range.clone()).unwrap_or_default();
         let mut chip = |tip| {
-            let vee = Vee { tip, slope };
+            let vee = Vee::even(tip, slope);
             let [left, right] = [Side::Left, Side::Right].map(|side| self.surface.flank(vee, side));
             Chip {
                 stretch,
