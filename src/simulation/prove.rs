@@ -247,14 +247,38 @@ struct Player<'p> {
     /// Geometry of each orientation with the blade of the operation at hand.
     flanks: Vec<FlankGeometry>,
     operation: Option<OperationId>,
-    /// Slope of the flank that is done, of Vs of which one is, by layer and cut.
-    half_done: BTreeMap<(NonZeroU32, NonZeroU32), f64>,
+    half_done: HalfDone,
     findings: Findings,
     /// The deepest entry of a slit into the part, and how deep that is.
     slit: Option<(Finding, f64)>,
     longest_edge: f64,
     /// How many cuts each layer has.
     layers: BTreeMap<(OperationId, NonZeroU32), usize>,
+}
+
+/// A V by its layer and its cut.
+type Place = (NonZeroU32, NonZeroU32);
+
+/// Slope of the flank that is done, of Vs of which one is. The other one mostly comes next, so the latest is kept apart.
+#[derive(Default)]
+struct HalfDone {
+    latest: Option<(Place, f64)>,
+    others: BTreeMap<Place, f64>,
+}
+
+impl HalfDone {
+    fn put(&mut self, place: Place, slope: f64) {
+        if let Some((before, slope)) = self.latest.replace((place, slope)) {
+            self.others.insert(before, slope);
+        }
+    }
+
+    fn take(&mut self, place: Place) -> Option<f64> {
+        match self.latest.take_if(|(latest, _)| *latest == place) {
+            Some((_, slope)) => Some(slope),
+            None => self.others.remove(&place),
+        }
+    }
 }
 
 impl<'p> Player<'p> {
@@ -267,7 +291,7 @@ impl<'p> Player<'p> {
             surface,
             flanks: Vec::new(),
             operation: None,
-            half_done: BTreeMap::new(),
+            half_done: HalfDone::default(),
             findings: Findings::default(),
             slit: None,
             longest_edge: 0.0,
@@ -282,37 +306,34 @@ impl<'p> Player<'p> {
             return;
         };
         let side = cut.side();
-        let vee = Vee::one(cut.tip, side, geometry.slope);
         if is_single {
-            self.single(cut, vee, geometry, watch);
+            self.single(cut, geometry, watch);
             return;
         }
-        let blocked_at = if let Some(run) = self.surface.flank_if_covered(vee, side) {
+        let blocked_at = if let Some(run) = self.surface.flank_from(cut.tip, side, geometry.slope) {
             self.use_edge(run.reach * geometry.edge_per_height, cut);
             run.blocked_at
         } else {
-            self.surface.obstacle(vee)
+            self.surface.obstacle(Vee::one(cut.tip, side, geometry.slope))
         };
         self.note_blocked(blocked_at, cut);
         let place = (cut.layer, cut.cut);
         // The verifier has made sure that both flanks are there, once each.
-        match self.half_done.remove(&place) {
+        match self.half_done.take(place) {
             None => {
-                self.half_done.insert(place, geometry.slope);
+                self.half_done.put(place, geometry.slope);
                 self.count(cut);
             }
-            Some(other) => self.release(cut, vee.with(side.opposite(), other), watch),
+            Some(other) => {
+                let vee = Vee::one(cut.tip, side, geometry.slope).with(side.opposite(), other);
+                self.release(cut, vee, watch);
+            }
         }
     }
 
     /// A cut of one flank.
-    fn single(
-        &mut self,
-        cut: &Cut,
-        vee: Vee,
-        geometry: FlankGeometry,
-        watch: &mut dyn FnMut(&mut Surface, Release),
-    ) {
+    fn single(&mut self, cut: &Cut, geometry: FlankGeometry, watch: &mut dyn FnMut(&mut Surface, Release)) {
+        let vee = Vee::one(cut.tip, cut.side(), geometry.slope);
         self.count(cut);
         match self.surface.single(vee) {
             Single::Inside => {
@@ -418,7 +439,7 @@ impl<'p> Player<'p> {
         if self.operation != Some(operation) {
             self.operation = Some(operation);
             self.flanks = flanks(self.program, operation);
-            self.half_done.clear();
+            self.half_done = HalfDone::default();
         }
     }
 

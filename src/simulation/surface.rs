@@ -186,30 +186,36 @@ impl Surface {
     pub fn flank(&mut self, vee: Vee, side: Side) -> FlankRun {
         self.go_between(vee.tip.x);
         let height = self.height_beside(vee.tip.x, side);
-        self.run(vee, side, height)
+        vee.ray(side).map_or_else(
+            || FlankRun {
+                exit: vee.tip,
+                reach: 0.0,
+                met: vee.tip.x,
+                blocked_at: None,
+            },
+            |ray| self.run(ray, side, height),
+        )
     }
 
-    /// The same of a tip that need not be covered: none where it is not.
-    pub fn flank_if_covered(&mut self, vee: Vee, side: Side) -> Option<FlankRun> {
-        self.go_between(vee.tip.x);
-        let [left, right] = self.heights_here(vee.tip.x);
+    /// How a flank of that slope would run from a tip; none where the surface does not cover the tip.
+    pub fn flank_from(&mut self, tip: Point2, side: Side, slope: f64) -> Option<FlankRun> {
+        self.go_between(tip.x);
+        let [left, right] = self.heights_here(tip.x);
         let height = match side {
             Side::Left => left,
             Side::Right => right,
         };
-        (left.max(right) > vee.tip.z + TOUCH).then(|| self.run(vee, side, height))
+        let is_covered = [left, right].into_iter().any(|height| height > tip.z + TOUCH);
+        is_covered.then(|| self.run(Ray { tip, slope }, side, height))
     }
 
     /// How a flank runs from the place of work, where the surface is that high.
-    fn run(&mut self, vee: Vee, side: Side, height: f64) -> FlankRun {
-        let Some(ray) = vee.ray(side) else {
-            return FlankRun::none(vee.tip);
-        };
+    fn run(&mut self, ray: Ray, side: Side, height: f64) -> FlankRun {
         let walk = self.walk_from_tip(ray, side, height);
         FlankRun {
             exit: walk.exit,
             met: walk.met,
-            reach: walk.exit.z - vee.tip.z,
+            reach: walk.exit.z - ray.tip.z,
             blocked_at: self.beyond(ray, side, walk.passed),
         }
     }
@@ -327,7 +333,9 @@ impl Surface {
 
     fn note_slopes(&mut self, vee: Vee) {
         for slope in [vee.left, vee.right].into_iter().flatten() {
-            self.steepest = self.steepest.max(slope);
+            if slope > self.steepest {
+                self.steepest = slope;
+            }
         }
     }
 
@@ -407,7 +415,7 @@ impl Surface {
     fn walks(&mut self, vee: Vee) -> Option<[FlankWalk; 2]> {
         self.go_between(vee.tip.x);
         let heights = self.heights_here(vee.tip.x);
-        if heights[0].max(heights[1]) <= vee.tip.z + TOUCH {
+        if heights.iter().all(|&height| height <= vee.tip.z + TOUCH) {
             return None;
         }
         let (left, right) = (vee.ray(Side::Left)?, vee.ray(Side::Right)?);
@@ -644,17 +652,6 @@ impl Vee {
         match slope {
             Some(slope) => Some(Ray { tip: self.tip, slope }),
             None => None,
-        }
-    }
-}
-
-impl FlankRun {
-    const fn none(tip: Point2) -> Self {
-        Self {
-            exit: tip,
-            reach: 0.0,
-            met: tip.x,
-            blocked_at: None,
         }
     }
 }
