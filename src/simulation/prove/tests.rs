@@ -25,8 +25,31 @@ const fn at(x: f64, z: f64) -> Point2 {
     Point2 { x, z }
 }
 
-/// A program of one layer without a machine, with a blade of 80 mm and a stock of 100 x 50 x 40 mm.
 fn program(cuts: &[Swung]) -> VerifiedProgram {
+    let flanks = |&(number, (tip, left, right)): &(u32, Swung)| {
+        let flanks = [(Flank::Left, left), (Flank::Right, right)];
+        flanks.map(|(flank, swing)| Some((number, tip, flank, swing?)))
+    };
+    let cuts: Vec<(u32, Swung)> = (1..).zip(cuts.iter().copied()).collect();
+    of_passes(cuts.iter().flat_map(flanks).flatten())
+}
+
+/// As [`program`], but the left flanks of all Vs come first.
+fn program_by_layer(cuts: &[Swung]) -> VerifiedProgram {
+    let cuts = || (1..).zip(cuts.iter().copied());
+    let firsts = cuts().filter_map(|(number, (tip, left, right))| {
+        right?;
+        Some((number, tip, Flank::Left, left?))
+    });
+    let lasts = cuts().filter_map(|(number, (tip, left, right))| {
+        let (flank, swing) = right.map_or((Flank::Left, left), |right| (Flank::Right, Some(right)));
+        Some((number, tip, flank, swing?))
+    });
+    of_passes(firsts.chain(lasts))
+}
+
+/// A program of one layer without a machine, with a blade of 80 mm and a stock of 100 x 50 x 40 mm.
+fn of_passes(passes: impl Iterator<Item = (u32, Point2, Flank, usize)>) -> VerifiedProgram {
     let mut program = Recipe {
         layers: 0,
         ..Recipe::default()
@@ -49,12 +72,8 @@ fn program(cuts: &[Swung]) -> VerifiedProgram {
         // Left and right flank, both forward.
         program.orientations.extend([postures[0], postures[2]]);
     }
-    for (number, &(tip, left, right)) in (1..).zip(cuts) {
-        for (flank, swing) in [(Flank::Left, left), (Flank::Right, right)] {
-            if let Some(swing) = swing {
-                pass(&mut program, number, tip, flank, swing);
-            }
-        }
+    for (number, tip, flank, swing) in passes {
+        pass(&mut program, number, tip, flank, swing);
     }
     verify(program).unwrap()
 }
@@ -313,6 +332,9 @@ proptest! {
         prop_assert_eq!(replay.findings.blocked, None);
         let apart = Material::below(&replay.surface).differs_by(&material);
         prop_assert!(apart < 1e-3, "{apart} of {cuts:?}");
+        let by_layer = super::replay(&program_by_layer(&cuts), &[bound(&flat(0.5))]);
+        prop_assert!(by_layer.surface.corners().eq(replay.surface.corners()));
+        prop_assert_eq!(by_layer.layers, replay.layers);
     }
 
     /// The largest distance of either contour from the other, against points of both.
