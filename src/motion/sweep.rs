@@ -365,8 +365,10 @@ struct Work {
     depth: f64,
     /// The surface from left to right; at least one corner.
     corners: Vec<Point2>,
-    /// Rise over x of its steepest flank.
+    /// Rise over x of its steepest flank that is no wall.
     steepest: f64,
+    /// The heads of its walls.
+    walls: Vec<Point2>,
 }
 
 impl Work {
@@ -386,11 +388,19 @@ impl Work {
             _ => 0.0,
         };
         let steepest = corners.windows(2).map(rise).fold(0.0, f64::max);
+        let wall = |pair: &[Point2]| match pair {
+            [a, b] if b.x - a.x <= LEVEL && (b.z - a.z).abs() > LEVEL => {
+                Some(if a.z > b.z { *a } else { *b })
+            }
+            _ => None,
+        };
+        let walls = corners.windows(2).filter_map(wall).collect();
         Self {
             width,
             depth: stock.depth.to_mm(),
             corners,
             steepest,
+            walls,
         }
     }
 
@@ -438,10 +448,17 @@ impl Work {
         if let Some(&low) = inside.iter().find(|point| is_low(point)) {
             return Some(low);
         }
-        self.corners.iter().find_map(|corner| {
+        let over_corner = self.corners.iter().find_map(|corner| {
             let lowest = lowest_at(&inside, corner.x)?;
             (lowest.z < corner.z + room).then_some(lowest)
-        })
+        });
+        // Beside a wall it meets the wall there.
+        let beside_wall = |wall: &Point2| {
+            let from_left = clipped(&inside, DVec3::X, wall.x - moves);
+            let beside = clipped(&from_left, DVec3::NEG_X, -wall.x - moves);
+            beside.into_iter().find(|point| point.z < wall.z + room)
+        };
+        over_corner.or_else(|| self.walls.iter().find_map(beside_wall))
     }
 }
 

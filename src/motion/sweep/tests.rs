@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense};
 use vcutc_machine::kinematics::pose::Pose;
-use vcutc_simulation::surface::Vee;
+use vcutc_simulation::surface::{Side, Vee};
 
 /// What turns the blade and the work, outermost first, and the work on its mount.
 #[derive(Clone, Copy, Debug)]
@@ -141,7 +141,14 @@ impl Scene {
     fn surface(&self) -> Surface {
         let mut surface = Surface::untouched(STOCK);
         for &(x, z, slope) in &self.vees {
-            surface.release(Vee::even(Point2 { x, z }, slope));
+            let vee = Vee::even(Point2 { x, z }, slope);
+            // Some have a wall on one side.
+            let wall = f64::INFINITY;
+            surface.release(match libm::floor(x) % 3.0 {
+                0.0 => vee.with(Side::Left, wall),
+                1.0 => vee.with(Side::Right, wall),
+                _ => vee,
+            });
         }
         surface
     }
@@ -207,7 +214,11 @@ impl Scene {
         on_blade.y.abs() < 1e-6
             && (-spindle_height - 1e-6..=1e-6).contains(&on_blade.z)
             && on_blade.x.abs() <= half + 1e-6
-            && depth_of(place, &mut self.surface()) > -0.01
+            // Beside a wall a place is as near to the work as it is to the wall.
+            && [-0.01, 0.0, 0.01].into_iter().any(|aside| {
+                let place = place + Vector3::new(aside, 0.0, 0.0);
+                depth_of(place, &mut self.surface()) > -0.01
+            })
     }
 
     /// How deep in the work any sample is at most: along y and x from the stock's sides, along z from the surface. Negative outside.
