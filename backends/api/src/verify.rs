@@ -14,6 +14,7 @@ mod chain_tests;
 #[cfg(test)]
 #[cfg(feature = "testkit")]
 mod change_tests;
+mod posture;
 mod sound;
 #[cfg(test)]
 #[cfg(feature = "testkit")]
@@ -21,11 +22,12 @@ mod tests;
 
 pub use capability::{Capabilities, Capability};
 pub use chain::{LARGEST_KINK, LARGEST_SLIP, LARGEST_SWEEP};
+pub use posture::UPRIGHT;
 
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{
-    Action, Blade, BodyStage, Edges, Flank, Head, IR_VERSION, Op, OpId, OperationId, OrientationId, Program,
-    Purpose, Ready, Site, Switch, ToolId,
+    Action, Flank, Head, IR_VERSION, Op, OpId, OperationId, OrientationId, Program, Purpose, Ready, Site,
+    Switch, ToolId,
 };
 use crate::segments::Segment;
 use crate::state::{Generator, Place, State};
@@ -33,6 +35,7 @@ use crate::units::{Angle, Length};
 use chain::OpenChain;
 use core::fmt;
 use core::num::NonZeroU32;
+use posture::{Overhangs, posture_fits};
 
 /// A program that has passed [`verify`].
 #[derive(Clone, Debug, PartialEq)]
@@ -238,25 +241,6 @@ struct Walk<'p> {
     half_thickness: f64,
 }
 
-/// How far the edges of a blade lie along y in a posture: a program has a handful of postures for all its ops.
-struct Overhangs(Vec<((ToolId, OrientationId), [Length; 2])>);
-
-impl Overhangs {
-    /// Programs of more postures than a few compute the rest anew, so that looking never takes long.
-    const MOST: usize = 32;
-
-    fn of(&mut self, key: (ToolId, OrientationId), blade: &Blade, held: Orientation) -> [Length; 2] {
-        if let Some((_, known)) = self.0.iter().find(|(known, _)| *known == key) {
-            return *known;
-        }
-        let found = overhangs(blade, held);
-        if self.0.len() < Self::MOST {
-            self.0.push((key, found));
-        }
-        found
-    }
-}
-
 impl<'p> Walk<'p> {
     fn new(program: &'p Program) -> Self {
         Self {
@@ -269,7 +253,7 @@ impl<'p> Walk<'p> {
             singles: Vec::new(),
             current: OpId(0),
             chain: None,
-            overhangs: Overhangs(Vec::new()),
+            overhangs: Overhangs::NONE_YET,
         }
     }
 
@@ -302,7 +286,7 @@ impl<'p> Walk<'p> {
                 && apex
                 && blade.thickness.is_finite()
                 && blade.thickness >= Length::ZERO
-                && blade.body.as_deref().is_none_or(has_sound_stages)
+                && blade.body.as_deref().is_none_or(sound::has_sound_stages)
         });
         let speeds = p.feeds.iter().all(|f| f.is_finite() && f.to_mm_per_s() > 0.0)
             && p.rates.iter().all(|r| r.is_finite() && r.to_rad_per_s() > 0.0);
@@ -669,43 +653,4 @@ impl<'p> Walk<'p> {
 pub fn half_thickness(program: &Program) -> Length {
     let blades = program.blades.iter().map(|blade| blade.thickness * 0.5);
     blades.fold(Length::ZERO, Length::max)
-}
-
-/// How far the edges of a blade lie along y in a posture.
-fn overhangs(blade: &Blade, held: Orientation) -> [Length; 2] {
-    // The tool axis makes this angle with +y; both edges lie half the apex angle off it, in the blade's plane.
-    let axis = libm::acos((-held.matrix()[1][2]).clamp(-1.0, 1.0));
-    let half_apex = blade.half_apex.to_rad();
-    [axis - half_apex, axis + half_apex].map(|angle| blade.cutting_length * libm::cos(angle))
-}
-
-/// Whether the stages of a body are round, and rise.
-fn has_sound_stages(stages: &[BodyStage]) -> bool {
-    let positive = |length: Length| length.is_finite() && length > Length::ZERO;
-    let sound = |stage: &BodyStage| positive(stage.from) && positive(stage.radius);
-    !stages.is_empty()
-        && stages.iter().all(sound)
-        && stages.is_sorted_by(|below, above| below.from < above.from)
-}
-
-/// Swings this small, in rad, are 0.
-pub const UPRIGHT: f64 = 1e-9;
-
-/// Whether a cut along `dy` holds the blade as its flank wants, with an edge in front.
-fn posture_fits(blade: &Blade, held: Orientation, flank: Flank, dy: f64) -> bool {
-    let m = held.matrix();
-    // Tip to shank is -z_t.
-    let (lean_x, lean_y, lean_z) = (-m[0][2], -m[1][2], -m[2][2]);
-    // A flank of swing 0, a wall, leans to neither side but for rounding.
-    let to_its_side = match flank {
-        Flank::Left => lean_x <= UPRIGHT,
-        Flank::Right => lean_x >= -UPRIGHT,
-    };
-    let edge_leads = match blade.edges {
-        Edges::Double => true,
-        Edges::Single => m[1][0] * dy > 0.0,
-    };
-    // The blade plane holds the feed direction: its normal y_t is square to y.
-    let in_plane = m[1][1].abs() < 1e-9;
-    to_its_side && lean_y * dy >= -SAME && lean_z > 0.0 && edge_leads && in_plane
 }

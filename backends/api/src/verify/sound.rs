@@ -1,7 +1,9 @@
-//! Whether the numbers of a machine are ones that it can have.
+//! Whether the numbers of a machine, and of the bodies of its blades, are ones that they can have.
 
-use crate::ir::{Axis, AxisValues, Cell, Changer, MOST_AXES, PlacedFrame, Ready, Registered, Tool};
-use crate::units::{Duration, Mass};
+use crate::ir::{
+    Axis, AxisValues, BodyStage, Cell, Changer, MOST_AXES, PlacedFrame, Ready, Registered, Tool,
+};
+use crate::units::{Duration, Length, Mass};
 
 /// Whether all numbers of a machine but those of its axes are ones that it can have.
 pub(super) fn has_sound_numbers(cell: &Cell) -> bool {
@@ -67,4 +69,13 @@ pub(super) fn has_sound_axes(axes: &[Axis]) -> bool {
                 && positive(axis.rate)
                 && positive(axis.acceleration)
         })
+}
+
+/// Whether the stages of a body are round, and rise.
+pub(super) fn has_sound_stages(stages: &[BodyStage]) -> bool {
+    let positive = |length: Length| length.is_finite() && length > Length::ZERO;
+    let sound = |stage: &BodyStage| positive(stage.from) && positive(stage.radius);
+    !stages.is_empty()
+        && stages.iter().all(sound)
+        && stages.is_sorted_by(|below, above| below.from < above.from)
 }
