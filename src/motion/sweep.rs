@@ -365,7 +365,7 @@ struct Work {
     depth: f64,
     /// The surface from left to right; at least one corner.
     corners: Vec<Point2>,
-    /// Rise over x of its steepest flank that is no wall.
+    /// Rise over x of its steepest flank, walls left out.
     steepest: f64,
     /// The heads of its walls.
     walls: Vec<Point2>,

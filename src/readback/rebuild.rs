@@ -221,7 +221,7 @@ impl Builder<'_> {
                 self.note_axes(to);
                 Some(match (end, partner.as_ref().map(|partner| partner.op.action)) {
                     (End::Through { .. }, _) | (_, Some(Action::Follow { .. })) => {
-                        self.piece(pose, None, speeds, *end)
+                        self.piece(pose, None, speeds, (*end, given))?
                     }
                     (End::Exact | End::Rounded, _) => self.straight(pose, speeds, partner.as_ref()),
                 })
@@ -231,7 +231,7 @@ impl Builder<'_> {
                 let via = self.via(*on, pose.tip, partner.as_ref(), given)?;
                 let speeds = self.speeds(pose, to, *pace, partner.as_ref(), given)?;
                 self.note_axes(to);
-                Some(self.piece(pose, Some(via), speeds, *end))
+                Some(self.piece(pose, Some(via), speeds, (*end, given))?)
             }
             Command::Switch { output, state } => self.switch(*output, *state),
             Command::AwaitInput(input) => self.await_input(*input),
@@ -505,24 +505,25 @@ impl Builder<'_> {
         TipPose { tip: to, orientation }: TipPose,
         via: Option<ViaId>,
         (feed, rate): (FeedId, RateId),
-        end: End,
-    ) -> Action {
+        (end, given): (End, usize),
+    ) -> Result<Action, Obstacle> {
         let joint = match end {
             End::Exact => Joint::Stop,
-            End::Rounded => Joint::Through,
+            // Nothing says how far the tip leaves the chain.
+            End::Rounded => return Err(Obstacle::NotUnderstood(given)),
             End::Through { within } => {
                 self.program.blend = self.program.blend.max(within);
                 Joint::Through
             }
         };
-        Action::Follow {
+        Ok(Action::Follow {
             to,
             orientation,
             via,
             feed,
             rate,
             joint,
-        }
+        })
     }
 
     /// The point by which an arc is known: that of its partner where it is the same within what is printed.

@@ -202,7 +202,7 @@ fn branch_of(rig: &Rig<'_>, joints: &Joints) -> Branch {
     nearest.map_or(Branch::Numbered(0), |solution| solution.branch)
 }
 
-/// The same on an arc, which goes round by up to 300 deg.
+/// A random move whose tip goes round an arc, by up to 300 deg.
 fn random_arc(
     dice: &mut Dice,
     rig: &Rig<'_>,

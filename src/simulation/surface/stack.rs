@@ -23,7 +23,7 @@ impl Ray {
         self.slope.is_infinite()
     }
 
-    /// Height over x of a flank that is no wall.
+    /// Height over x of a sloping flank.
     fn leaning(self, x: f64) -> f64 {
         self.tip.z + (x - self.tip.x).abs() * self.slope
     }

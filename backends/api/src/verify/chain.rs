@@ -72,7 +72,7 @@ impl Walk<'_> {
     }
 }
 
-/// The directions in which a piece begins and ends, of unit length; none where it is no line and no arc.
+/// The directions in which a piece begins and ends, of unit length; none where it is neither a line nor an arc.
 fn directions(line: &LinearSegment) -> Option<[[f64; 3]; 2]> {
     let way = line.length();
     if !way.is_finite() || way < SHORTEST {

@@ -4,6 +4,7 @@ use super::*;
 use glam::DMat3;
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
+use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::ir::AxisKind;
 use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::five_axis::{Arrangement, Direction, SpindleSense};
@@ -263,7 +264,12 @@ fn courses_that_are_none_are_out_of_reach() {
         duration: f64::NAN,
         ..good
     };
-    for course in [nowhere, timeless, endless] {
+    let point = |x: f64, y: f64| (good.from.position + DVec3::new(x, y, 0.0)).to_array();
+    let arc = CircularArc::through([point(0.0, 0.0), point(5.0, 5.0), point(10.0, 0.0)]);
+    assert!(arc.is_some());
+    let round = Course { arc, ..good };
+    assert!(prove(&machine, &rig, &good, Branch::Numbered(0), &start).is_ok());
+    for course in [nowhere, timeless, endless, round] {
         let breach = prove(&machine, &rig, &course, Branch::Numbered(0), &start).unwrap_err();
         assert_eq!(breach.what, Violation::OutOfReach);
     }

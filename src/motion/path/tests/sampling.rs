@@ -129,7 +129,7 @@ fn arcs() {
     }
 }
 
-/// Arms and machines for which there is no proof of arcs do not follow any.
+/// Without a closed form there is no proof of arcs, so they are refused.
 #[test]
 fn arcs_are_refused_where_they_cannot_be_proven() {
     let model = kuka();
