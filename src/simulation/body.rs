@@ -6,9 +6,9 @@
 //! is the clearance, measured along z.
 //!
 //! On straight ways through the air the same holds of those discs of a body that come over the stock; each counts whole
-//! where any of it does. While the blade turns, the way is cut into spans: the cylinders of the middle of a span, grown by how
-//! far any of their points gets in half of it, contain all that the body covers meanwhile ([`turn`]). Moves of all axes have
-//! no straight way and are not looked at.
+//! where any of it does. While the blade turns, or its tip goes on an arc, the way is cut into spans: the cylinders of the middle
+//! of a span, grown by how far any of their points gets in half of it, contain all that the body covers meanwhile ([`turn`]).
+//! Moves of all axes have no straight way and are not looked at.
 
 mod section;
 mod shadow;
@@ -17,13 +17,13 @@ mod stage;
 mod tests;
 mod turn;
 
+use super::course::Course;
 use super::prove::{Bound, accompanied};
 use super::surface::Surface;
 use section::{Ceiling, Near, Section};
-use stage::{Axis, Cylinder, Way};
-use turn::Turning;
+use stage::{Axis, Cylinder};
 use vcutc_backend_api::ir::{Action, OpId, OperationId, Program, Site};
-use vcutc_backend_api::segments::{LinearSegment, Segment};
+use vcutc_backend_api::segments::Segment;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_geometry::curve::Point2;
@@ -36,7 +36,7 @@ const TOUCH: f64 = 1e-6;
 pub struct Bodies {
     /// How many motions take a body into the work, and the worst of them: the deepest cut, or if only ways do, the deepest way.
     pub contact: Option<(usize, Contact)>,
-    /// Where a body comes nearest above the work in a cut.
+    /// Where a body comes nearest above the work in a straight cut.
     pub nearest: Option<Passage>,
 }
 
@@ -131,11 +131,12 @@ impl<'p> Watcher<'p> {
     }
 
     fn motion(&mut self, segment: &Segment<'_>, surface: &mut Surface) {
-        let (Some(line), Some(operation)) = (segment.line(), segment.op.site.operation()) else {
+        let course = Course::of(self.program, segment);
+        let (Some(course), Some(operation)) = (course, segment.op.site.operation()) else {
             return;
         };
         let during = match segment.op.action {
-            Action::Cut { .. } => During::Cut,
+            Action::Cut { .. } | Action::Follow { .. } => During::Cut,
             _ => During::Way,
         };
         self.ceiling.grow_older(surface);
@@ -144,7 +145,7 @@ impl<'p> Watcher<'p> {
             surface,
             ceiling: &self.ceiling,
         };
-        let Some(near) = self.nearest(&line, operation, during, &mut section) else {
+        let Some(near) = self.nearest(&course, operation, during, &mut section) else {
             return;
         };
         let passage = Passage {
@@ -167,25 +168,19 @@ impl<'p> Watcher<'p> {
         }
     }
 
-    /// Where the body comes nearest above the section: in a cut, if nearer than in any before; on a way, if it enters.
+    /// Where the body comes nearest above the section: in a straight cut, if nearer than in any before; on other ways, if it
+    /// enters.
     fn nearest(
         &self,
-        line: &LinearSegment,
+        course: &Course,
         operation: OperationId,
         during: During,
         section: &mut Section<'_>,
     ) -> Option<Near> {
         let stages = self.stages.get(usize::from(operation.0))?;
-        let way = Way {
-            from: line.from.tip,
-            to: line.to.tip,
+        let Some((way, held)) = course.straight() else {
+            return turn::entry(course, stages, section);
         };
-        let ends = [line.from.orientation, line.to.orientation];
-        let [from, to] = ends.map(|id| self.program.orientation(id));
-        let (from, to) = (from?, to?);
-        if line.from.orientation != line.to.orientation {
-            return Turning { from, to, way }.entry(stages, section);
-        }
         let known = self
             .found
             .nearest
@@ -194,7 +189,7 @@ impl<'p> Watcher<'p> {
             During::Cut => known,
             During::Way => -TOUCH,
         };
-        section.nearest(stages, Axis::of(from), way, within)
+        section.nearest(stages, Axis::of(held), way, within)
     }
 
     /// How deep in the part a body comes that enters the stock.

@@ -9,6 +9,7 @@
 
 pub mod body;
 pub mod contour;
+mod course;
 pub mod prove;
 pub mod report;
 pub mod slit;

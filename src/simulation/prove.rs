@@ -11,15 +11,23 @@
 //! the stock, made by the blade's side towards the part, which lies a standoff deeper than its middle plane. That one must
 //! stay out of the part and the operation's allowance everywhere (a later operation may come closer to the part than an
 //! earlier one). They are compared corner by corner at the end; between corners both are straight.
+//!
+//! On a piece of a chain the blade itself is followed, with its thickness and the chain's blend ([`piece`]).
 
+mod piece;
 #[cfg(test)]
 mod tests;
 
+use super::course::Course;
 use super::surface::{Side, Single, Surface, Vee};
 use core::num::NonZeroU32;
+use piece::Piece;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Orientation;
-use vcutc_backend_api::ir::{Action, Blade, Flank, Op, OpId, OperationId, OrientationId, Program, Site};
+use vcutc_backend_api::ir::{
+    Action, Blade, Flank, Joint, Op, OpId, OperationId, OrientationId, Program, Site,
+};
+use vcutc_backend_api::segments::Segment;
 use vcutc_backend_api::state::{State, TipPose};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_backend_api::verify::{UPRIGHT, VerifiedProgram};
@@ -54,9 +62,9 @@ pub struct Finding {
 /// What can be wrong with a cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CutFault {
-    /// A flank does not come out within the cutting length.
+    /// A flank does not come out within the cutting length, or a chain leads more of the edge through the work.
     NotFreed {
-        /// Edge length that would free the chip; infinite for a single flank whose tip lies in the material, which no edge
+        /// Edge length that would do; infinite for a single flank whose tip lies in the material, which no edge
         /// frees.
         needed: Length,
         /// Edge length that may be used: what the blade has, or less.
@@ -134,10 +142,26 @@ fn played(
     bounds: &[Bound<'_>],
     watch: &mut dyn FnMut(&mut Surface, Release),
 ) -> Replay {
-    let mut player = Player::new(surface, program.program(), bounds);
-    let cuts = Cut::all(program.program());
-    cuts.for_each(|(id, cut)| player.cut(&cut, program.is_single(id), watch));
+    let verified = program;
+    let program = verified.program();
+    let mut player = Player::new(surface, program, bounds);
+    // Looked at where there is one, so that programs without chains take no time for them.
+    let mut pieces = program.segments().filter(|segment| is_piece(segment.op));
+    for (id, op, after) in program.ends() {
+        if let Some(cut) = Cut::of(op, after) {
+            player.cut(&cut, verified.is_single(id), watch);
+        } else if is_piece(op)
+            && let Some(segment) = pieces.next()
+        {
+            player.piece(&segment);
+        }
+    }
     player.finish()
+}
+
+/// Whether an op is a piece of a chain.
+const fn is_piece(op: &Op) -> bool {
+    matches!(op.action, Action::Follow { .. })
 }
 
 /// Shows the surface before every op as the cuts before it have left it. A chip counts as material until all of its flanks are
@@ -249,11 +273,13 @@ struct Player<'p> {
     operation: Option<OperationId>,
     half_done: HalfDone,
     findings: Findings,
-    /// The deepest entry of a slit into the part, and how deep that is.
-    slit: Option<(Finding, f64)>,
+    /// The deepest entry into the part of what leaves no trace in a surface, slits and chains, and how deep that is.
+    traceless: Option<(Finding, f64)>,
     longest_edge: f64,
     /// How many cuts each layer has.
     layers: BTreeMap<(OperationId, NonZeroU32), usize>,
+    /// The part that each operation with chains must stay out of, up to the stock's top.
+    parts: BTreeMap<OperationId, Vec<Point2>>,
 }
 
 /// A V by its layer and its cut.
@@ -293,7 +319,8 @@ impl<'p> Player<'p> {
             operation: None,
             half_done: HalfDone::default(),
             findings: Findings::default(),
-            slit: None,
+            traceless: None,
+            parts: BTreeMap::new(),
             longest_edge: 0.0,
             layers: BTreeMap::new(),
         }
@@ -341,7 +368,7 @@ impl<'p> Player<'p> {
                 let run = self.surface.flank(vee, cut.side());
                 self.longest_edge = self.longest_edge.max(run.reach * geometry.edge_per_height);
                 self.note_blocked(run.blocked_at, cut);
-                self.note_edge(f64::INFINITY, cut);
+                self.note_edge(f64::INFINITY, |fault| cut.finding(fault));
             }
             Single::Outside => {}
             Single::Frees(run) => {
@@ -354,7 +381,7 @@ impl<'p> Player<'p> {
 
     /// Notes how much edge a flank uses.
     fn use_edge(&mut self, needed: f64, cut: &Cut) {
-        self.note_edge(needed, cut);
+        self.note_edge(needed, |fault| cut.finding(fault));
         self.longest_edge = self.longest_edge.max(needed);
     }
 
@@ -370,8 +397,8 @@ impl<'p> Player<'p> {
         *self.layers.entry((cut.operation, cut.layer)).or_default() += 1;
     }
 
-    /// Notes a flank that needs more edge than there is.
-    fn note_edge(&mut self, needed: f64, cut: &Cut) {
+    /// Notes a cut that needs more edge than there is.
+    fn note_edge(&mut self, needed: f64, finding: impl Fn(CutFault) -> Finding) {
         let Some(available) = self.usable_edge() else {
             return;
         };
@@ -381,7 +408,7 @@ impl<'p> Player<'p> {
                 needed: Length::mm(needed),
                 available: Length::mm(available),
             };
-            note(&mut self.findings.not_freed, cut.finding(fault), is_longer);
+            note(&mut self.findings.not_freed, finding(fault), is_longer);
         }
     }
 
@@ -427,11 +454,65 @@ impl<'p> Player<'p> {
     fn note_slit(&mut self, tip: Point2, bound: &Bound<'_>, cut: &Cut) {
         let (start, end) = bound.part.span();
         let part = bound.part.height(tip.x).min(self.surface.top());
-        let deepest = self.slit.map_or(OVERCUT, |(_, known)| known);
-        if (start..=end).contains(&tip.x) && part - tip.z > deepest {
-            let depth = Length::mm(part - tip.z);
-            let fault = CutFault::Overcut { at: tip, depth };
-            self.slit = Some((cut.finding(fault), part - tip.z));
+        if (start..=end).contains(&tip.x) {
+            self.note_entry(tip, part - tip.z, |fault| cut.finding(fault));
+        }
+    }
+
+    /// Notes an entry into the part that leaves no trace in a surface.
+    fn note_entry(&mut self, at: Point2, depth: f64, finding: impl Fn(CutFault) -> Finding) {
+        let deepest = self.traceless.map_or(OVERCUT, |(_, known)| known);
+        if depth > deepest {
+            let fault = CutFault::Overcut {
+                at,
+                depth: Length::mm(depth),
+            };
+            self.traceless = Some((finding(fault), depth));
+        }
+    }
+
+    /// A piece of a chain.
+    fn piece(&mut self, segment: &Segment<'_>) {
+        let (
+            Site::Cut {
+                operation,
+                layer,
+                cut,
+            },
+            Action::Follow { to, joint, .. },
+        ) = (segment.op.site, segment.op.action)
+        else {
+            return;
+        };
+        self.enter(operation);
+        let blade = self.program.blade_of(operation);
+        let (Some(course), Some(blade)) = (Course::of(self.program, segment), blade) else {
+            return;
+        };
+        let finding = |fault| Finding {
+            operation,
+            layer,
+            cut,
+            tip: Point2 { x: to.x, z: to.z },
+            fault,
+        };
+        let piece = Piece::new(course, blade, self.program.stock);
+        if joint == Joint::Stop {
+            *self.layers.entry((operation, layer)).or_default() += 1;
+        }
+        let used = piece.edge_used(&mut self.surface);
+        self.note_edge(used, finding);
+        self.longest_edge = self.longest_edge.max(used);
+        let Some(bound) = self.bounds.get(usize::from(operation.0)) else {
+            return;
+        };
+        let top = self.program.stock.height.to_mm();
+        let part = self
+            .parts
+            .entry(operation)
+            .or_insert_with(|| below_top(bound.part, top));
+        if let Some(entry) = piece.entry(part) {
+            self.note_entry(entry.at, entry.depth, finding);
         }
     }
 
@@ -444,11 +525,11 @@ impl<'p> Player<'p> {
     }
 
     fn finish(mut self) -> Replay {
-        let (overcut, slit) = (self.overcut(), self.slit);
-        let deepest = match (overcut, slit) {
-            (Some((_, depth)), Some((_, deeper))) if deeper > depth => slit,
+        let (overcut, traceless) = (self.overcut(), self.traceless);
+        let deepest = match (overcut, traceless) {
+            (Some((_, depth)), Some((_, deeper))) if deeper > depth => traceless,
             (Some(_), _) => overcut,
-            (None, _) => slit,
+            (None, _) => traceless,
         };
         self.findings.overcut = deepest.map(|(finding, _)| finding);
         Replay {

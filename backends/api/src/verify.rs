@@ -125,7 +125,7 @@ pub enum Rule {
     ReadyNotAwaited,
     /// The generator is off at the end, and the machine at home where there is one.
     Ending,
-    /// A cut is a cut of an operation, and has no flank twice: one left and one right flank, or one of them.
+    /// A cut is a cut of an operation, a chain too, and has no flank twice: one left and one right flank, or one of them.
     CutFlanks,
     /// In an air cut the blade stays above the stock, all along and by half its thickness at least, and the generator off.
     AirCut,
@@ -137,7 +137,7 @@ pub enum Rule {
     OtherBlade,
     /// Three points make the arc of a piece of a chain, which goes round by less than [`LARGEST_SWEEP`].
     Arc,
-    /// Where a piece of a chain is not to end in a stop the next one follows at once, in the same direction but for
+    /// Where a piece of a chain is not to end in a stop the next one of the same cut follows at once, in the same direction but for
     /// [`LARGEST_KINK`].
     ChainJoint,
     /// All along a piece of a chain the blade stands in the plane of its way but for [`LARGEST_SLIP`], its shank leaning

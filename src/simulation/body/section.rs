@@ -4,7 +4,8 @@
 //! bodies pass far above what stands below them, and nothing else has to be looked at then.
 
 use super::shadow::Shadow;
-use super::stage::{Axis, Cylinder, Way};
+use super::stage::{Axis, Cylinder};
+use crate::course::Way;
 use crate::surface::Surface;
 use vcutc_backend_api::ir::Stock;
 use vcutc_geometry::curve::Point2;

@@ -1,7 +1,8 @@
 //! A stage of a body as the blade is held, cut off where it cannot come near the work.
 
 use super::shadow::{Ellipse, Shadow};
-use vcutc_backend_api::geometry::{Orientation, Point3};
+use crate::course::Way;
+use vcutc_backend_api::geometry::Orientation;
 use vcutc_backend_api::ir::{BodyStage, Stock};
 use vcutc_geometry::curve::Point2;
 
@@ -106,35 +107,5 @@ impl Axis {
     pub(super) const fn rise(self) -> f64 {
         let [_, _, z] = self.0;
         z
-    }
-}
-
-/// A straight way of the tip.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Way {
-    pub(super) from: Point3,
-    pub(super) to: Point3,
-}
-
-impl Way {
-    /// The height of its lower end.
-    pub(super) const fn lowest(self) -> f64 {
-        self.from.z.min(self.to.z)
-    }
-
-    /// A part of it, between two shares.
-    pub(super) fn part(self, from: f64, to: f64) -> Self {
-        let at = |share: f64| {
-            let between = |a: f64, b: f64| a + (b - a) * share;
-            Point3::new(
-                between(self.from.x, self.to.x),
-                between(self.from.y, self.to.y),
-                between(self.from.z, self.to.z),
-            )
-        };
-        Self {
-            from: at(from),
-            to: at(to),
-        }
     }
 }

@@ -1,7 +1,8 @@
 //! Shadows against the numbers of the design and against points sampled in space.
 
 use super::shadow::Shadow;
-use super::stage::{Axis, Cylinder, Way};
+use super::stage::{Axis, Cylinder};
+use crate::course::Way;
 use proptest::prelude::*;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{BodyStage, Stock};

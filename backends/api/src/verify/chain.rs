@@ -2,7 +2,7 @@
 
 use super::{Capability, Rule, Walk};
 use crate::geometry::{Orientation, Point3};
-use crate::ir::{Action, Blade, Edges, Joint, Op, OperationId};
+use crate::ir::{Action, Blade, Edges, Joint, Op, Site};
 use crate::segments::{LinearSegment, Segment};
 use crate::units::{Angle, Length};
 use crate::vector::{cross, dot, length, minus, scaled};
@@ -22,7 +22,7 @@ const SHORTEST: Length = Length::mm(1e-3);
 /// The end of a piece that the next one continues.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OpenChain {
-    operation: Option<OperationId>,
+    site: Site,
     direction: [f64; 3],
 }
 
@@ -30,7 +30,7 @@ impl Walk<'_> {
     /// A chain that is not at its end goes on with this op.
     pub(super) fn chain_goes_on(&mut self, op: &Op) {
         let Some(chain) = self.chain else { return };
-        let follows = matches!(op.action, Action::Follow { .. }) && op.site.operation() == chain.operation;
+        let follows = matches!(op.action, Action::Follow { .. }) && op.site == chain.site;
         self.require(follows, Rule::ChainJoint);
         if !follows {
             self.chain = None;
@@ -52,8 +52,9 @@ impl Walk<'_> {
             self.fault(Rule::Arc);
             return;
         };
-        let operation = segment.op.site.operation();
-        let blade = operation.and_then(|id| self.program.blade_of(id));
+        let site = segment.op.site;
+        self.require(matches!(site, Site::Cut { .. }), Rule::CutFlanks);
+        let blade = site.operation().and_then(|id| self.program.blade_of(id));
         self.require(blade.is_some(), Rule::OtherBlade);
         let held = [line.from, line.to].map(|pose| self.program.orientation(pose.orientation));
         if let (Some(blade), [Some(from), Some(to)]) = (blade, held) {
@@ -64,7 +65,7 @@ impl Walk<'_> {
         self.require(goes_on, Rule::ChainJoint);
         self.chain = match joint {
             Joint::Through => Some(OpenChain {
-                operation,
+                site,
                 direction: ends,
             }),
             Joint::Stop => None,

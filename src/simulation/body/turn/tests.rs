@@ -1,0 +1,65 @@
+//! Bodies on turning and circular ways against points of their skin.
+
+use super::entry;
+use crate::body::section::{Ceiling, Section};
+use crate::body::stage::Cylinder;
+use crate::course::samples::courses;
+use crate::surface::{Surface, Vee};
+use proptest::prelude::*;
+use vcutc_backend_api::ir::{BodyStage, Stock};
+use vcutc_backend_api::units::Length;
+use vcutc_geometry::curve::Point2;
+
+const STOCK: Stock = Stock {
+    width: Length::mm(100.0),
+    depth: Length::mm(100.0),
+    height: Length::mm(60.0),
+};
+
+/// The upper side of all material at x; walls there may be as high as either side.
+fn height(line: &[Point2], x: f64) -> Option<f64> {
+    line.windows(2).find_map(|pair| {
+        (pair[0].x..=pair[1].x)
+            .contains(&x)
+            .then(|| pair[0].z + (pair[1].z - pair[0].z) * (x - pair[0].x) / (pair[1].x - pair[0].x))
+    })
+}
+
+proptest! {
+    #[test]
+    fn a_body_whose_skin_enters_the_work_is_found(
+        sample in courses(),
+        (from, radius) in (20.0..60.0_f64, 1.0..12.0_f64),
+        tips in prop::collection::vec((0.0..100.0_f64, 5.0..60.0_f64), 0..6),
+        blend in prop_oneof![Just(0.0), 0.01..1.0_f64],
+    ) {
+        let mut surface = Surface::untouched(STOCK);
+        for (x, z) in tips {
+            surface.release(Vee::even(Point2::new(x, z), 1.3));
+        }
+        let corners: Vec<Point2> = surface.corners().collect();
+        let stages = Cylinder::all(&[BodyStage { from: Length::mm(from), radius: Length::mm(radius) }]);
+        let ceiling = Ceiling::of(STOCK);
+        let mut section = Section { stock: STOCK, surface: &mut surface, ceiling: &ceiling };
+        let found = entry(&sample.course(Length::mm(blend)), &stages, &mut section);
+        let mut deepest = f64::NEG_INFINITY;
+        for share in (0..=150_u32).map(|i| f64::from(i) / 150.0) {
+            let tip = sample.tip(share);
+            for turned in (0..24_u32).map(|i| f64::from(15 * i).to_radians()) {
+                for up in [0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0] {
+                    let skin = [radius * turned.cos(), radius * turned.sin(), -(from + up)];
+                    let off = sample.seen(share, skin);
+                    let [x, y, z]: [f64; 3] = core::array::from_fn(|i| tip[i] + off[i]);
+                    if (0.0..=100.0).contains(&y) {
+                        deepest = deepest.max(height(&corners, x).map_or(f64::NEG_INFINITY, |top| top - z + blend));
+                    }
+                }
+            }
+        }
+        match found {
+            None => prop_assert!(deepest <= super::RESOLUTION, "{deepest} in the work, not found"),
+            // The whole of a disc counts where any of it is over the stock; samples are 2 mm apart and more.
+            Some(near) => prop_assert!(near.gap < 0.0),
+        }
+    }
+}
