@@ -3,6 +3,7 @@
 //! [`Controller`] asks small questions and answers each in the way of the standard (ISO 6983, as Fanuc's controls read it); a
 //! controller overrides what it says in its own way. The writer and the reader of programs are the same for all.
 
+use crate::arcs::Arcs;
 use crate::iso::m_code;
 use crate::statement::{Convention, FeedMode, Mode, Order, Parsed, Routine, Scope, Style};
 use core::ops::RangeInclusive;
@@ -160,6 +161,10 @@ pub(crate) struct Facts {
     pub(crate) tcp_codes: TcpCodes,
     /// What F means when tool-centre-point control has been switched on; none if as before.
     pub(crate) feed_mode_of_tcp: Option<FeedMode>,
+    /// The arcs that it has.
+    pub(crate) arcs: Arcs,
+    /// The word that makes I, J and K count from the start of an arc; none where they always do.
+    pub(crate) centres_from_start: Option<&'static str>,
     /// The word of a straight move of the tip.
     pub(crate) straight: &'static str,
     /// What stands between the coordinates and F of a straight move.
@@ -176,6 +181,8 @@ pub(crate) struct Facts {
     pub(crate) still_tip: FeedMode,
     /// Moves from here on end at a standstill; none where they always do.
     pub(crate) exact: Option<&'static str>,
+    /// The same in the block of a move, where a chain ends, with the blank after it; none where that takes blocks of its own.
+    pub(crate) exact_in_block: Option<&'static str>,
     /// The word after which moves end at a standstill, for messages.
     pub(crate) exact_word: &'static str,
     /// Letters of the words that may stand beside an M code of the builder.
@@ -229,6 +236,8 @@ impl Facts {
         unnumbered: Unnumbered::First,
         tcp_codes: TcpCodes::Own,
         feed_mode_of_tcp: None,
+        arcs: Arcs::InPlanes,
+        centres_from_start: None,
         straight: "G1",
         before_feed: "",
         axis_move: ["G53 G1", ""],
@@ -237,6 +246,7 @@ impl Facts {
         tool_of_axis_moves: None,
         still_tip: FeedMode::InverseTime,
         exact: Some("G61"),
+        exact_in_block: None,
         exact_word: "G61",
         beside_m: "",
         example_codes: ["M50", "M51", "M52"],
@@ -324,6 +334,16 @@ pub(crate) trait Controller: Sync {
     /// Corners from here on are rounded as far as this; none where that cannot be said.
     fn rounded(&self, _approximation: Length) -> Option<String> {
         None
+    }
+
+    /// Motions from here on go on into each other, the tip never farther from them than this; none where that cannot be said.
+    fn through(&self, within: Length) -> Option<Vec<String>> {
+        self.rounded(within).map(|block| vec![block])
+    }
+
+    /// What ends this before the last motion of a chain, where the block of that motion does not say it.
+    fn through_ends(&self) -> Vec<String> {
+        Vec::new()
     }
 
     /// A wait; the time in s is printed already.
