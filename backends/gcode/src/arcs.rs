@@ -6,23 +6,13 @@
 //! decimals 0.002 mm, far within what controls take (LinuxCNC 0.028 mm, `CENTER_ARC_RADIUS_TOLERANCE_MM` [L-GC]; Sinumerik
 //! 0.01 mm, MD21000 [S-840]).
 
+use crate::controller::Arcs;
 use crate::job::Job;
 use crate::statement::{Plane, Sense};
 use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::segments::LinearSegment;
-
-/// Which arcs a control has, and how it states their centres.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Arcs {
-    /// In the three planes; I, J, K lead from the start to the centre.
-    InPlanes,
-    /// The same, and in any plane through a point between the ends.
-    InAnyPlane,
-    /// In the plane of X and Y, about a pole of its own block.
-    AboutPole,
-}
 
 /// An arc as it is written, in the frame of the work offset.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,7 +10,7 @@
 //! the block of the motion itself; cycle 32 has no place there.
 
 use crate::arcs::{self, NoArc};
-use crate::controller::FARTHEST;
+use crate::controller::{Arcs, FARTHEST};
 use crate::job::Job;
 use crate::options::Settings;
 use crate::pace::Pace;
@@ -69,8 +69,8 @@ pub(crate) fn piece(
         Ok(_) => {}
         Err(NoArc::TooSmall) => unsupported(TOO_SMALL),
         Err(NoArc::Oblique) => unsupported(match job.settings.facts().arcs {
-            arcs::Arcs::AboutPole => NOT_HORIZONTAL,
-            arcs::Arcs::InPlanes | arcs::Arcs::InAnyPlane => OBLIQUE,
+            Arcs::AboutPole => NOT_HORIZONTAL,
+            Arcs::InPlanes | Arcs::InAnyPlane => OBLIQUE,
         }),
     }
     match joint {

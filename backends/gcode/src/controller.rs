@@ -3,7 +3,6 @@
 //! [`Controller`] asks small questions and answers each in the way of the standard (ISO 6983, as Fanuc's controls read it); a
 //! controller overrides what it says in its own way. The writer and the reader of programs are the same for all.
 
-use crate::arcs::Arcs;
 use crate::iso::m_code;
 use crate::statement::{Convention, FeedMode, Mode, Order, Parsed, Routine, Scope, Style};
 use core::ops::RangeInclusive;
@@ -29,6 +28,17 @@ pub(crate) enum TcpCodes {
     Own,
     /// Those of the machine's configuration, which the job has to give.
     Given,
+}
+
+/// Which arcs a control has, and how it states their centres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Arcs {
+    /// In the three planes; I, J, K lead from the start to the centre.
+    InPlanes,
+    /// The same, and in any plane through a point between the ends.
+    InAnyPlane,
+    /// In the plane of X and Y, about a pole of its own block.
+    AboutPole,
 }
 
 /// Which letters are written.

@@ -6,7 +6,7 @@
 use crate::arcs::{self, WrittenArc};
 use crate::axes::{NoWord, Word, printed, words};
 use crate::chains;
-use crate::controller::{AxisPace, LARGEST_FEED};
+use crate::controller::{Arcs, AxisPace, LARGEST_FEED};
 use crate::demands;
 use crate::job::Job;
 use crate::options::{HOME_SPEED, PROGRAM_NUMBER, SPINDLE_AXIS, Settings};
@@ -237,8 +237,8 @@ fn centre(job: &Job<'_>, op: OpId, line: &LinearSegment, found: &mut Findings) {
         return;
     };
     let said = match (arc, job.settings.facts().arcs) {
-        (WrittenArc::About { centre, .. }, arcs::Arcs::AboutPole) => centre,
-        (WrittenArc::About { offset, .. }, arcs::Arcs::InPlanes | arcs::Arcs::InAnyPlane) => offset,
+        (WrittenArc::About { centre, .. }, Arcs::AboutPole) => centre,
+        (WrittenArc::About { offset, .. }, Arcs::InPlanes | Arcs::InAnyPlane) => offset,
         (WrittenArc::Through(point), _) => point.to_array(),
     };
     for value in said {

@@ -16,8 +16,7 @@
 //! Every statement begins with a word. Lengths are in mm where `BEGIN PGM` says so, coordinates are absolute without an `I`
 //! before their letter, and blocks with `R0` end at a standstill.
 
-use crate::arcs::Arcs;
-use crate::controller::{AxisPace, Codes, Controller, Facts, File, Signs, ToolNumbers, Unnumbered};
+use crate::controller::{Arcs, AxisPace, Codes, Controller, Facts, File, Signs, ToolNumbers, Unnumbered};
 use crate::iso::{m_code, seconds};
 use crate::statement::{
     Act, Block, Convention, Coordinates, Cursor, Cycle, FeedMode, Flow, Mode, Motion, Number, Order, Parsed,

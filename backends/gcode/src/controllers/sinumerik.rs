@@ -13,8 +13,7 @@
 //! Besides letters with numbers it has words, values behind `=`, and labels. A word that stands alone and is none of the
 //! control's is the name of a part.
 
-use crate::arcs::Arcs;
-use crate::controller::{Codes, Controller, Facts, File, Heads, NumberOf, ToolNumbers};
+use crate::controller::{Arcs, Codes, Controller, Facts, File, Heads, NumberOf, ToolNumbers};
 use crate::iso::{g_code, m_code, rounding, seconds};
 use crate::statement::{
     Act, Block, Convention, Coordinates, Cursor, Flow, Mode, Motion, Number, Once, Order, Parsed, ReadError,

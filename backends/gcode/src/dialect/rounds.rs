@@ -1,8 +1,9 @@
 //! How the tip is led in a block: on a line, or on an arc.
 
 use super::GcodeDialect;
-use crate::arcs::{Arcs, WrittenArc};
+use crate::arcs::WrittenArc;
 use crate::blocks::push_word;
+use crate::controller::Arcs;
 use crate::job::Job;
 use crate::statement::{Once, Plane, Sense};
 use vcutc_backend_api::script::Written;

@@ -1,6 +1,6 @@
 //! Arcs as a control carries them out.
 
-use crate::controller::Facts;
+use crate::controller::{Arcs, Facts};
 use crate::statement::{Order, Parsed, Plane, Sense, expected};
 
 /// By how much the ends of an arc may be at other distances from its centre, in mm: less than any control takes, and more than
@@ -28,12 +28,12 @@ pub(super) fn about(
     [from, to]: [[f64; 3]; 2],
 ) -> Parsed<About> {
     let (plane, centre) = match facts.arcs {
-        crate::arcs::Arcs::AboutPole => match said.pole {
+        Arcs::AboutPole => match said.pole {
             Some([x, y]) if !order.has_arc() => (Plane::Xy, [x, y, from[2]]),
             Some(_) => return expected("no centre in the block of an arc, for `CC` says it"),
             None => return expected("`CC` before an arc"),
         },
-        crate::arcs::Arcs::InPlanes | crate::arcs::Arcs::InAnyPlane => {
+        Arcs::InPlanes | Arcs::InAnyPlane => {
             let Some(plane) = said.plane else {
                 return expected("`G17`, `G18` or `G19` before an arc");
             };

@@ -2,15 +2,17 @@
 
 use crate::head::{on_the_head, product};
 use crate::read_back::replayed;
-use crate::support::{DIALECTS, Given, emit, needed, options, recipe, text};
+use crate::support::{DIALECTS, Given, emit, needed, options, recipe, rounds, text};
 use core::num::NonZeroU32;
+use proptest::prelude::*;
+use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::backend::{Backend, BackendIssue, OptionValue};
 use vcutc_backend_api::geometry::{Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::{Action, Joint, Op, OrientationId, Program, ViaId};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::{DivergenceKind, Mismatch, ProgramFile, program_files};
 use vcutc_backend_api::testkit::{Recipe, chained};
-use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::units::{Angle, Length, Speed};
 use vcutc_backend_gcode::Gcode;
 
 /// Those that state how far the tip may leave a chain.
@@ -26,11 +28,25 @@ pub(crate) fn chain() -> Program {
     chained(one_cut.program(), Angle::deg(60.0), Length::mm(0.1))
 }
 
+/// Chains as a dialect has them, the arcs of one in another plane.
+pub(crate) fn of(dialect: &str) -> impl Iterator<Item = ReachableProgram> {
+    let programs = match dialect {
+        "fanuc" => vec![stopping(chain()), stopping(turned(0.0, 90.0, 0.0))],
+        "heidenhain" => vec![chain()],
+        "linuxcnc" => vec![chain(), turned(0.0, 0.0, 90.0)],
+        _ => vec![chain(), turned(0.0, 90.0, 0.0), turned(0.0, 30.0, 20.0)],
+    };
+    programs.into_iter().map(on_the_head)
+}
+
 /// The same on a machine on which the work lies turned so.
 fn turned(a: f64, b: f64, c: f64) -> Program {
-    let mut program = chain();
+    lying(chain(), [a, b, c])
+}
+
+fn lying(mut program: Program, turns: [f64; 3]) -> Program {
     if let Some(cell) = &mut program.cell {
-        let [a, b, c] = [a, b, c].map(Angle::deg);
+        let [a, b, c] = turns.map(Angle::deg);
         cell.base.frame.orientation = Orientation::from_zyx(Zyx { a, b, c });
     }
     program
@@ -334,4 +350,161 @@ fn edits_of_a_chain_are_named() {
         departs(&oblique, "sinumerik", ("CIP", "G1")),
         DivergenceKind::NotUnderstood
     );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn random_chains_are_read_back(
+        (rake, blend, approximation) in (20.0..89.0_f64, 0.001..3.0_f64, 0.0..3.0_f64),
+        turns in [-180.0..180.0_f64, -80.0..80.0, -180.0..180.0],
+        decimals in 3..=6_u32,
+        lines in prop::sample::select(vec![0, 5]),
+        feed in 1.0..900.0_f64,
+    ) {
+        let recipe = Recipe { layers: 1, cuts: 1, cut_feed: Speed::mm_per_s(feed), ..recipe() };
+        let program = chained(recipe.program(), Angle::deg(rake), Length::mm(blend));
+        for dialect in DIALECTS {
+            let most = if matches!(dialect, "fanuc" | "heidenhain") { 4 } else { 6 };
+            let mut more = vec![
+                ("decimals", OptionValue::Integer(decimals.min(most))),
+                ("lines_per_part", OptionValue::Integer(lines)),
+            ];
+            if rounds(dialect) {
+                more.push(("approximation", OptionValue::Length(Length::mm(approximation))));
+            }
+            let [a, b, c] = turns;
+            let tilted = if dialect == "sinumerik" { [a, b, c] } else { [a, 0.0, 0.0] };
+            let program = match dialect {
+                "fanuc" => stopping(program.clone()),
+                _ => program.clone(),
+            };
+            let program = on_the_head(lying(program, tilted));
+            is_read_back(&program, dialect, &more);
+            arcs_are_those_of_the_program(&program, &written(&program, dialect, &more), dialect);
+        }
+    }
+}
+
+/// The arcs of a text by a way of its own: the printed numbers, school geometry, and no reader.
+fn arcs_are_those_of_the_program(program: &ReachableProgram, files: &[ProgramFile], dialect: &str) {
+    let base = program
+        .program()
+        .cell
+        .as_ref()
+        .unwrap()
+        .base
+        .frame
+        .orientation
+        .matrix();
+    let in_offset =
+        |point: [f64; 3]| base.map(|row| row[0] * point[0] + row[1] * point[1] + row[2] * point[2]);
+    let lines = program.program().segments();
+    let arcs = lines.filter_map(|segment| segment.line()?.arc());
+    let mut said = said_arcs(files, dialect).into_iter();
+    for arc in arcs {
+        let said = said.next().unwrap();
+        let half = in_offset(arc.at(0.5 * arc.sweep().to_rad()));
+        let (centre, radius) = (said.centre, distance(said.from, said.centre));
+        for point in arc.points(16).map(in_offset) {
+            let off = (distance(point, centre) - radius).abs();
+            assert!(off < 0.003, "{dialect}: {off} mm beside {said:?}");
+        }
+        let middle = said.middle();
+        assert!(
+            distance(middle, half) < 0.003,
+            "{dialect}: {middle:?} {half:?} {said:?}"
+        );
+    }
+    assert!(said.next().is_none(), "{dialect}");
+}
+
+/// An arc of a text. It goes round its axis by the rule of the right hand.
+#[derive(Debug)]
+struct SaidArc {
+    from: [f64; 3],
+    to: [f64; 3],
+    centre: [f64; 3],
+    axis: [f64; 3],
+}
+
+impl SaidArc {
+    /// The point half way round: on the line through the centre square to the chord, to the side to which it goes round.
+    fn middle(&self) -> [f64; 3] {
+        let chord = minus(self.to, self.from);
+        let out = crossed(chord, self.axis);
+        let radius = distance(self.from, self.centre);
+        let scale = radius / distance(out, [0.0; 3]);
+        [0, 1, 2].map(|place| self.centre[place] + out[place] * scale)
+    }
+}
+
+fn said_arcs(files: &[ProgramFile], dialect: &str) -> Vec<SaidArc> {
+    let (mut at, mut pole) = ([0.0; 3], [0.0; 2]);
+    let mut normal = 2;
+    let mut arcs = Vec::new();
+    for line in files.iter().flat_map(|file| file.text.lines()) {
+        let words: Vec<&str> = line.split(' ').collect();
+        let number = |word: &str| {
+            let mut texts = words.iter();
+            texts.find_map(|text| text.strip_prefix(word)?.parse::<f64>().ok())
+        };
+        for (plane, across) in [("G17", 2), ("G18", 1), ("G19", 0)] {
+            if words.contains(&plane) {
+                normal = across;
+            }
+        }
+        let from = at;
+        for (place, letter) in ["X", "Y", "Z"].into_iter().enumerate() {
+            at[place] = number(letter).unwrap_or(at[place]);
+        }
+        if words.contains(&"CC") {
+            pole = [at[0], at[1]];
+            at = from;
+        }
+        let turn = |left: bool| {
+            let mut axis = [0.0; 3];
+            axis[normal] = if left { 1.0 } else { -1.0 };
+            axis
+        };
+        let along = |letter| number(letter).unwrap_or_default();
+        let offset = ["I", "J", "K"].map(along);
+        let centre = [0, 1, 2].map(|place| from[place] + offset[place]);
+        let (centre, axis) = if dialect == "heidenhain" && words.contains(&"C") {
+            ([pole[0], pole[1], from[2]], turn(words.contains(&"DR+")))
+        } else if words.contains(&"G2") || words.contains(&"G3") {
+            (centre, turn(words.contains(&"G3")))
+        } else if words.contains(&"CIP") {
+            let via = ["I1=", "J1=", "K1="].map(|word| number(word).unwrap());
+            let arc = CircularArc::through([from, via, at]).unwrap();
+            (arc.centre(), arc.axis())
+        } else {
+            continue;
+        };
+        let to = at;
+        arcs.push(SaidArc {
+            from,
+            to,
+            centre,
+            axis,
+        });
+    }
+    arcs
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|place| a[place] - b[place])
+}
+
+fn crossed(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    minus(a, b).iter().map(|along| along * along).sum::<f64>().sqrt()
 }
