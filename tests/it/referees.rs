@@ -9,6 +9,7 @@
 //! `required`.
 
 mod canon;
+mod chain;
 mod compare;
 mod rapidchecker;
 mod rs274;

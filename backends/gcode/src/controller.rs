@@ -30,6 +30,17 @@ pub(crate) enum TcpCodes {
     Given,
 }
 
+/// Which arcs a control has, and how it states their centres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Arcs {
+    /// In the three planes; I, J, K lead from the start to the centre.
+    InPlanes,
+    /// The same, and in any plane through a point between the ends.
+    InAnyPlane,
+    /// In the plane of X and Y, about a pole of its own block.
+    AboutPole,
+}
+
 /// Which letters are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Letters {
@@ -160,6 +171,10 @@ pub(crate) struct Facts {
     pub(crate) tcp_codes: TcpCodes,
     /// What F means when tool-centre-point control has been switched on; none if as before.
     pub(crate) feed_mode_of_tcp: Option<FeedMode>,
+    /// The arcs that it has.
+    pub(crate) arcs: Arcs,
+    /// The word that makes I, J and K count from the start of an arc; none where they always do.
+    pub(crate) centres_from_start: Option<&'static str>,
     /// The word of a straight move of the tip.
     pub(crate) straight: &'static str,
     /// What stands between the coordinates and F of a straight move.
@@ -176,6 +191,8 @@ pub(crate) struct Facts {
     pub(crate) still_tip: FeedMode,
     /// Moves from here on end at a standstill; none where they always do.
     pub(crate) exact: Option<&'static str>,
+    /// The same in the block of a move, where a chain ends, with the blank after it; none where that takes blocks of its own.
+    pub(crate) exact_in_block: Option<&'static str>,
     /// The word after which moves end at a standstill, for messages.
     pub(crate) exact_word: &'static str,
     /// Letters of the words that may stand beside an M code of the builder.
@@ -229,6 +246,8 @@ impl Facts {
         unnumbered: Unnumbered::First,
         tcp_codes: TcpCodes::Own,
         feed_mode_of_tcp: None,
+        arcs: Arcs::InPlanes,
+        centres_from_start: None,
         straight: "G1",
         before_feed: "",
         axis_move: ["G53 G1", ""],
@@ -237,6 +256,7 @@ impl Facts {
         tool_of_axis_moves: None,
         still_tip: FeedMode::InverseTime,
         exact: Some("G61"),
+        exact_in_block: None,
         exact_word: "G61",
         beside_m: "",
         example_codes: ["M50", "M51", "M52"],
@@ -324,6 +344,16 @@ pub(crate) trait Controller: Sync {
     /// Corners from here on are rounded as far as this; none where that cannot be said.
     fn rounded(&self, _approximation: Length) -> Option<String> {
         None
+    }
+
+    /// Motions from here on go on into each other, the tip never farther from them than this; none where that cannot be said.
+    fn through(&self, within: Length) -> Option<Vec<String>> {
+        self.rounded(within).map(|block| vec![block])
+    }
+
+    /// What ends this before the last motion of a chain, where the block of that motion does not say it.
+    fn through_ends(&self) -> Vec<String> {
+        Vec::new()
     }
 
     /// A wait; the time in s is printed already.

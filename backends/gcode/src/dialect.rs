@@ -1,10 +1,15 @@
 //! How a program is put in blocks.
 
+mod rounds;
+
+use self::rounds::Tip;
+use crate::arcs;
 use crate::axes::printed;
 use crate::blocks::{Blocks, fine, push_word};
+use crate::chains::printed_blend;
 use crate::job::Job;
 use crate::pace::{self, Pace};
-use crate::statement::{FeedMode, Tcp};
+use crate::statement::{FeedMode, Once, Plane, Tcp};
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{AxisKind, AxisValues, OpId, RateId, Switch, ToolId};
@@ -30,6 +35,9 @@ struct Modes {
     tcp: Tcp,
     feed: FeedMode,
     end: End,
+    plane: Plane,
+    /// Whether I, J and K have been said to count from the start of an arc.
+    centres_from_start: Once,
     /// Words of the tip of the block before, where that is known.
     last_tip: Vec<u8>,
     /// How many labels the file has.
@@ -53,6 +61,8 @@ impl Modes {
         tcp: Tcp::Off,
         feed: FeedMode::Tip,
         end: End::Exact,
+        plane: Plane::Xy,
+        centres_from_start: Once::No,
         last_tip: Vec::new(),
         labels: 0,
         tool: ToolId::FIRST,
@@ -107,7 +117,7 @@ impl Dialect for GcodeDialect<'_, '_, '_> {
         self.modes.start = Start::AsProven;
         let [start, end] = settings.facts().axis_move;
         self.tcp_off()?;
-        self.ending(End::Exact)?;
+        let stop = self.ending(End::Exact)?;
         if let Some(pace) = pace {
             self.feed_mode_without_tcp(pace.mode)?;
         }
@@ -115,6 +125,7 @@ impl Dialect for GcodeDialect<'_, '_, '_> {
         axis_words(&mut self.tip, &self.job, AxisKind::Linear, &motion.axes)?;
         self.rotary_words(&motion.axes)?;
         self.blocks.begin();
+        self.blocks.put(stop);
         self.blocks.put(start);
         self.blocks.put_bytes(&self.tip);
         self.blocks.put_bytes(&self.rotary);
@@ -140,18 +151,22 @@ impl Dialect for GcodeDialect<'_, '_, '_> {
         let (from, to) = (source.axes_after(OpId(before))?, source.axes_after(motion.op)?);
         let pace = pace::of_line(&self.job, motion.line, &from, &to)
             .ok_or(EmitError::Internal("a motion has no speed"))?;
+        let arc = arcs::written(&self.job, motion.line)
+            .map_err(|_| EmitError::Internal("an arc was not refused"))?;
         self.tip_words(motion.line.to.tip)?;
         self.rotary_words(&to)?;
         self.tcp_on()?;
-        self.ending(motion.end)?;
+        let stop = self.ending(motion.end)?;
         self.feed_mode(pace.mode)?;
-        self.blocks.begin();
-        self.blocks.put(settings.facts().straight);
         // Under the rate of rotary axes a block names these alone, for F is that of the axes which it names.
-        if pace.mode != FeedMode::Rotary || self.tip != self.modes.last_tip {
-            self.blocks.put_bytes(&self.tip);
+        let tip = match pace.mode {
+            FeedMode::Rotary if self.tip == self.modes.last_tip => Tip::LeftOut,
+            FeedMode::Tip | FeedMode::InverseTime | FeedMode::Rotary => Tip::Named,
+        };
+        match arc {
+            Some(arc) => self.round(stop, arc)?,
+            None => self.straight(stop, tip),
         }
-        self.blocks.put_bytes(&self.rotary);
         self.blocks.put(settings.facts().before_feed);
         self.feed_word(pace)?;
         core::mem::swap(&mut self.tip, &mut self.modes.last_tip);
@@ -259,20 +274,29 @@ impl GcodeDialect<'_, '_, '_> {
         }
     }
 
-    /// How the next moves end.
-    fn ending(&mut self, end: End) -> Written {
-        if self.modes.end == end {
-            return Ok(());
+    /// How the next moves end. At the end of a chain that is a word of the block itself, with the blank after it, where the
+    /// control would stop at a block of that word alone.
+    fn ending(&mut self, end: End) -> Result<&'static str, EmitError> {
+        let before = core::mem::replace(&mut self.modes.end, end);
+        if before == end {
+            return Ok("");
         }
         let settings = self.job.settings;
         let approximation = settings.common.approximation.unwrap_or(Length::ZERO);
-        let block = match end {
-            End::Exact => settings.facts().exact.map(str::to_owned),
-            End::Rounded => settings.controller.rounded(approximation),
-            End::Through { .. } => return Err(EmitError::Internal("a chain was not refused")),
+        let blocks = match (before, end) {
+            (End::Through { .. }, End::Exact) => match settings.facts().exact_in_block {
+                Some(word) => return Ok(word),
+                None => settings.controller.through_ends(),
+            },
+            (_, End::Exact) => settings.facts().exact.map(str::to_owned).into_iter().collect(),
+            (_, End::Rounded) => settings.controller.rounded(approximation).into_iter().collect(),
+            (_, End::Through { within }) => {
+                let lines = settings.controller.through(printed_blend(within, settings));
+                lines.ok_or(EmitError::Internal("a chain was not refused"))?
+            }
         };
-        self.modes.end = end;
-        self.blocks.all(block.as_slice())
+        self.blocks.all(&blocks)?;
+        Ok("")
     }
 
     /// Blocks that the job gives, or else those of the controller.

@@ -1,10 +1,10 @@
 //! Codes that mean the same on all controllers that have them (ISO 6983).
 
 use crate::statement::{
-    Convention, Coordinates, FeedMode, Mode, Motion, Number, Order, Parsed, Scope, expected,
+    Convention, Coordinates, FeedMode, Mode, Motion, Number, Order, Parsed, Plane, Scope, Sense, expected,
 };
 use vcutc_backend_api::readback::End;
-use vcutc_backend_api::units::Duration;
+use vcutc_backend_api::units::{Duration, Length};
 
 /// What M codes do on all controls, as the rest of a sentence.
 pub(crate) const fn m_code(code: u32) -> Option<&'static str> {
@@ -24,8 +24,13 @@ pub(crate) fn g_code(code: u32, order: &mut Order<'_>) -> Parsed<bool> {
     match code {
         0 => order.moves(Motion::Rapid)?,
         10 => order.moves(Motion::AtFeed)?,
-        // A plane is for arcs, `G40` ends a correction for the tool's radius.
-        170 | 400 => {}
+        20 => order.moves(Motion::Round(Sense::Clockwise))?,
+        30 => order.moves(Motion::Round(Sense::Counterclockwise))?,
+        170 => order.set(Mode::Plane(Plane::Xy))?,
+        180 => order.set(Mode::Plane(Plane::Zx))?,
+        190 => order.set(Mode::Plane(Plane::Yz))?,
+        // The end of a correction for the tool's radius.
+        400 => {}
         900 => order.set(Mode::Convention(Convention::Absolute))?,
         910 => order.set(Mode::Not(Convention::Absolute))?,
         930 => order.set(Mode::Feed(Some(FeedMode::InverseTime)))?,
@@ -50,13 +55,18 @@ pub(crate) fn american_g_code(code: u32, order: &mut Order<'_>) -> Parsed<bool> 
     Ok(true)
 }
 
-/// Rounding as far as the job says, or else a way to stop that is not its.
+/// Rounding as far as the job says of corners in the air, or else what a chain goes on with. A distance of 0 is none.
 pub(crate) fn rounding(distance: Option<Number>, scope: Scope<'_>) -> Mode {
-    let is_that_of_the_job = match (distance, scope.approximation) {
-        (Some(is), Some(should)) => (is.value - should.to_mm()).abs() < 0.6e-6,
-        (Some(_), None) | (None, _) => false,
-    };
-    Mode::Stop(is_that_of_the_job.then_some(End::Rounded))
+    let end = distance.filter(|distance| distance.value > 0.0).map(|distance| {
+        let of_job = scope.approximation;
+        match of_job.is_some_and(|should| (distance.value - should.to_mm()).abs() < 0.6e-6) {
+            true => End::Rounded,
+            false => End::Through {
+                within: Length::mm(distance.value),
+            },
+        }
+    });
+    Mode::Stop(end)
 }
 
 /// A wait of some seconds.

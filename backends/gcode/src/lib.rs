@@ -14,6 +14,8 @@
 //! | tip control on, off | `G43 H` and the job's `tcp_on`; `tcp_off` and `G49` | `G43.4 H`, `G49` | `TRAORI`, `TRAFOOF` | `FUNCTION TCPM`, `FUNCTION RESET TCPM` |
 //! | all axes | `G53 G1`, inverse time | `G53 G0` | `SUPA G1 D0`, inverse time | `L M91`, feed |
 //! | exact stop, rounding | `G61.1`, `G64 P` | `G61`, `G64` | `G60`, `G641 ADIS=` | always, never |
+//! | arcs | `G2`, `G3`, I J K | the same | the same, `CIP` | `CC`, `C` |
+//! | chains | `G64 P` | one piece | `G641 ADIS=` | `CYCL DEF 32` |
 //! | turn about the still tip | `G93` | `G93` | `G93` | `F CONT`, deg/min |
 //! | output | `M64 P`, `M65 P` | the job's codes | `STOPRE`, `$A_OUT[]=` | the job's codes |
 //! | input | `M66 P L3 Q` | the job's code | `IF $A_IN[]==FALSE GOTOB` | `FN 20: WAIT FOR` |
@@ -26,6 +28,7 @@
 //! |---|---|
 //! | `Home`, `AxisTravel` | tip control off, then one block with the positions of all axes as the machine counts them |
 //! | `Travel`, `Approach`, `Retract`, `Cut` | tip control on, then `G1` with the tip, all rotary axes and `F` in mm/min |
+//! | `Follow` | the same, or an arc (the module `arcs`); what makes it go on is said before the first (the module `chains`) |
 //! | `Turn` | the same with the tip of the block before, and `F` as inverse time |
 //! | `Ultrasonic`, `AwaitReady`, `Dwell` | as in the table above |
 //! | `ToolChange` | `T n M6` with the place of the tool, or `M0`; Heidenhain `TOOL CALL n Z`; the axes are then taken to be anywhere |
@@ -52,13 +55,16 @@
 //!   kinematics, commit 135b0ce522 and `xyzbc-trt-kins.c`
 //! * [F-30] Fanuc B-63942EN "Series 30i descriptions"; [F-TCP] A-79348E "Tool center point control for 5-axis machining";
 //!   [F-5AX] "Fanuc 5-axis machining functions"
+//! * [S-B1] Siemens 6FC5397-0BP40, function manual "Basic functions", B1
 //! * [S-840], [S-840b], [S-JP] Siemens 6FC5398-2BP20, -2BP10, -2EP40: "Programming Manual Job Planning", "NC programming"
 //! * [H-430], [H-620] Heidenhain user manuals TNC 426/430, TNC 620
 //!
 //! Of this output only LinuxCNC's has been run, by its interpreter; `docs/backends/gcode.md` says what to check on a control.
 
+mod arcs;
 mod axes;
 mod blocks;
+mod chains;
 mod codes;
 mod controller;
 mod controllers;
@@ -105,7 +111,7 @@ impl Backend for Gcode {
     }
 
     fn capabilities(&self) -> Capabilities {
-        CAPABILITIES.with(Capability::ToolChange)
+        CAPABILITIES.with(Capability::ToolChange).with(Capability::Chain)
     }
 
     fn options(&self) -> &'static [OptionSpec] {

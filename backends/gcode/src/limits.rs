@@ -3,8 +3,10 @@
 //! Of each kind of problem the first is told, with its op: a stock placed too far away would otherwise be told a million times.
 //! What is wrong with the options alone is in the module `demands`.
 
+use crate::arcs::{self, WrittenArc};
 use crate::axes::{NoWord, Word, printed, words};
-use crate::controller::{AxisPace, LARGEST_FEED};
+use crate::chains;
+use crate::controller::{Arcs, AxisPace, LARGEST_FEED};
 use crate::demands;
 use crate::job::Job;
 use crate::options::{HOME_SPEED, PROGRAM_NUMBER, SPINDLE_AXIS, Settings};
@@ -14,7 +16,9 @@ use crate::tools;
 use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
 use vcutc_backend_api::findings::{Findings, Number, driven_cell};
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{AxisKind, AxisValues, Cell, MachineKind, OpId, PlacedFrame, Ready, ToolId};
+use vcutc_backend_api::ir::{
+    Action, AxisKind, AxisValues, Cell, MachineKind, OpId, PlacedFrame, Ready, ToolId,
+};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::script::{Part, Source};
 use vcutc_backend_api::segments::{LinearSegment, Path};
@@ -169,7 +173,7 @@ fn ops(job: &Job<'_>, found: &mut Findings) {
         found.op(segment.id, &segment.op.action);
         match segment.path() {
             Path::Home | Path::Change | Path::Axes(_) => axes(job, segment.id, found),
-            Path::Linear(line) => self::line(job, segment.id, &line, found),
+            Path::Linear(line) => self::line(job, segment.id, (&segment.op.action, &line), found),
             Path::Still => {}
         }
     }
@@ -204,7 +208,7 @@ fn positions(job: &Job<'_>, op: OpId, axes: &AxisValues, kind: AxisKind, found: 
     }
 }
 
-fn line(job: &Job<'_>, op: OpId, line: &LinearSegment, found: &mut Findings) {
+fn line(job: &Job<'_>, op: OpId, (action, line): (&Action, &LinearSegment), found: &mut Findings) {
     let to = job.work_in_offset.in_offset(line.to.tip);
     for (what, value) in [("X", to.x), ("Y", to.y), ("Z", to.z)] {
         length(Some(op), what, value, job.settings, found);
@@ -215,12 +219,30 @@ fn line(job: &Job<'_>, op: OpId, line: &LinearSegment, found: &mut Findings) {
         return;
     };
     positions(job, op, &to, AxisKind::Rotary, found);
-    if let Some(pace) = pace::of_line(job, line, &from, &to) {
+    let pace = pace::of_line(job, line, &from, &to);
+    chains::piece(job, op, (action, line), pace, found);
+    centre(job, op, line, found);
+    if let Some(pace) = pace {
         let what = match pace.mode {
             FeedMode::Tip => "tip speed",
             FeedMode::InverseTime | FeedMode::Rotary => "reorientation rate",
         };
         feed(job, op, what, pace, found);
+    }
+}
+
+/// The centre of an arc, or the way to it.
+fn centre(job: &Job<'_>, op: OpId, line: &LinearSegment, found: &mut Findings) {
+    let Ok(Some(arc)) = arcs::written(job, line) else {
+        return;
+    };
+    let said = match (arc, job.settings.facts().arcs) {
+        (WrittenArc::About { centre, .. }, Arcs::AboutPole) => centre,
+        (WrittenArc::About { offset, .. }, Arcs::InPlanes | Arcs::InAnyPlane) => offset,
+        (WrittenArc::Through(point), _) => point.to_array(),
+    };
+    for value in said {
+        length(Some(op), "centre of an arc", value, job.settings, found);
     }
 }
 

@@ -7,17 +7,18 @@
 //!
 //! # What is understood
 //!
-//! * Straight motions of the tip, every coordinate of which is known, and motions of all axes in coordinates of the machine.
+//! * Motions of the tip on lines and arcs, every coordinate of which is known, and motions of all axes in coordinates of the machine.
 //! * Absolute coordinates in mm, and what each dialect says of tool-centre-point control, exact stops, rounding, tools, work
 //!   offsets, the meaning of F, outputs, inputs and waits, where it is that of the job. A motion for which one of these was not
 //!   said, in the same part, is not understood.
 //! * Parts in files of their own, each called once.
 //! * Blocks that the job gives (`tcp_on`, `on_code`, ...) and lines of the machine's profile, as texts.
 //!
-//! Letters may be small, blanks and zeros missing, coordinates left out that stay as they were. Everything else (arcs, `G91`,
+//! Letters may be small, blanks and zeros missing, coordinates left out that stay as they were. Everything else (`G91`,
 //! `G20`, variables, loops, other M codes) is told as not understood: nothing is guessed. Motions of all axes are held against the
 //! job's `home_speed` ([`rates`]).
 
+mod arcs;
 mod codes;
 mod context;
 mod control;

@@ -15,6 +15,17 @@ pub(super) enum Canon {
         /// How fast: mm a minute along X, Y, Z where these move, degrees a minute along the rotary axes otherwise.
         rate: f64,
     },
+    /// A motion on an arc with a speed along it.
+    Arc {
+        /// Where it ends.
+        to: Position,
+        /// The point about which X, Y, Z go.
+        centre: [f64; 3],
+        /// The axis about which they go, by the rule of the right hand.
+        axis: [f64; 3],
+        /// How fast: mm a minute along the arc.
+        rate: f64,
+    },
     /// A straight motion at the rates of the axes.
     Traverse {
         /// Where it ends.
@@ -75,7 +86,6 @@ const SETTINGS: &[&str] = &[
     "MESSAGE",
     "ON_RESET",
     "PALLET_SHUTTLE",
-    "SELECT_PLANE",
     "SELECT_TOOL",
     "SET_FEED_MODE",
     "SET_FEED_REFERENCE",
@@ -95,7 +105,7 @@ pub(super) const NOTHING: f64 = 0.000_05;
 /// Reads what `rs274` printed.
 pub(super) fn read(text: &str) -> Result<Vec<Canon>, String> {
     let mut canon = Vec::new();
-    let mut feed = 0.0;
+    let (mut feed, mut plane) = (0.0, None);
     for line in text.lines() {
         let fault = || format!("cannot read `{line}`");
         // A number of the line, the N word of the block or dots, and the function.
@@ -111,6 +121,10 @@ pub(super) fn read(text: &str) -> Result<Vec<Canon>, String> {
         }
         if name == "SET_MOTION_CONTROL_MODE" {
             canon.push(Canon::Control(control(arguments).ok_or_else(fault)?));
+            continue;
+        }
+        if name == "SELECT_PLANE" {
+            plane = Some(in_plane(arguments).ok_or_else(fault)?);
             continue;
         }
         if name == "USE_TOOL_LENGTH_OFFSET" {
@@ -132,6 +146,7 @@ pub(super) fn read(text: &str) -> Result<Vec<Canon>, String> {
                 let to = Position::try_from(numbers).map_err(|_| fault())?;
                 Canon::Feed { to, rate: feed }
             }
+            ("ARC_FEED", numbers) => arc(numbers, plane, feed).ok_or_else(fault)?,
             ("STRAIGHT_TRAVERSE", _) => {
                 let to = Position::try_from(numbers).map_err(|_| fault())?;
                 Canon::Traverse { to }
@@ -149,6 +164,39 @@ pub(super) fn read(text: &str) -> Result<Vec<Canon>, String> {
         });
     }
     Ok(canon)
+}
+
+/// The first and second axis of a plane and the one square to it, from 0.
+fn in_plane(name: &str) -> Option<[usize; 3]> {
+    match name {
+        "CANON_PLANE_XY" => Some([0, 1, 2]),
+        "CANON_PLANE_XZ" => Some([2, 0, 1]),
+        "CANON_PLANE_YZ" => Some([1, 2, 0]),
+        _ => None,
+    }
+}
+
+/// The end in the plane, the centre there, turns to the left, the end along the axis, and the rotary axes.
+fn arc(numbers: &[f64], plane: Option<[usize; 3]>, rate: f64) -> Option<Canon> {
+    let &[to_first, to_second, first, second, turns, to_along, a, b, c] = numbers else {
+        return None;
+    };
+    let [on_first, on_second, along] = plane?;
+    let (mut to, mut centre, mut axis) = ([0.0, 0.0, 0.0, a, b, c], [0.0; 3], [0.0; 3]);
+    (to[on_first], to[on_second], to[along]) = (to_first, to_second, to_along);
+    (centre[on_first], centre[on_second], centre[along]) = (first, second, to_along);
+    // More turns than one are no arc of ours.
+    axis[along] = if turns == 1.0 || turns == -1.0 {
+        turns
+    } else {
+        return None;
+    };
+    Some(Canon::Arc {
+        to,
+        centre,
+        axis,
+        rate,
+    })
 }
 
 fn output(number: f64, on: bool) -> Canon {

@@ -1,8 +1,9 @@
 //! An intermediate program against what an interpreter makes of the emitted text.
 
 use super::canon::{Canon, Control, Kinematics, NOTHING, Position};
+use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, AxisKind, AxisValues, Cell, Changer, OpId, Ready, Switch};
+use vcutc_backend_api::ir::{Action, AxisKind, AxisValues, Cell, Changer, Joint, OpId, Ready, Switch};
 use vcutc_backend_api::motion::ReachableProgram;
 
 /// What has to happen.
@@ -16,6 +17,21 @@ pub(super) enum Deed {
         from: Position,
         /// Where it ends.
         to: Position,
+        /// How long it takes.
+        seconds: f64,
+        /// How it ends.
+        end: End,
+    },
+    /// The same on an arc.
+    Round {
+        /// Where it begins.
+        from: Position,
+        /// Where it ends.
+        to: Position,
+        /// The point about which the tip goes.
+        centre: [f64; 3],
+        /// The axis about which it goes, by the rule of the right hand.
+        axis: [f64; 3],
         /// How long it takes.
         seconds: f64,
         /// How it ends.
@@ -41,6 +57,8 @@ pub(super) enum End {
     Exact,
     /// As it likes: it leads through the air, and so does the next.
     Free,
+    /// Without a stop, the tip no farther from both ways than this, in mm.
+    Through(f64),
 }
 
 /// What has to happen by an intermediate program, with the op that asks for it. Waits for inputs are not among it: the
@@ -56,11 +74,24 @@ pub(super) fn deeds(program: &ReachableProgram) -> Vec<(OpId, Deed)> {
         let deed = match (op.action, segment.line()) {
             (_, Some(line)) => {
                 let before = program.axes_after(OpId(id.0 - 1)).unwrap();
-                Deed::Straight {
-                    from: pose(cell, line.from.tip, &before),
-                    to: pose(cell, line.to.tip, &axes),
-                    seconds: line.duration().to_s(),
-                    end: end(&op.action, next.map(|next| &next.action)),
+                let (from, to) = (pose(cell, line.from.tip, &before), pose(cell, line.to.tip, &axes));
+                let seconds = line.duration().to_s();
+                let end = end(&op.action, next.map(|next| &next.action), ir.blend.to_mm());
+                match line.arc() {
+                    Some(arc) => Deed::Round {
+                        from,
+                        to,
+                        centre: arc.centre(),
+                        axis: arc.axis(),
+                        seconds,
+                        end,
+                    },
+                    None => Deed::Straight {
+                        from,
+                        to,
+                        seconds,
+                        end,
+                    },
                 }
             }
             (Action::Home | Action::AxisTravel { .. } | Action::ChangePlace, None) => {
@@ -91,8 +122,15 @@ pub(super) fn deeds(program: &ReachableProgram) -> Vec<(OpId, Deed)> {
 
 /// How a motion has to end by what it is and what follows it. Cuts begin and end standing still, turns leave the tip where it
 /// is, outputs are switched where the motion before them ends, and an approach ends at the work.
-fn end(motion: &Action, next: Option<&Action>) -> End {
+fn end(motion: &Action, next: Option<&Action>, blend: f64) -> End {
     match (motion, next) {
+        (
+            Action::Follow {
+                joint: Joint::Through,
+                ..
+            },
+            _,
+        ) => End::Through(blend),
         (
             Action::Travel { .. } | Action::Retract { .. },
             Some(Action::Travel { .. } | Action::Approach { .. } | Action::Retract { .. }),
@@ -192,7 +230,7 @@ impl Machine {
         let stands_still = self.control == Some(Control::ExactStop);
         match deed {
             Deed::Axes(_) => self.kinematics == Some(Kinematics::Axes) && stands_still,
-            Deed::Straight { end, .. } => {
+            Deed::Straight { end, .. } | Deed::Round { end, .. } => {
                 let has_blade = self
                     .tool
                     .is_some_and(|tool| (tool - self.blade.unwrap_or(within.tool)).abs() <= NOTHING);
@@ -200,7 +238,8 @@ impl Machine {
                     (End::Exact, _) => stands_still,
                     (End::Free, Some(Control::Continuous { tolerance })) => tolerance <= within.corners,
                     (End::Free, Some(Control::ExactStop | Control::ExactPath)) => true,
-                    (End::Free, None) => false,
+                    (End::Through(within), Some(Control::Continuous { tolerance })) => tolerance <= *within,
+                    (End::Free, None) | (End::Through(_), _) => false,
                 };
                 self.kinematics == Some(Kinematics::Tip) && has_blade && ends_well
             }
@@ -227,13 +266,13 @@ impl Machine {
             }
             Canon::Kinematics(_) | Canon::Control(_) => true,
             Canon::End => self.kinematics == Some(Kinematics::Axes),
-            Canon::Dwell(_) | Canon::ChangeTool(_) | Canon::Stop => false,
+            Canon::Arc { .. } | Canon::Dwell(_) | Canon::ChangeTool(_) | Canon::Stop => false,
         }
     }
 
     fn after(self, did: &Canon) -> Self {
         match *did {
-            Canon::Feed { to, .. } | Canon::Traverse { to } => Self {
+            Canon::Feed { to, .. } | Canon::Arc { to, .. } | Canon::Traverse { to } => Self {
                 at: self.kinematics.map(|kinematics| (to, kinematics)),
                 ..self
             },
@@ -313,6 +352,32 @@ fn carries_out(did: &Canon, deed: &Deed, within: Tolerance) -> bool {
                 from, to, seconds, ..
             },
         ) => within.is_there(there, to) && same_time(way(from, to) / rate * 60.0, *seconds),
+        (
+            Canon::Arc {
+                to: there,
+                centre: is,
+                axis: turns,
+                rate,
+            },
+            Deed::Round {
+                from,
+                to,
+                centre,
+                axis,
+                seconds,
+                ..
+            },
+        ) => {
+            let ends = [from, to].map(|[x, y, z, ..]| [*x, *y, *z]);
+            let length = CircularArc::about(*is, *turns, ends).map(|arc| arc.length().to_mm());
+            // The centre is the printed start and the printed way to it.
+            let is_there = (0..3).all(|place| (is[place] - centre[place]).abs() <= 2.0 * within.length);
+            let along: f64 = (0..3).map(|place| turns[place] * axis[place]).sum();
+            within.is_there(there, to)
+                && is_there
+                && along > 1.0 - 1e-6
+                && length.is_some_and(|length| same_time(length / rate * 60.0, *seconds))
+        }
         (Canon::Output { number, on }, Deed::Switch(output, state)) => (number, on) == (output, state),
         (Canon::ChangeTool(is), Deed::Change { place, .. }) => Some(*is) == *place,
         (Canon::Stop, Deed::Change { place, .. }) => place.is_none(),

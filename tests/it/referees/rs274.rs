@@ -1,6 +1,7 @@
 //! LinuxCNC's interpreter, `rs274`, as it comes with the Debian package linuxcnc-uspace.
 
 use super::canon::{self, Canon, KINEMATICS};
+use super::chain::chained;
 use super::compare::{Deed, End, Tolerance, compare, deeds};
 use super::is_there;
 use crate::pipeline::{Files, compile_on, emit_for};
@@ -9,7 +10,10 @@ use crate::shop::{Pairing, compiling, folder_for};
 use std::fs;
 use std::process::{Command, Stdio};
 use vcutc::registry;
+use vcutc_backend_api::backend::{OptionValue, Options};
+use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::ir::OpId;
+use vcutc_backend_api::units::Length;
 
 /// The configuration of a machine with switchable kinematics: two M codes of its own, as the sample configurations of
 /// LinuxCNC have them (`remap_subs/428remap.ngc`).
@@ -154,6 +158,61 @@ fn changes_of_the_blade_are_carried_out() {
         ("T2 M6", "M0"),
         ("T2 M6", "T2 M6\nT2 M6"),
         ("G43 H2", "G43 H1"),
+    ] {
+        assert!(judged(from, to).is_err(), "{from} -> {to}");
+    }
+}
+
+/// A program that changes its blade and then follows a chain does as well, and one of another chain does not.
+#[test]
+fn chains_are_carried_out() {
+    if !is_installed() {
+        return;
+    }
+    let files = Files::of(root().join("tests/jobs/two_tools"));
+    let outcome = compile_on(Some("gantry"), "job.vcut", &files);
+    let reached = outcome.compiled.as_ref().unwrap().program.reached().unwrap();
+    let program = chained(reached.program.program().clone(), Length::mm(0.1));
+    let target = registry::backend("gcode").unwrap();
+    let mut options = Options::defaults(target.options());
+    for (key, code) in [("tcp_on", "M429"), ("tcp_off", "M428")] {
+        let spec = target.options().iter().find(|spec| spec.key == key).unwrap();
+        options
+            .set(spec, OptionValue::Lines(vec![code.to_owned()]))
+            .unwrap();
+    }
+    let mut bundle = Bundle::default();
+    let emission = target.check(&program, &options).unwrap();
+    emission.write(&mut bundle).unwrap();
+    let judged = |from: &str, to: &str| {
+        let edited = |(name, text): &(String, Vec<u8>)| {
+            let text = str::from_utf8(text).unwrap();
+            assert!(text.contains(from), "{from} in {text}");
+            (name.clone(), text.replacen(from, to, 1).into_bytes())
+        };
+        let files: Vec<_> = bundle.files().iter().map(edited).collect();
+        let within = Tolerance::of_decimals(3, 4, 2.0, BLADE);
+        carry_out(&files).and_then(|canon| compare(&deeds(&program), &canon, within))
+    };
+    assert_eq!(judged("T2 M6", "T2 M6"), Ok(()));
+    for (from, to) in [
+        ("T2 M6", "T1 M6"),
+        ("G43 H2", "G43 H1"),
+        ("G64 P0.1 Q0", "G64 P0.2 Q0"),
+        ("G64 P0.1 Q0", "G64 P0 Q0"),
+        ("G64 P0.1 Q0\n", ""),
+        ("G64 P0.1 Q0", "G61"),
+        ("G61.1 G1", "G1"),
+        ("G61.1 G1", "G61 G1"),
+        ("G19 G91.1 G3", "G19 G91.1 G2"),
+        ("G19 G91.1 G3", "G19 G91.1 G1"),
+        ("G19 G91.1 G3", "G91.1 G3"),
+        ("G19 G91.1 G3", "G18 G91.1 G3"),
+        ("G19 G91.1 G3", "G19 G90.1 G3"),
+        ("\nG2 X", "\nG3 X"),
+        (" J0.000 K8.000", " J0.100 K8.000"),
+        (" K8.000", " K8.010"),
+        (" K8.000", ""),
     ] {
         assert!(judged(from, to).is_err(), "{from} -> {to}");
     }

@@ -16,18 +16,21 @@
 //! Every statement begins with a word. Lengths are in mm where `BEGIN PGM` says so, coordinates are absolute without an `I`
 //! before their letter, and blocks with `R0` end at a standstill.
 
-use crate::controller::{AxisPace, Codes, Controller, Facts, File, Signs, ToolNumbers, Unnumbered};
+use crate::controller::{Arcs, AxisPace, Codes, Controller, Facts, File, Signs, ToolNumbers, Unnumbered};
 use crate::iso::{m_code, seconds};
 use crate::statement::{
     Act, Block, Convention, Coordinates, Cursor, Cycle, FeedMode, Flow, Mode, Motion, Number, Order, Parsed,
-    ReadError, Routine, Scope, Style, Tcp, expected,
+    ReadError, Routine, Scope, Sense, Style, Tcp, expected,
 };
 use vcutc_backend_api::readback::{End, stem};
-use vcutc_backend_api::script::Layout;
+use vcutc_backend_api::script::{Layout, trimmed_text};
+use vcutc_backend_api::units::Length;
 
 pub(super) struct Heidenhain;
 
 const F_TCP: &str = "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS";
+
+const TOLERANCE: &str = "CYCL DEF 32.0 TOLERANCE";
 
 const F_CONT: &str = "FUNCTION TCPM F CONT AXIS POS PATHCTRL AXIS";
 
@@ -50,6 +53,7 @@ const FACTS: Facts = Facts {
     work_offsets: 9999,
     unnumbered: Unnumbered::Operators,
     feed_mode_of_tcp: Some(FeedMode::Tip),
+    arcs: Arcs::AboutPole,
     straight: "L",
     before_feed: " R0",
     axis_move: ["L", " M91"],
@@ -132,6 +136,16 @@ impl Controller for Heidenhain {
         }
     }
 
+    fn through(&self, within: Length) -> Option<Vec<String>> {
+        let distance = trimmed_text(within.to_mm());
+        Some(vec![TOLERANCE.to_owned(), format!("CYCL DEF 32.1 T{distance}")])
+    }
+
+    /// Without a value the tolerance is the machine's again [H-620].
+    fn through_ends(&self) -> Vec<String> {
+        vec![TOLERANCE.to_owned(), "CYCL DEF 32.1".to_owned()]
+    }
+
     fn dwell(&self, seconds: &str) -> Vec<String> {
         vec![
             "CYCL DEF 9.0 DWELL TIME".to_owned(),
@@ -164,6 +178,9 @@ impl Controller for Heidenhain {
             };
             return line(&mut cursor, order, scope);
         }
+        if cursor.word("C") {
+            return line(&mut cursor, Order::default(), scope).and_then(round);
+        }
         // The second line of a cycle begins with a parameter.
         if cursor.word("Q339") {
             return preset(&mut cursor);
@@ -182,6 +199,8 @@ impl Controller for Heidenhain {
             call(&mut cursor)?
         } else if cursor.word("TOOL") {
             tool_call(&mut cursor)?
+        } else if cursor.word("CC") {
+            pole(&mut cursor, scope)?
         } else if cursor.word("CYCL") {
             cycle(&mut cursor)?
         } else if cursor.word("FN") {
@@ -202,6 +221,10 @@ fn line<'t>(cursor: &mut Cursor<'_>, mut order: Order<'t>, scope: Scope<'_>) -> 
     while cursor.peek().is_some() {
         if cursor.word("FMAX") {
             order.motion = order.motion.map(|_| Motion::Rapid);
+            continue;
+        }
+        if cursor.word("DR") {
+            order.moves(direction(cursor)?)?;
             continue;
         }
         let Some(letter) = cursor.letter() else {
@@ -233,6 +256,41 @@ fn line<'t>(cursor: &mut Cursor<'_>, mut order: Order<'t>, scope: Scope<'_>) -> 
     }
     words.finish(scope, &mut order)?;
     Ok(order)
+}
+
+/// The sign behind `DR`.
+fn direction(cursor: &mut Cursor<'_>) -> Parsed<Motion> {
+    if cursor.skip(b'+') {
+        Ok(Motion::Round(Sense::Counterclockwise))
+    } else if cursor.skip(b'-') {
+        Ok(Motion::Round(Sense::Clockwise))
+    } else {
+        expected("`DR+` or `DR-`")
+    }
+}
+
+/// What `C` begins: it says which way round.
+fn round(order: Order<'_>) -> Parsed<Order<'_>> {
+    match order.motion {
+        Some(_) => Ok(order),
+        None => expected("`DR+` or `DR-`"),
+    }
+}
+
+/// `CC X+10 Y+20`: the pole of the arcs that follow.
+fn pole<'t>(cursor: &mut Cursor<'_>, scope: Scope<'_>) -> Parsed<Order<'t>> {
+    let order = line(cursor, Order::default(), scope)?;
+    let at = |letter| {
+        let word = scope.words.iter().find(|word| word.letter == letter)?;
+        order.axes.get(word.place).copied().flatten()
+    };
+    let said = order.axes.iter().flatten().count();
+    match (at(b'X'), at(b'Y'), said, order.feed) {
+        (Some(x), Some(y), 2, None) if order.modes.is_empty() && !order.has_arc() => {
+            Ok(Order::modes(vec![Mode::Pole([x, y])]))
+        }
+        (_, _, _, _) => expected("X and Y of the centre after `CC`"),
+    }
 }
 
 /// `FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS`, `FUNCTION RESET TCPM`.
@@ -331,6 +389,14 @@ fn cycle<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
         cursor.must(b'~')?;
         return Ok(Order::modes(vec![Mode::Cycle(Cycle::WorkOffset)]));
     }
+    match cycle {
+        Some("32.0") => {
+            must(cursor, &["TOLERANCE"])?;
+            return Ok(Order::modes(vec![Mode::Cycle(Cycle::Tolerance)]));
+        }
+        Some("32.1") => return tolerance(cursor),
+        Some(_) | None => {}
+    }
     must(cursor, &["DWELL"])?;
     match cycle {
         Some("9.0") => {
@@ -342,6 +408,18 @@ fn cycle<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
             None => expected("a time in seconds"),
         },
         Some(_) | None => Err(ReadError::Unknown),
+    }
+}
+
+/// `T0.1` behind `CYCL DEF 32.1`, or nothing.
+fn tolerance<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
+    if cursor.peek().is_none() {
+        return Ok(Order::act(Act::CycleTolerance(None)));
+    }
+    let is_of_way = cursor.letter() == Some(b'T');
+    match cursor.number().filter(|_| is_of_way).map(|number| number.value) {
+        Some(distance) if distance > 0.0 => Ok(Order::act(Act::CycleTolerance(Some(Length::mm(distance))))),
+        Some(_) | None => expected("`T` with a distance above 0"),
     }
 }
 

@@ -18,7 +18,8 @@
 use crate::controller::{Codes, Controller, Facts, File, Heads, Letters, TcpCodes};
 use crate::iso::{american_g_code, m_code, rounding, seconds};
 use crate::statement::{
-    Act, Block, Cursor, Cycle, Flow, Mode, Order, Parsed, ReadError, Routine, Scope, Style, block, expected,
+    Act, Block, Convention, Cursor, Cycle, Flow, Mode, Order, Parsed, ReadError, Routine, Scope, Style,
+    block, expected,
 };
 use vcutc_backend_api::ir::Switch;
 use vcutc_backend_api::readback::{End, normalized};
@@ -53,7 +54,9 @@ const FACTS: Facts = Facts {
     longest_line: 255,
     work_offsets: 9,
     tcp_codes: TcpCodes::Given,
+    centres_from_start: Some("G91.1"),
     exact: Some("G61.1"),
+    exact_in_block: Some("G61.1 "),
     exact_word: "G61.1",
     // `M68 E3 Q1` and `M66 E0 L0` are in the sample configurations.
     beside_m: "ELPQS",
@@ -62,6 +65,11 @@ const FACTS: Facts = Facts {
     // M100 to M199 run programs of the builder's [L-MC].
     builders_codes: &[100..=199],
     signals: 0..=63,
+    conventions: &[
+        (Convention::Absolute, "G90"),
+        (Convention::Millimetres, "G21"),
+        (Convention::CentresFromStart, "G91.1"),
+    ],
     heads: Heads::OfParts,
     endings: ["M2", "endsub"],
     ..Facts::STANDARD
@@ -229,6 +237,8 @@ fn g(code: u32, words: &mut Block, order: &mut Order<'_>, scope: Scope<'_>) -> P
         430 => order.set(Mode::Tool(Some(words.whole(b'H')?))),
         490 => order.set(Mode::Tool(Some(0))),
         591..=593 => order.set(Mode::Work(code - 584)),
+        901 => order.set(Mode::Not(Convention::CentresFromStart)),
+        911 => order.set(Mode::Convention(Convention::CentresFromStart)),
         611 => order.set(Mode::Stop(Some(End::Exact))),
         610 => order.set(Mode::Stop(None)),
         640 => {

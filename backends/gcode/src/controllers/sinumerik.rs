@@ -13,11 +13,11 @@
 //! Besides letters with numbers it has words, values behind `=`, and labels. A word that stands alone and is none of the
 //! control's is the name of a part.
 
-use crate::controller::{Codes, Controller, Facts, File, Heads, NumberOf, ToolNumbers};
+use crate::controller::{Arcs, Codes, Controller, Facts, File, Heads, NumberOf, ToolNumbers};
 use crate::iso::{g_code, m_code, rounding, seconds};
 use crate::statement::{
-    Act, Block, Convention, Coordinates, Cursor, Flow, Mode, Number, Once, Order, Parsed, ReadError, Routine,
-    Scope, Style, Tcp, expected,
+    Act, Block, Convention, Coordinates, Cursor, Flow, Mode, Motion, Number, Once, Order, Parsed, ReadError,
+    Routine, Scope, Style, Tcp, expected,
 };
 use vcutc_backend_api::ir::Switch;
 use vcutc_backend_api::readback::{End, stem};
@@ -44,8 +44,10 @@ const FACTS: Facts = Facts {
     number_of: NumberOf::Edge,
     tool_number_name: "D number (the edge of the tool in the spindle, not the number of a tool)",
     work_offsets: 99,
+    arcs: Arcs::InAnyPlane,
     axis_move: ["SUPA G1", " D0"],
     exact: Some("G60"),
+    exact_in_block: Some("G60 "),
     exact_word: "G60",
     beside_m: "HS",
     // Not M17, M19, M20, M30, M40 to M45, M70 (end, orientation, strokes, gears, axis) and M98, M99 of the ISO mode.
@@ -166,7 +168,7 @@ impl Controller for Sinumerik {
             match cursor.letters_ahead() {
                 0 if matches!(byte, b'[' | b'/' | b'$' | b'=') => return Err(ReadError::Unknown),
                 0 => return expected("a word"),
-                1 => address(&mut cursor, &mut words)?,
+                1 => address(&mut cursor, &mut words, &mut order)?,
                 _ => keyword(&mut cursor, &mut order, &mut rounded)?,
             }
         }
@@ -198,11 +200,16 @@ impl Controller for Sinumerik {
 }
 
 /// A letter with its value: `X10`, `X=10`, `X=AC(10)`.
-fn address(cursor: &mut Cursor<'_>, words: &mut Block) -> Parsed<()> {
+fn address(cursor: &mut Cursor<'_>, words: &mut Block, order: &mut Order<'_>) -> Parsed<()> {
     let Some(letter) = cursor.letter() else {
         return expected("a word");
     };
+    let of_arc = b"IJK".iter().position(|&known| known == letter);
     let number = if cursor.skip(b'=') {
+        // `I=AC(10)` is the centre itself, and not the way to it.
+        if of_arc.is_some() && cursor.letters_ahead() > 0 {
+            return Err(ReadError::Unknown);
+        }
         assigned(cursor)?
     } else {
         cursor.number()
@@ -210,11 +217,27 @@ fn address(cursor: &mut Cursor<'_>, words: &mut Block) -> Parsed<()> {
     let Some(number) = number else {
         return expected(format!("a number after `{}`", char::from(letter)));
     };
-    // `A3=0.5` is an address of its own.
+    // `A3=0.5` is an address of its own, and so is `I1=10`, a coordinate of the point of an arc.
     if cursor.skip(b'=') {
-        return Err(ReadError::Unknown);
+        let via = of_arc.and_then(|place| order.via.get_mut(place));
+        return match (via, number.whole()) {
+            (Some(via), Some(1)) => point(cursor, letter, via),
+            (_, _) => Err(ReadError::Unknown),
+        };
     }
     words.add(letter, number)
+}
+
+/// A coordinate of the point through which an arc leads.
+fn point(cursor: &mut Cursor<'_>, letter: u8, via: &mut Option<f64>) -> Parsed<()> {
+    let name = char::from(letter);
+    let Some(number) = assigned(cursor)? else {
+        return expected(format!("a number after `{name}1=`"));
+    };
+    match via.replace(number.value) {
+        Some(_) => expected(format!("`{name}1` once in a block")),
+        None => Ok(()),
+    }
 }
 
 fn assigned(cursor: &mut Cursor<'_>) -> Parsed<Option<Number>> {
@@ -251,6 +274,7 @@ fn keyword<'t>(cursor: &mut Cursor<'t>, order: &mut Order<'t>, rounded: &mut Opt
             order.coordinates = Coordinates::Machine;
             Ok(())
         }
+        "CIP" => order.moves(Motion::Via),
         "STOPRE" => order.does(Act::StopReading),
         "ADIS" => {
             cursor.must(b'=')?;

@@ -5,19 +5,22 @@
 //! a meaning of F, a way to stop. Coordinates that a block leaves out are those of the block before, which is the controller's rule
 //! too; behind a switch of tool-centre-point control the linear ones mean something else and have to be said anew.
 
+use super::arcs::{self, About, Said};
 use super::context::Context;
 use super::rates::is_too_fast;
 use crate::axes::WorkInOffset;
 use crate::codes::Role;
 use crate::controller::{AxisPace, Facts, TcpCodes, Unnumbered};
 use crate::statement::{
-    Act, CONVENTIONS, Convention, Coordinates, Cycle, FeedMode, Mode, Motion, Once, Order, Parsed, ReadError,
-    Tcp, expected,
+    Act, CONVENTIONS, Convention, Coordinates, Cycle, FeedMode, Mode, Motion, Once, Order, Parsed, Plane,
+    ReadError, Tcp, expected,
 };
 use crate::tools;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{AxisKind, AxisValues, Changer, MOST_AXES, Ready, Switch, ToolId};
-use vcutc_backend_api::readback::{Command, Effect, End, FrameRole, FrameSetting, Held, Pace, Target};
+use vcutc_backend_api::readback::{
+    Circle, Command, Effect, End, FrameRole, FrameSetting, Held, Pace, Target,
+};
 use vcutc_backend_api::units::{AngularSpeed, Speed};
 
 /// Number of the work offset when the job gives none.
@@ -51,6 +54,8 @@ struct Modes {
     conventions: [Once; CONVENTIONS],
     feed: Option<FeedMode>,
     stop: Option<End>,
+    plane: Option<Plane>,
+    pole: Option<[f64; 2]>,
     tcp: Option<Tcp>,
     tool: Option<u32>,
     work: Option<u32>,
@@ -118,9 +123,6 @@ impl<'a> Control<'a> {
     /// What a block does. One that says where things go on does nothing else, and is none of the control's.
     pub(super) fn carry_out(&mut self, order: &Order<'_>) -> Parsed<Effect> {
         let cycle = self.cycle.take();
-        if cycle == Some(Cycle::WorkOffset) && !matches!(order.act, Some(Act::CycleWork(_))) {
-            return expected("`Q339=` after `CYCL DEF 247 DATUM SETTING ~`");
-        }
         if let Some(missing) = missing(cycle, order.act) {
             return expected(missing);
         }
@@ -129,6 +131,9 @@ impl<'a> Control<'a> {
             self.motion = Some(motion);
         }
         let moves = order.has_axes();
+        if order.has_arc() && !moves {
+            return Err(ReadError::Unknown);
+        }
         if usize::from(moves) + usize::from(order.act.is_some()) + usize::from(order.flow.is_some()) > 1 {
             return expected("one thing that is done in a block");
         }
@@ -137,7 +142,7 @@ impl<'a> Control<'a> {
                 return expected("the switch of tool-centre-point control in a block of its own");
             }
             let command = match order.coordinates {
-                Coordinates::Work => self.straight(order)?,
+                Coordinates::Work => self.of_tip(order)?,
                 Coordinates::Machine => self.all_axes(order)?,
             };
             self.reading = Reading::Ahead;
@@ -185,6 +190,8 @@ impl<'a> Control<'a> {
                 self.modes.feed = feed;
             }
             Mode::Stop(stop) => self.modes.stop = stop,
+            Mode::Plane(plane) => self.modes.plane = Some(plane),
+            Mode::Pole(pole) => self.modes.pole = Some(pole),
             Mode::Tcp(tcp) => {
                 if self.modes.tcp != tcp {
                     self.tip = [None; 3];
@@ -224,6 +231,8 @@ impl<'a> Control<'a> {
             Mode::Convention(_)
             | Mode::Feed(Some(_))
             | Mode::Stop(Some(_))
+            | Mode::Plane(_)
+            | Mode::Pole(_)
             | Mode::Tcp(_)
             | Mode::Cycle(_) => Ok(Effect::Setting),
             Mode::Not(convention) => match self
@@ -296,8 +305,69 @@ impl<'a> Control<'a> {
     }
 
     /// A motion of the tip.
-    fn straight(&mut self, order: &Order<'_>) -> Parsed<Command> {
-        self.conventions(|_| true)?;
+    fn of_tip(&mut self, order: &Order<'_>) -> Parsed<Command> {
+        self.is_set_for_tip()?;
+        let motion = match self.motion {
+            Some(motion @ (Motion::AtFeed | Motion::Round(_) | Motion::Via)) => motion,
+            Some(Motion::Rapid) | None => return expected("a motion with a speed"),
+        };
+        let end = match (order.exact_once, self.modes.stop) {
+            (Once::Yes, _) => End::Exact,
+            (Once::No, Some(end)) => end,
+            (Once::No, None) => return expected(format!("`{}` before a motion", self.facts().exact_word)),
+        };
+        let before = self.tip;
+        self.take(order);
+        let [Some(x), Some(y), Some(z)] = self.tip else {
+            return expected("all of X, Y and Z after a switch of tool-centre-point control");
+        };
+        let mut rotary = AxisValues([0.0; MOST_AXES]);
+        self.values(&mut rotary, AxisKind::Rotary)?;
+        let pace = self.pace(order, before)?;
+        self.forget_linear_axes();
+        let on = self.circle(motion, order, (before, [x, y, z]))?;
+        let tip = self.work_in_offset.in_work(Point3::new(x, y, z));
+        let to = Target {
+            tip,
+            held: Held::Rotary(rotary),
+        };
+        Ok(match on {
+            None => Command::Straight { to, pace, end },
+            Some(on) => Command::Round { on, to, pace, end },
+        })
+    }
+
+    /// The arc on which the tip moves; none for a straight motion.
+    fn circle(
+        &self,
+        motion: Motion,
+        order: &Order<'_>,
+        (before, to): ([Option<f64>; 3], [f64; 3]),
+    ) -> Parsed<Option<Circle>> {
+        let in_work = |point: [f64; 3]| self.work_in_offset.in_work(Point3::from(point));
+        let sense = match motion {
+            Motion::Round(sense) => sense,
+            Motion::Via => return Ok(Some(Circle::Via(in_work(arcs::via(order)?)))),
+            Motion::AtFeed | Motion::Rapid if order.has_arc() => return Err(ReadError::Unknown),
+            Motion::AtFeed | Motion::Rapid => return Ok(None),
+        };
+        self.conventions(|convention| convention == Convention::CentresFromStart)?;
+        let [Some(x), Some(y), Some(z)] = before else {
+            return expected("a motion to all of X, Y and Z before an arc");
+        };
+        let Modes { plane, pole, .. } = self.modes;
+        let said = (sense, Said { plane, pole });
+        let About { centre, axis } = arcs::about(order, said, self.facts(), [[x, y, z], to])?;
+        // A frame that is only turned turns directions as it turns points.
+        Ok(Some(Circle::About {
+            centre: in_work(centre),
+            axis: in_work(axis),
+        }))
+    }
+
+    /// What a motion of the tip depends on.
+    fn is_set_for_tip(&self) -> Parsed<()> {
+        self.conventions(|convention| convention != Convention::CentresFromStart)?;
         if self.modes.tcp != Some(Tcp::On) {
             return expected("tool-centre-point control on, or coordinates of the machine");
         }
@@ -313,34 +383,14 @@ impl<'a> Control<'a> {
         if is_said && self.modes.work != Some(offset) {
             return expected(format!("work offset {offset} before a motion of the tip"));
         }
-        match self.motion {
-            Some(Motion::AtFeed) => {}
-            Some(Motion::Rapid) | None => return expected("a straight motion with a speed"),
-        }
-        let end = match (order.exact_once, self.modes.stop) {
-            (Once::Yes, _) => End::Exact,
-            (Once::No, Some(end)) => end,
-            (Once::No, None) => return expected(format!("`{}` before a motion", self.facts().exact_word)),
-        };
-        let before = self.tip;
-        self.take(order);
-        let [Some(x), Some(y), Some(z)] = self.tip else {
-            return expected("all of X, Y and Z after a switch of tool-centre-point control");
-        };
-        let mut rotary = AxisValues([0.0; MOST_AXES]);
-        self.values(&mut rotary, AxisKind::Rotary)?;
-        let pace = self.pace(order, before)?;
-        self.forget_linear_axes();
-        let tip = self.work_in_offset.in_work(Point3::new(x, y, z));
-        let to = Target {
-            tip,
-            held: Held::Rotary(rotary),
-        };
-        Ok(Command::Straight { to, pace, end })
+        Ok(())
     }
 
     /// A motion of all axes.
     fn all_axes(&mut self, order: &Order<'_>) -> Parsed<Command> {
+        if order.has_arc() {
+            return Err(ReadError::Unknown);
+        }
         self.conventions(is_of_axes)?;
         if self.modes.tcp != Some(Tcp::Off) {
             return expected("tool-centre-point control off before coordinates of the machine");
@@ -364,7 +414,7 @@ impl<'a> Control<'a> {
         let pace = self.facts().axis_pace;
         match (pace, self.motion) {
             (AxisPace::Rapid, Some(Motion::Rapid)) => {}
-            (AxisPace::Rapid, Some(Motion::AtFeed) | None) => {
+            (AxisPace::Rapid, _) => {
                 return expected("`G0` with coordinates of the machine");
             }
             (AxisPace::InverseTime, Some(Motion::AtFeed))
@@ -381,7 +431,10 @@ impl<'a> Control<'a> {
                     ));
                 }
             }
-            (AxisPace::InverseTime | AxisPace::Path, Some(Motion::Rapid) | None) => {
+            (
+                AxisPace::InverseTime | AxisPace::Path,
+                Some(Motion::Rapid | Motion::Round(_) | Motion::Via) | None,
+            ) => {
                 return expected("a motion with a speed");
             }
         }
@@ -495,6 +548,13 @@ impl<'a> Control<'a> {
                 Some(Cycle::Dwell) => Command::Wait(time),
                 Some(_) | None => return expected("`CYCL DEF 9.0 DWELL TIME` before"),
             },
+            Act::CycleTolerance(within) => match cycle {
+                Some(Cycle::Tolerance) => {
+                    let end = within.map_or(End::Exact, |within| End::Through { within });
+                    return self.modes(&[Mode::Stop(Some(end))]);
+                }
+                Some(_) | None => return expected("`CYCL DEF 32.0 TOLERANCE` before"),
+            },
             Act::LoopWait(input) => match cycle {
                 Some(Cycle::Loop(number)) => {
                     self.cycle = Some(Cycle::Waited(number, input));
@@ -528,7 +588,11 @@ const fn missing(cycle: Option<Cycle>, act: Option<Act>) -> Option<&'static str>
     match (cycle, act) {
         (Some(Cycle::Loop(_)), Some(Act::LoopWait(_)))
         | (Some(Cycle::Waited(..)), Some(Act::LoopEnds(_)))
-        | (Some(Cycle::Dwell | Cycle::WorkOffset) | None, _) => None,
+        | (Some(Cycle::WorkOffset), Some(Act::CycleWork(_)))
+        | (Some(Cycle::Tolerance), Some(Act::CycleTolerance(_)))
+        | (Some(Cycle::Dwell) | None, _) => None,
+        (Some(Cycle::WorkOffset), _) => Some("`Q339=` after `CYCL DEF 247 DATUM SETTING ~`"),
+        (Some(Cycle::Tolerance), _) => Some("`CYCL DEF 32.1` after `CYCL DEF 32.0 TOLERANCE`"),
         (Some(Cycle::Loop(_)), _) => Some("`M66` after the beginning of a loop"),
         (Some(Cycle::Waited(..)), _) => Some("the end of the loop, `o<ready1> while [#5399 LT 0]`"),
     }
@@ -538,7 +602,10 @@ const fn missing(cycle: Option<Cycle>, act: Option<Act>) -> Option<&'static str>
 const fn is_of_axes(convention: Convention) -> bool {
     match convention {
         Convention::Absolute | Convention::Millimetres | Convention::AsWritten => true,
-        Convention::ByAxes | Convention::MachineAngles | Convention::FeedOfTip => false,
+        Convention::ByAxes
+        | Convention::MachineAngles
+        | Convention::FeedOfTip
+        | Convention::CentresFromStart => false,
     }
 }
 

@@ -3,6 +3,7 @@
 //! An [`Order`] is the block alone: what it leaves to what was said before (the meaning of F, coordinates that stay) is filled
 //! in by the model of the control.
 
+use super::plane::{Plane, Sense};
 use crate::axes::Word;
 use core::mem::discriminant;
 use vcutc_backend_api::ir::{MOST_AXES, Switch};
@@ -55,6 +56,10 @@ pub(crate) struct Order<'t> {
     pub(crate) exact_once: Once,
     /// Values of the axes' words in mm and degrees, at their places among the machine's axes.
     pub(crate) axes: [Option<f64>; MOST_AXES],
+    /// The words I, J and K: where an arc has its centre, seen from its start.
+    pub(crate) centre: [Option<f64>; 3],
+    /// A point of an arc between its ends.
+    pub(crate) via: [Option<f64>; 3],
     /// The word F.
     pub(crate) feed: Option<f64>,
     /// What holds from here on.
@@ -71,8 +76,12 @@ pub(crate) struct Order<'t> {
 pub(crate) enum Motion {
     /// As fast as may be.
     Rapid,
-    /// At the speed of F.
+    /// At the speed of F, straight.
     AtFeed,
+    /// At the speed of F, on an arc about a centre.
+    Round(Sense),
+    /// At the speed of F, on an arc through a point.
+    Via,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -103,6 +112,10 @@ pub(crate) enum Mode {
     Feed(Option<FeedMode>),
     /// How moves end; none for a way that is not that of the job.
     Stop(Option<End>),
+    /// The plane of arcs.
+    Plane(Plane),
+    /// The centre of arcs, in X and Y.
+    Pole([f64; 2]),
     /// Tool-centre-point control; none while it is being switched.
     Tcp(Option<Tcp>),
     /// The tool whose length counts, 0 for none; none when it has to be said again.
@@ -132,6 +145,8 @@ pub(crate) enum Cycle {
     Dwell,
     /// A work offset is called up.
     WorkOffset,
+    /// How far the tip may leave its way is set.
+    Tolerance,
     /// A loop with this number begins, which waits for an input.
     Loop(u32),
     /// In the loop of this number this input has been waited for, though not for ever.
@@ -160,10 +175,12 @@ pub(crate) enum Convention {
     FeedOfTip,
     /// Rotary axes go the way that is written, not the shorter one.
     AsWritten,
+    /// I, J and K are counted from the start of an arc.
+    CentresFromStart,
 }
 
 /// How many conventions there are.
-pub(crate) const CONVENTIONS: usize = 6;
+pub(crate) const CONVENTIONS: usize = 7;
 
 /// What is done besides motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -187,6 +204,8 @@ pub(crate) enum Act {
     LoopWait(u32),
     /// The last line of the loop of this number: it begins again if the wait has ended without the input.
     LoopEnds(u32),
+    /// The second of the two lines of how far the tip may leave its way; none for as far as the machine does without it.
+    CycleTolerance(Option<Length>),
     /// The second of the two lines that call up a work offset.
     CycleWork(u32),
     /// Reading ahead ends here.
@@ -280,6 +299,11 @@ impl<'t> Order<'t> {
     /// Adds where things go on.
     pub(crate) fn goes(&mut self, flow: Flow<'t>) -> Parsed<()> {
         once(&mut self.flow, flow, "one way to go on")
+    }
+
+    /// Whether it says where an arc lies.
+    pub(crate) fn has_arc(&self) -> bool {
+        self.centre.iter().chain(&self.via).any(Option::is_some)
     }
 
     /// Whether it has coordinates.

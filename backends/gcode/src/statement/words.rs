@@ -262,13 +262,16 @@ impl Block {
         whole.ok_or_else(|| ReadError::Expected(format!("a whole number after `{}`", char::from(letter))))
     }
 
-    /// Hands over coordinates and F; nothing may be left.
+    /// Hands over coordinates, centres of arcs and F; nothing may be left.
     pub(crate) fn finish(mut self, scope: Scope<'_>, order: &mut Order<'_>) -> Parsed<()> {
         for word in scope.words {
             let value = self.take(word.letter).map(|number| number.value);
             if let (Some(place), Some(value)) = (order.axes.get_mut(word.place), value) {
                 *place = Some(value);
             }
+        }
+        for (place, letter) in order.centre.iter_mut().zip(*b"IJK") {
+            *place = self.take(letter).map(|number| number.value);
         }
         order.feed = self.take(b'F').map(|number| number.value);
         match self.values.iter().any(Option::is_some) {

@@ -5,7 +5,7 @@ use crate::support::{DIALECTS, Given, emit, needed, options, reachable, recipe, 
 use vcutc_backend_api::backend::OptionValue;
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_backend_api::readback::{Divergence, DivergenceKind, Place, ProgramFile, program_files};
+use vcutc_backend_api::readback::{Divergence, DivergenceKind, Mismatch, Place, ProgramFile, program_files};
 use vcutc_backend_api::testkit::{CellRecipe, Recipe, five_axis_samples};
 use vcutc_backend_api::units::{Duration, Length};
 
@@ -141,6 +141,7 @@ fn what_no_program_has_is_not_understood() {
                 "G64 P1",
                 "G61",
                 "G2 X1 Y1 I1",
+                "G90.1",
                 "G92 X0",
                 "G10 L2 P1 X0",
                 "G52 X1",
@@ -148,7 +149,6 @@ fn what_no_program_has_is_not_understood() {
                 "G0 X1 Y1 Z1",
                 "G55",
                 "G43 H2",
-                "G18",
                 "G41 D1",
                 "M0",
                 "M3 S100",
@@ -239,6 +239,7 @@ fn what_no_program_has_is_not_understood() {
                 "FGROUP(X,Y,Z,A,B)",
                 "TRANS X1",
                 "G2 X1 Y1 I1",
+                "CIP X1 Y1 Z1",
                 "A3=0",
                 "X=IC(1)",
                 "B=DC(10)",
@@ -268,7 +269,9 @@ fn what_no_program_has_is_not_understood() {
                 "L IX+1 F100",
                 "L X+1 RL F100",
                 "L X+1 FMAX",
-                "CC X+0 Y+0",
+                "CC X+0",
+                "CYCL DEF 32.0 TOLERANCE",
+                "CYCL DEF 32.1 T0.1",
                 "C X+1 Y+1 DR+",
                 "M126",
                 "M128",
@@ -451,15 +454,24 @@ fn moves_of_all_axes_keep_to_the_home_speed() {
 }
 
 #[test]
-fn rounding_is_that_of_the_job_or_not_understood() {
+fn rounding_is_that_of_the_job() {
     let two = [("approximation", OptionValue::Length(Length::mm(2.0)))];
     for (dialect, said, other) in [
-        ("linuxcnc", "G64 P2.0 Q0", "G64 P3.0 Q0"),
         ("linuxcnc", "G64 P2.0 Q0", "G64 P2.0"),
-        ("sinumerik", "G641 ADIS=2.0", "G641 ADIS=20"),
+        ("linuxcnc", "G64 P2.0 Q0", "G64 P0 Q0"),
+        ("sinumerik", "G641 ADIS=2.0", "G641 ADIS=0"),
     ] {
         let (text, what) = departs(dialect, &two, |text| text.replacen(said, other, 1));
         assert_eq!((text.as_str(), what), (other, DivergenceKind::NotUnderstood));
+    }
+    // Another distance is one of a chain, and these moves are none.
+    for (dialect, said, other) in [
+        ("linuxcnc", "G64 P2.0 Q0", "G64 P3.0 Q0"),
+        ("linuxcnc", "G64 P2.0 Q0", "G64 P0.2 Q0"),
+        ("sinumerik", "G641 ADIS=2.0", "G641 ADIS=20"),
+    ] {
+        let (_, what) = departs(dialect, &two, |text| text.replacen(said, other, 1));
+        assert_eq!(what, DivergenceKind::Differs(vec![Mismatch::NoStop]), "{other}");
     }
     for dialect in DIALECTS.into_iter().filter(|dialect| rounds(dialect)) {
         // Rounding that is not ended before the blade enters.

@@ -1,5 +1,6 @@
 //! What every program of a dialect keeps to, over all samples and over random programs.
 
+use crate::chains;
 use crate::support::{
     DIALECTS, Given, block as given_block, emit, emit_with, needed, options, reachable, recipe, rounds,
 };
@@ -64,7 +65,8 @@ fn the_backend_keeps_the_promises_of_all_backends() {
 fn no_block_has_a_word_that_its_dialect_does_not_know_or_a_letter_twice() {
     for dialect in DIALECTS {
         let vocabulary = Vocabulary::of(dialect);
-        for (name, program) in five_axis_samples().unwrap() {
+        let samples = five_axis_samples().unwrap().into_iter();
+        for (name, program) in samples.chain(chains::of(dialect).map(|program| ("chain", program))) {
             for set in sets(dialect) {
                 for block in blocks(&emit(&program, dialect, &set), dialect) {
                     assert_eq!(vocabulary.breach(&block), None, "{dialect} {name}: {block:?}");

@@ -7,8 +7,10 @@
 )]
 
 mod by_hand;
+mod chains;
 mod changes;
 mod dialect;
+mod head;
 mod hostile;
 mod lines;
 mod mutations;

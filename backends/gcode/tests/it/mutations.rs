@@ -4,6 +4,7 @@
 //! what `vcutc verify` tells as an edit without effect. What is neither must be a change of layout, comments or block numbers,
 //! by a way of comparing texts that shares no code with the reader.
 
+use crate::chains;
 use crate::read_back::replayed;
 use crate::support::{DIALECTS, emit, needed, options, rounds};
 use vcutc_backend_api::backend::{OptionValue, Options};
@@ -82,6 +83,13 @@ fn text(files: &[ProgramFile], place: vcutc_backend_api::readback::Place) -> &st
     &files[place.file as usize].text[place.start as usize..place.end as usize]
 }
 
+/// Programs of a dialect: those of all of them, and chains as it has them.
+fn programs(dialect: &str) -> Vec<ReachableProgram> {
+    let samples = five_axis_samples().unwrap();
+    let samples = samples.into_iter().map(|(_, program)| program);
+    samples.chain(chains::of(dialect)).collect()
+}
+
 /// Statements without blanks, comments and block numbers, in capitals, numbers as numbers.
 fn plain(files: &[ProgramFile], dialect: &str) -> Vec<String> {
     let mut all = Vec::new();
@@ -144,8 +152,8 @@ const REPLACEMENTS: [&str; 9] = ["", "0", "7", "9", "-", ".", "X", " ", "\n"];
 #[test]
 fn one_character_more_less_or_other_is_told() {
     let mut tally = Tally::default();
-    for (number, (_, program)) in five_axis_samples().unwrap().iter().enumerate() {
-        for dialect in DIALECTS {
+    for dialect in DIALECTS {
+        for (number, program) in programs(dialect).iter().enumerate() {
             let mut written = Written::new(dialect, program);
             for file in 0..written.files.len() {
                 let original = written.files[file].text.clone();
@@ -173,8 +181,8 @@ fn one_character_more_less_or_other_is_told() {
 #[test]
 fn a_line_dropped_doubled_or_swapped_is_told() {
     let mut tally = Tally::default();
-    for (number, (_, program)) in five_axis_samples().unwrap().iter().enumerate() {
-        for dialect in DIALECTS {
+    for dialect in DIALECTS {
+        for (number, program) in programs(dialect).iter().enumerate() {
             let mut written = Written::new(dialect, program);
             for file in 0..written.files.len() {
                 let original = written.files[file].text.clone();

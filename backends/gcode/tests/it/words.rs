@@ -37,6 +37,7 @@ const OTHERS: &[&str] = &[
     "FUNCTION TCPM F CONT AXIS POS PATHCTRL AXIS",
     "CYCL DEF 9.0 DWELL TIME",
     "CYCL DEF 247 DATUM SETTING ~",
+    "CYCL DEF 32.0 TOLERANCE",
 ];
 
 /// How such blocks begin that hold a name or a number.
@@ -51,13 +52,14 @@ const BEGINNINGS: &[&str] = &[
     "TOOL CALL ",
     "Q339=+",
     "CYCL DEF 9.1 DWELL ",
+    "CYCL DEF 32.1",
     "FN 20: WAIT FOR I",
     "$A_OUT[",
     "READY",
 ];
 
 /// Words of more letters among those of one: `SUPA G1 X..`, `L X.. R0 M91`, `G641 ADIS=2.0`.
-const LONG_WORDS: &[&str] = &["SUPA", "L", "ADIS="];
+const LONG_WORDS: &[&str] = &["SUPA", "L", "ADIS=", "CIP", "CC", "C", "DR+", "DR-"];
 
 /// The block on a line without its comment; none for a line without block.
 pub(crate) fn block(line: &str, dialect: &str) -> Option<Block> {
@@ -79,9 +81,11 @@ pub(crate) fn block(line: &str, dialect: &str) -> Option<Block> {
     }
     let mut block = Block::default();
     for word in code.split(' ').filter(|word| !LONG_WORDS.contains(word)) {
-        let word = word
-            .strip_prefix("ADIS=")
-            .map_or(word.to_owned(), |value| format!("P{value}"));
+        let long = [("ADIS=", "P"), ("I1=", "I"), ("J1=", "J"), ("K1=", "K")];
+        let long = long
+            .into_iter()
+            .find_map(|(long, letter)| Some((letter, word.strip_prefix(long)?)));
+        let word = long.map_or(word.to_owned(), |(letter, value)| format!("{letter}{value}"));
         let (letter, number) = word.split_at(1);
         assert!(is_number(number), "{word:?} in {line:?}");
         block
@@ -112,24 +116,26 @@ impl Vocabulary {
     pub(crate) fn of(dialect: &str) -> Self {
         let (letters, codes): (_, &[&str]) = match dialect {
             "linuxcnc" => (
-                "XYZABCFHPLQ",
+                "XYZABCFHPLQIJK",
                 &[
-                    "G1", "G4", "G17", "G21", "G40", "G43", "G49", "G53", "G54", "G55", "G61.1", "G64",
-                    "G80", "G90", "G93", "G94", "M2", "M64", "M65", "M66", "M428", "M429",
+                    "G1", "G2", "G3", "G4", "G17", "G18", "G19", "G21", "G40", "G43", "G49", "G53", "G54",
+                    "G55", "G61.1", "G64", "G91.1", "G80", "G90", "G93", "G94", "M2", "M64", "M65", "M66",
+                    "M428", "M429",
                 ],
             ),
             "fanuc" => (
-                "XYZABCFHP",
+                "XYZABCFHPIJK",
                 &[
-                    "G0", "G1", "G4", "G17", "G21", "G40", "G43.4", "G49", "G53", "G54", "G55", "G61", "G64",
-                    "G80", "G90", "G93", "G94", "M30", "M50", "M51", "M52", "M98", "M99",
+                    "G0", "G1", "G2", "G3", "G4", "G17", "G18", "G19", "G21", "G40", "G43.4", "G49", "G53",
+                    "G54", "G55", "G61", "G64", "G80", "G90", "G93", "G94", "M30", "M50", "M51", "M52",
+                    "M98", "M99",
                 ],
             ),
             "sinumerik" => (
-                "XYZABCFDP",
+                "XYZABCFDPIJK",
                 &[
-                    "G1", "G4", "G17", "G40", "G54", "G55", "G60", "G601", "G641", "G90", "G93", "G94",
-                    "G710", "M17", "M30",
+                    "G1", "G2", "G3", "G4", "G17", "G18", "G19", "G40", "G54", "G55", "G60", "G601", "G641",
+                    "G90", "G93", "G94", "G710", "M17", "M30",
                 ],
             ),
             _ => ("XYZABCFR", &["M30", "M50", "M51", "M91", "M127"]),
