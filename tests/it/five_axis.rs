@@ -5,9 +5,14 @@ use crate::repository::{read, root};
 use glam::{DMat3, DVec3};
 use vcutc::diagnostics::Code;
 use vcutc::motion::rigs::Rigs;
+use vcutc::motion::solve::{Changes, LEAST_CLEARANCE, solve};
 use vcutc::motion::trajectory::{Spacing, trajectory};
+use vcutc::motion::verdict::explain;
 use vcutc::vcut::PlannedVcut;
 use vcutc_backend_api::ir::Action;
+use vcutc_backend_api::testkit::chained;
+use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::verify::verify;
 
 /// The job of an example, which asks for `generic/head_head_ac`, on another machine.
 fn on(machine: &str) -> Vec<String> {
@@ -261,4 +266,42 @@ fn a_limit_points_at_its_line_in_the_sheet() {
         .map(|label| outcome.sources.slice(label.span))
         .collect();
     assert_eq!(pointed, ["[-20.0, 20.0]"]);
+}
+
+/// A chain with two quarter arcs about the vertical, on work that stands upright and on work that is tilted against C.
+#[test]
+fn a_chain_on_tilted_work_takes_the_blade_off_its_place() {
+    let solved = |tilt: &str| {
+        let job = read("tests/process/err/VC0528_short_extension.vcut")
+            .replace("6.1 mm", "20 mm")
+            .replace(
+                "z = 50 mm, a = 0 deg, b = 0 deg, c = 0 deg",
+                &format!("z = 50 mm, a = 0 deg, b = 0 deg, c = {tilt}"),
+            );
+        let outcome = compile("job.vcut", &Files::default().with("job.vcut", job));
+        let job = outcome.job.clone().expect("the job has a meaning");
+        let compiled = outcome.compiled.as_ref().expect("it compiles");
+        let program = compiled
+            .program
+            .reached()
+            .expect("it is reached")
+            .program()
+            .clone();
+        let chained = verify(chained(program, Angle::deg(60.0), Length::ZERO)).expect("it keeps all rules");
+        let model = &job.machine.as_ref().expect("it has a machine").model;
+        let solved = solve(chained, model, &LEAST_CLEARANCE, Changes::Never);
+        solved.map(|_| ()).map_err(|unreached| {
+            let why =
+                explain(&job, unreached.unreachable().expect("it is no fault")).expect("it has a machine");
+            vec![why.with_advice()]
+        })
+    };
+    assert_eq!(solved("0 deg").map_err(|told| numbers(&told).join(" ")), Ok(()));
+    let told = solved("4 deg").unwrap_err();
+    assert_eq!(numbers(&told), ["VC0530"]);
+    assert!(
+        told[0].message.starts_with("the rotary axes take the blade "),
+        "{}",
+        told[0].message
+    );
 }
