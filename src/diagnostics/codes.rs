@@ -194,6 +194,8 @@ codes! {
     SweepThroughWork = "VC0528", Error, "blade turning through the work";
     /// Something about the motions of this machine that nothing checks.
     MotionNotChecked = "VC0529", Warning, "motions not fully checked";
+    /// A piece of a chain on which a five-axis machine holds the blade otherwise than planned.
+    ChainPosture = "VC0530", Error, "blade off its planned place along a chain";
 
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "target that needs a machine";

@@ -18,6 +18,7 @@ pub mod rigs;
 mod runs;
 pub mod solve;
 mod stands;
+pub mod stray;
 pub mod summary;
 mod survey;
 pub mod sweep;

@@ -1,6 +1,6 @@
 //! Pace: how long the machine takes for every op of a program.
 //!
-//! What emitted programs ask of a controller is followed. Every motion begins and ends at rest: KRL without `C_DIS`, RAPID with
+//! What emitted programs ask of a controller is followed. Every motion but those of chains begins and ends at rest: KRL without `C_DIS`, RAPID with
 //! `fine`, G-code with `G61.1`, `G61` or `G60`; rounding
 //! (`approximation`) is off unless asked for; a rounded corner takes less time than is computed here. Where an ABB program is given
 //! [waypoints](vcutc_backend_api::motion::Waypoint) it stops at each of them.
@@ -10,12 +10,14 @@
 //!   and the angle of the blade. Without numbers of the axes the profile is closed ([`profile`]). With their accelerations it
 //!   is the fastest that the axes can follow ([`phase`]), with jerk one that is proven and close to it ([`smooth`]); how the
 //!   axes move along the way is told by [`track`].
+//! - **Chains** are gone from rest at their beginning to rest at their end ([`chain`]).
 //! - **Axis moves** are synchronous: all axes do the same part of their way, so that the one that needs longest decides.
 //! - **The rest** waits as long as it says.
 //!
 //! A sheet without accelerations leaves speeds alone: stopping and starting then take no time ([`Kept`]). Nothing is assumed that
 //! a sheet does not say.
 
+mod chain;
 mod chebyshev;
 mod phase;
 mod profile;
@@ -24,14 +26,15 @@ mod smooth;
 mod tests;
 mod track;
 
-use crate::moves::paths;
+use crate::moves::{numbered, paths};
 use crate::path::{Course, Followed};
 use crate::rigs::Rigs;
+use chain::{Limits, Piece};
 use chebyshev::Weights;
 use profile::Bounds;
 use rayon::prelude::*;
 use track::Part;
-use vcutc_backend_api::ir::{Axis, MOST_AXES, Maker, OpId};
+use vcutc_backend_api::ir::{Action, Axis, Joint, MOST_AXES, Maker, OpId};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::segments::{LinearSegment, Path};
 use vcutc_backend_api::units::Duration;
@@ -108,6 +111,7 @@ pub fn paced(reached: &ReachableProgram, model: &Model) -> Paced {
         .enumerate()
         .map(|(index, path)| clock.path(OpId(u32::try_from(index).ok()?), path))
         .collect();
+    let known = clock.with_chains(&paths, known);
     paced.basis = Basis {
         kept: clock.kept(),
         untimed: 0,
@@ -178,6 +182,8 @@ impl Clock<'_> {
             }
             Path::Linear(line) => match self.kept() {
                 Kept::Speeds => Some(line.duration().to_s()),
+                // With the whole of their chain.
+                Kept::Accelerations | Kept::Jerks if self.joint(op).is_some() => None,
                 Kept::Accelerations | Kept::Jerks => self.along(op, line, &start?),
             },
         }
@@ -225,6 +231,86 @@ impl Clock<'_> {
             near = followed.joints_at(begin + share, &near)?;
         }
         Some(seconds)
+    }
+
+    /// How a piece of a chain ends; none for other ops.
+    fn joint(&self, op: OpId) -> Option<Joint> {
+        let Action::Follow { joint, .. } = self.reached.program().op(op)?.action else {
+            return None;
+        };
+        Some(joint)
+    }
+
+    /// The times of ops with those of the pieces of chains, which have none so far where speed is gathered.
+    fn with_chains(&self, paths: &[Path], mut known: Vec<Option<f64>>) -> Vec<Option<f64>> {
+        match self.kept() {
+            Kept::Speeds => return known,
+            Kept::Accelerations | Kept::Jerks => {}
+        }
+        let mut chain: Vec<(OpId, &LinearSegment)> = Vec::new();
+        let mut chains = Vec::new();
+        for (op, path) in numbered(paths) {
+            let (Some(joint), Some(line)) = (self.joint(op), path.line()) else {
+                continue;
+            };
+            chain.push((op, line));
+            match joint {
+                Joint::Through => {}
+                Joint::Stop => chains.push(core::mem::take(&mut chain)),
+            }
+        }
+        let found: Vec<(OpId, Option<f64>)> = chains
+            .into_par_iter()
+            .flat_map_iter(|chain| {
+                let times = self.chain(&chain);
+                let ops = chain.into_iter().enumerate();
+                ops.map(move |(index, (op, _))| {
+                    (op, times.as_ref().and_then(|times| times.get(index).copied()))
+                })
+            })
+            .collect();
+        for (op, time) in found {
+            if let Some(known) = known.get_mut(op.0 as usize) {
+                *known = time;
+            }
+        }
+        known
+    }
+
+    /// How long each piece of a chain takes, in s.
+    fn chain(&self, chain: &[(OpId, &LinearSegment)]) -> Option<Vec<f64>> {
+        let pieces: Option<Vec<Piece>> = chain.iter().map(|(op, line)| self.piece(*op, line)).collect();
+        let program = self.reached.program();
+        let limits = Limits {
+            axes: program.cell.as_ref().map_or(&[], |cell| &cell.axes),
+            tracks: chain::tracks(&self.axes, &self.path),
+            blend: program.blend.to_mm(),
+            kept: self.kept(),
+        };
+        chain::times(&pieces?, &limits)
+    }
+
+    fn piece(&self, op: OpId, line: &LinearSegment) -> Option<Piece> {
+        let program = self.reached.program();
+        let length = line.length().to_mm();
+        let [from, to] = [line.from, line.to].map(|pose| program.orientation(pose.orientation));
+        let spin = from?.rotation_to(to?).map(|turn| turn / length);
+        let start = self.reached.axes_before(op)?.0;
+        let end = self.reached.axes_after(op)?.0;
+        let course = Course::of(program, line)?;
+        let branch = self.reached.branch_after(op)?;
+        let followed = Followed::new(self.rigs.during(op), &course, branch, [&start, &end])?;
+        let parts = track::parts(&self.weights, &start, |place, near| {
+            followed.joints_at(place, near)
+        })?;
+        Some(Piece {
+            length,
+            feed: line.feed?.to_mm_per_s(),
+            rate: line.rate.map(|rate| rate.to_rad_per_s()),
+            bend: line.arc().map_or(0.0, |arc| 1.0 / arc.radius().to_mm()),
+            spin,
+            parts: parts.into_iter().map(|part| part.over(length)).collect(),
+        })
     }
 
     fn portion(&self, parts: &[Part], path: Bounds) -> Option<f64> {

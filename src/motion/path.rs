@@ -52,8 +52,7 @@
 //!
 //! Arms without a closed form are proven by way of their Jacobian; [`mod@serial`] has the theorem. Of their distance from
 //! singular poses nothing is measured: a proof says that they meet none, and the least clearance asked for is not checked.
-//! Five-axis machines are interpolated in another way and have a check of their own, [`five_axis`]. For both, arcs are not
-//! proven, and therefore refused.
+//! Five-axis machines are interpolated in another way and have a check of their own, [`five_axis`].
 //!
 //! # What is assumed
 //!

@@ -25,8 +25,9 @@ use super::rig::Rig;
 use super::rigs::{Rigs, Turn, turns};
 use super::runs::{Split, Station, StationKind, split};
 use super::stands::Stands;
+use super::stray;
 use super::survey::{Survey, middles, moved, opened};
-use super::sweep::{self, Sweep};
+use super::sweep;
 use super::trouble::{self, Trouble};
 use super::waypoints::waypoints;
 use super::ways::{OnBranch, Ways};
@@ -243,8 +244,7 @@ pub fn again(program: VerifiedProgram, model: &Model, found: Found) -> Result<Re
 /// Checks the motion and joins it to the program.
 fn finish(program: VerifiedProgram, rigs: &Rigs<'_>, solved: Solved) -> Result<Reached, Unreached> {
     let program = changed(program, &solved.report.changes)?;
-    if let Some(sweep) = swept(&program, rigs, &solved.ends) {
-        let trouble = Trouble::Sweep(sweep);
+    if let Some(trouble) = turned_otherwise(&program, rigs, &solved.ends) {
         return Err(Unreached::Unreachable(Box::new(Unreachable { program, trouble })));
     }
     let mut motion = Motion {
@@ -257,11 +257,15 @@ fn finish(program: VerifiedProgram, rigs: &Rigs<'_>, solved: Solved) -> Result<R
     joined_to(program, rigs, Found { motion, report })
 }
 
-/// A motion that sweeps the blade through the work, where rotary axes are interpolated. About one axis, as arms turn it, the
-/// extension of the cuts keeps it clear.
-fn swept(program: &VerifiedProgram, rigs: &Rigs<'_>, ends: &[Joints]) -> Option<Sweep> {
+/// A motion that sweeps the blade through the work, or turns it on a chain otherwise than the program says, where rotary axes are
+/// interpolated. About one axis, as arms turn it, the extension of the cuts keeps it clear.
+fn turned_otherwise(program: &VerifiedProgram, rigs: &Rigs<'_>, ends: &[Joints]) -> Option<Trouble> {
     match rigs.first().mechanism {
-        Mechanism::FiveAxis(_) => sweep::clear(program, rigs, ends).err(),
+        Mechanism::FiveAxis(_) => {
+            let strays = || stray::none(program, rigs, ends).err().map(Trouble::Stray);
+            let sweeps = sweep::clear(program, rigs, ends).err();
+            sweeps.map(Trouble::Sweep).or_else(strays)
+        }
         Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => None,
     }
 }

@@ -37,10 +37,10 @@ fn key(taught: TipPose) -> Key {
 
 /// A branch that so many poses could not be followed to is followed no more: each such pose costs as much as a hundred others.
 const MOST_MISSED: u32 = 8;
-/// Most that the blade turns in one step while it is followed along a course, in rad: [`newton::follow`] leads the flange
+/// Most that the blade turns, or its tip goes round, in one step while it is followed along a course, in rad: [`newton::follow`] leads the flange
 /// straight from step to step, which keeps the tip near its own straight line.
 const LONGEST_TURN: f64 = 0.2;
-/// More steps than half a turn takes.
+/// More steps than the longest arc takes.
 const MOST_STEPS: u32 = 32;
 /// A branch that is farther than this from where a course begins, in mm, is not at its beginning.
 const JOINED: f64 = 1e-3;
@@ -152,16 +152,17 @@ impl Walk<'_> {
         stands
     }
 
-    /// Follows a course that turns the blade. One that does not is as straight for the flange as it is for the tip, and where
-    /// the course does not begin at `at`, since the branch missed poses, there is nothing to follow.
+    /// Follows a course that turns the blade or goes round an arc. Any other is as straight for the flange as it is for the tip,
+    /// and where the course does not begin at `at`, since the branch missed poses, there is nothing to follow.
     fn along(&self, path: &Path, branch: Branch, at: &Joints) -> Option<Joints> {
-        let line = path.line().filter(|line| line.turns())?;
+        let line = path.line().filter(|line| line.turns() || line.via.is_some())?;
         let course = Course::of(self.program, line)?;
         let (apart, _) = self.rig.blade_in_work(at).apart(&course.from);
         if apart > JOINED {
             return None;
         }
-        let turn = line.turn.to_rad();
+        let round = line.arc().map_or(0.0, |arc| arc.sweep().to_rad());
+        let turn = line.turn.to_rad().max(round);
         let steps = (1..MOST_STEPS).find(|steps| turn <= LONGEST_TURN * f64::from(*steps))?;
         (1..=steps).try_fold(*at, |near, step| {
             let place = f64::from(step) / f64::from(steps);

@@ -3,7 +3,8 @@
 //! A robot turns the blade about one fixed axis, and the extension of the cuts is planned for that. Rotary axes that go each at a
 //! constant rate ([`super::path::five_axis`]) turn it on another way: a C axis carries a tilted blade round a cone, and in the
 //! middle of the turn it may lie farther over the work than at both ends. So every motion that changes how the blade is held is
-//! looked at with the axes that carry it out.
+//! looked at with the axes that carry it out. Pieces of chains are not: they lead through the work, and [`super::stray`] proves
+//! that the axes hold the blade on them as the program does.
 //!
 //! **The blade** is a triangle between its tip and the ends of both edges, and above it a strip as wide as the edges are apart, up
 //! to the spindle. **The work** is the stock as far along y as it is deep, below the surface that the cuts before have left.
@@ -21,7 +22,7 @@ use super::moves::{numbered, paths};
 use super::rig::Rig;
 use super::rigs::Rigs;
 use glam::{DMat3, DVec3};
-use vcutc_backend_api::ir::{Blade, OpId, Program, Stock};
+use vcutc_backend_api::ir::{Action, Blade, OpId, Program, Stock};
 use vcutc_backend_api::segments::{LinearSegment, Path};
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
@@ -235,8 +236,11 @@ impl<'t, 'm> Turn<'t, 'm> {
         let LinearSegment { from, to, .. } = path.line().filter(|line| line.turns())?;
         let index = op.0 as usize;
         let axes = [*ends.get(index.checked_sub(1)?)?, *ends.get(index)?];
-        let operation = program.op(op)?.site.operation()?;
-        let blade = program.blade_of(operation)?;
+        let found = program.op(op)?;
+        if matches!(found.action, Action::Follow { .. }) {
+            return None;
+        }
+        let blade = program.blade_of(found.site.operation()?)?;
         Some(Self {
             op,
             rig,

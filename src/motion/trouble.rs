@@ -5,6 +5,7 @@
 
 use super::path::{Breach, Course, Look, Refuted, Violation, prove, worst};
 use super::runs::{Split, Station, StationKind, split};
+use super::stray::Stray;
 use super::survey::{ENOUGH_TOO_FAST, Extent, Failure, Survey, moved};
 use super::sweep::Sweep;
 use super::way::Obstacle;
@@ -43,6 +44,8 @@ pub enum Trouble {
     },
     /// A motion that sweeps the blade through the work.
     Sweep(Sweep),
+    /// A piece of a chain on which the axes hold the blade otherwise than the program.
+    Stray(Stray),
     /// A machine that is nowhere: without a motion to any pose that it can take.
     Nowhere,
 }
@@ -53,7 +56,7 @@ impl Trouble {
     pub const fn op(&self) -> Option<OpId> {
         match self {
             Self::Motion { failing, .. } | Self::NoCommonBranch { failing, .. } => Some(failing.op),
-            Self::Way { op, .. } | Self::Sweep(Sweep { op, .. }) => Some(*op),
+            Self::Way { op, .. } | Self::Sweep(Sweep { op, .. }) | Self::Stray(Stray { op, .. }) => Some(*op),
             Self::Nowhere => None,
         }
     }
@@ -63,7 +66,7 @@ impl Trouble {
     pub const fn failing(&self) -> Option<&Failing> {
         match self {
             Self::Motion { failing, .. } | Self::NoCommonBranch { failing, .. } => Some(failing),
-            Self::Way { .. } | Self::Sweep(_) | Self::Nowhere => None,
+            Self::Way { .. } | Self::Sweep(_) | Self::Stray(_) | Self::Nowhere => None,
         }
     }
 
@@ -76,7 +79,7 @@ impl Trouble {
                 ..
             } => Some(hardest),
             Self::Motion { .. } | Self::NoCommonBranch { .. } => self.failing(),
-            Self::Way { .. } | Self::Sweep(_) | Self::Nowhere => None,
+            Self::Way { .. } | Self::Sweep(_) | Self::Stray(_) | Self::Nowhere => None,
         }
     }
 }

@@ -11,6 +11,7 @@ use crate::moves::{pacing, path_of};
 use crate::path::{Singularity, Violation};
 use crate::rig::Rig;
 use crate::solve::{LEAST_CLEARANCE, Unreachable};
+use crate::stray::{LARGEST, Stray};
 use crate::sweep::{BladePart, Cure, Sweep};
 use crate::trouble::{Count, Failing, Leads, Trouble};
 use crate::way::Obstacle;
@@ -116,6 +117,9 @@ impl<'s> Scene<'s> {
                     "turn the blade farther beside the work, with a larger `extension`".to_owned()
                 }
             },
+            Trouble::Stray(_) => {
+                "let the blade turn about an axis of the machine: turn the work with `base` until its vertical is parallel to that axis; or divide the way into shorter pieces".to_owned()
+            }
             Trouble::Nowhere => "bring the work and the machine together with `base`".to_owned(),
         }
     }
@@ -152,6 +156,7 @@ impl<'s> Scene<'s> {
             Trouble::NoCommonBranch { failing, other } => self.no_common_branch(failing, other),
             Trouble::Way { op, leads, obstacle } => self.way(*op, *leads, obstacle),
             Trouble::Sweep(sweep) => self.sweep(sweep),
+            Trouble::Stray(stray) => self.stray(stray),
             Trouble::Nowhere => Diagnostic::new(
                 Code::OutOfReach,
                 "the machine reaches no pose of this job",
@@ -181,9 +186,11 @@ impl<'s> Scene<'s> {
     fn lacks_an_axis(&self, trouble: &Trouble) -> Option<Diagnostic> {
         let failing = match trouble {
             Trouble::Motion { failing, .. } => failing,
-            Trouble::NoCommonBranch { .. } | Trouble::Way { .. } | Trouble::Sweep(_) | Trouble::Nowhere => {
-                return None;
-            }
+            Trouble::NoCommonBranch { .. }
+            | Trouble::Way { .. }
+            | Trouble::Sweep(_)
+            | Trouble::Stray(_)
+            | Trouble::Nowhere => return None,
         };
         let taught = match path_of(self.program, failing.op)? {
             Path::Axes(pose) => [None, Some(pose)],
@@ -487,6 +494,29 @@ impl<'s> Scene<'s> {
         .note(format!(
             "this happens {} % along the way",
             show((sweep.at * 1000.0).round() / 10.0)
+        ))
+    }
+
+    fn stray(&self, stray: &Stray) -> Diagnostic {
+        let asked = self.asked(stray.op).map(|asked| asked.head_span);
+        let largest = show(LARGEST);
+        Diagnostic::new(
+            Code::ChainPosture,
+            format!(
+                "the rotary axes take the blade {} mm off its planned place at {}",
+                show_up(stray.by),
+                self.place(stray.op)
+            ),
+            asked.unwrap_or(self.machine.head_span),
+            "the blade turns here on its way through the work",
+        )
+        .and(
+            self.machine.model_span,
+            "its control interpolates the rotary axes, each at a constant rate",
+        )
+        .note(format!(
+            "this is worst {} % along the way; at most {largest} mm is allowed",
+            show((stray.at * 1000.0).round() / 10.0)
         ))
     }
 

@@ -58,6 +58,10 @@ pub(super) fn why_not(unreached: &Unreached, model: &Model) -> String {
         }
         Trouble::Way { op, .. } => format!("the way {} leads through the stock", place(program, *op)),
         Trouble::Sweep(sweep) => format!("the blade sweeps through the work, {}", place(program, sweep.op)),
+        Trouble::Stray(stray) => format!(
+            "the rotary axes hold the blade otherwise than planned, {}",
+            place(program, stray.op)
+        ),
         Trouble::Nowhere => "the machine reaches nothing of it".to_owned(),
     }
 }

@@ -14,9 +14,11 @@ pub fn farther_out(job: &CheckedJob, plan: &PlannedJob, why: &Unreached) -> Opti
     let unreachable = why.unreachable()?;
     let sweep = match &unreachable.trouble {
         Trouble::Sweep(sweep) => sweep,
-        Trouble::Motion { .. } | Trouble::NoCommonBranch { .. } | Trouble::Way { .. } | Trouble::Nowhere => {
-            return None;
-        }
+        Trouble::Motion { .. }
+        | Trouble::NoCommonBranch { .. }
+        | Trouble::Way { .. }
+        | Trouble::Stray(_)
+        | Trouble::Nowhere => return None,
     };
     let by = match sweep.cure {
         Cure::FartherOut(by) => by,

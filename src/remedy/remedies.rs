@@ -85,6 +85,7 @@ fn remedies(case: &mut Case<'_>) -> Vec<Change> {
             let room = process::more_room(case, sweep.cure);
             room.into_iter().chain(process::other_direction(case)).collect()
         }
+        Trouble::Stray(_) => Vec::new(),
         Trouble::Nowhere => base::moved(case).into_iter().collect(),
     };
     found.truncate(MOST_OFFERED);

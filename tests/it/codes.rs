@@ -26,6 +26,12 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
         "it takes a height on the command line",
     ),
     (
+        Code::ChainPosture,
+        "tests/it/five_axis.rs",
+        "a_chain_on_tilted_work_takes_the_blade_off_its_place",
+        "no operation makes chains",
+    ),
+    (
         Code::ManyAxisMoves,
         "tests/it/help.rs",
         "many_moves_of_all_axes_are_warned_of",

@@ -4,10 +4,16 @@ use crate::pipeline::{Files, compile, compile_on, numbers, told};
 use crate::repository::{read, root};
 use glam::{DMat3, DVec3};
 use vcutc::diagnostics::Code;
+use vcutc::job::CheckedJob;
+use vcutc::motion::pace::paced;
 use vcutc::motion::rigs::Rigs;
-use vcutc::motion::trajectory::{Spacing, trajectory};
-use vcutc::vcut::PlannedVcut;
-use vcutc_backend_api::ir::Action;
+use vcutc::motion::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
+use vcutc::motion::verdict::explain;
+use vcutc::simulation::timing::op_times;
+use vcutc_backend_api::ir::{Action, AxisKind, Joint};
+use vcutc_backend_api::testkit::chained;
+use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::verify::verify;
 
 /// The job of an example, which asks for `generic/head_head_ac`, on another machine.
 fn on(machine: &str) -> Vec<String> {
@@ -261,4 +267,85 @@ fn a_limit_points_at_its_line_in_the_sheet() {
         .map(|label| outcome.sources.slice(label.span))
         .collect();
     assert_eq!(pointed, ["[-20.0, 20.0]"]);
+}
+
+/// A chain with two quarter arcs about the vertical, on the machine of a job whose base is tilted.
+fn chain_on(tilt: &str, joints: impl Fn(Joint) -> Joint) -> (CheckedJob, Result<Reached, Unreached>) {
+    let upright = "z = 50 mm, a = 0 deg, b = 0 deg, c = 0 deg";
+    let job = read("tests/process/err/VC0528_short_extension.vcut")
+        .replace("6.1 mm", "20 mm")
+        .replace(upright, &format!("z = 50 mm, a = 0 deg, b = 0 deg, c = {tilt}"));
+    let outcome = compile("job.vcut", &Files::default().with("job.vcut", job));
+    let compiled = outcome.compiled.expect("it compiles");
+    let program = compiled
+        .program
+        .reached()
+        .expect("it is reached")
+        .program
+        .program();
+    let mut program = chained(program.clone(), Angle::deg(60.0), Length::mm(0.2));
+    for op in &mut program.ops {
+        if let Action::Follow { joint, .. } = &mut op.action {
+            *joint = joints(*joint);
+        }
+    }
+    let program = verify(program).expect("it keeps all rules");
+    let job = outcome.job.expect("the job has a meaning");
+    let model = &job.machine.as_ref().expect("it has a machine").model;
+    let solved = solve(program, model, &LEAST_CLEARANCE, Changes::Never);
+    (job, solved)
+}
+
+#[test]
+fn a_chain_on_tilted_work_takes_the_blade_off_its_place() {
+    let (_, upright) = chain_on("0 deg", |joint| joint);
+    assert!(upright.is_ok());
+    let (job, tilted) = chain_on("4 deg", |joint| joint);
+    let unreached = tilted.unwrap_err();
+    let why = explain(&job, unreached.unreachable().expect("it is no fault")).expect("it has a machine");
+    let told = [why.with_advice()];
+    assert_eq!(numbers(&told), ["VC0530"]);
+    assert!(
+        told[0].message.starts_with("the rotary axes take the blade "),
+        "{}",
+        told[0].message
+    );
+}
+
+/// A chain takes less time than the same pieces with a rest at each joint, and more than at programmed speeds.
+#[test]
+fn a_chain_is_timed_as_one_course() {
+    for jerk in [None, Some(20_000.0)] {
+        let timed = |joints: fn(Joint) -> Joint| {
+            let (job, reached) = chain_on("0 deg", joints);
+            let mut model = job.machine.expect("it has a machine").model;
+            model.path.acceleration = Some(1500.0);
+            model.path.jerk = jerk;
+            for axis in &mut model.axes {
+                axis.acceleration = Some(match axis.kind {
+                    AxisKind::Linear => 2000.0,
+                    AxisKind::Rotary => 20.0,
+                });
+            }
+            let reached = reached.expect("it is reached");
+            let paced = paced(&reached.program, &model);
+            assert_eq!(paced.basis.unfollowed, 0);
+            let programmed = op_times(reached.program.verified());
+            let pieces = reached
+                .program
+                .program()
+                .ops
+                .iter()
+                .zip(paced.times.iter().zip(programmed));
+            let follows = pieces.filter(|(op, _)| matches!(op.action, Action::Follow { .. }));
+            follows.fold([0.0, 0.0], |[sum, least], (_, (time, programmed))| {
+                [sum + time.to_s(), least + programmed.to_s()]
+            })
+        };
+        let ([through, least], [stopped, _]) = (timed(|joint| joint), timed(|_| Joint::Stop));
+        assert!(
+            through > least && through < 0.97 * stopped,
+            "{jerk:?}: {least} {through} {stopped}"
+        );
+    }
 }

@@ -16,7 +16,6 @@
 
 use super::profile::Bounds;
 use super::track::Part;
-use vcutc_backend_api::ir::MOST_AXES;
 
 /// `-most <= u'' + lean z <= most`.
 #[derive(Clone, Copy, Debug)]
@@ -25,16 +24,16 @@ struct Line {
     lean: f64,
 }
 
-/// The lines of all axes and of the path.
-const MOST_LINES: usize = MOST_AXES + 1;
-
 /// What bounds a part of the way.
 #[derive(Clone, Copy, Debug)]
-struct Segment {
+struct Segment<const N: usize> {
     length: f64,
     /// The highest `z`.
     cap: f64,
-    lines: [Option<Line>; MOST_LINES],
+    /// Of the axes.
+    lines: [Option<Line>; N],
+    /// Of the path.
+    along: Option<Line>,
 }
 
 /// Which way a pass goes.
@@ -49,7 +48,12 @@ const STILL: f64 = 1e-9;
 
 /// How long a way takes from rest to rest, in s. `axes` bounds the axes, `path` the part that is done; `rate` is its highest
 /// rate.
-pub(super) fn duration(parts: &[Part], axes: &[Bounds; MOST_AXES], rate: f64, path: Bounds) -> f64 {
+pub(super) fn duration<const N: usize>(
+    parts: &[Part<N>],
+    axes: &[Bounds; N],
+    rate: f64,
+    path: Bounds,
+) -> f64 {
     let steps = steps(parts, axes, rate, path);
     steps.iter().map(|step| step.time).sum()
 }
@@ -64,11 +68,29 @@ pub(super) struct Step {
 }
 
 /// The fastest way, part by part.
-pub(super) fn steps(parts: &[Part], axes: &[Bounds; MOST_AXES], rate: f64, path: Bounds) -> Vec<Step> {
-    let segments: Vec<Segment> = parts.iter().map(|part| segment(part, axes, rate, path)).collect();
-    let stoppable = stoppable(&segments);
+pub(super) fn steps<const N: usize>(
+    parts: &[Part<N>],
+    axes: &[Bounds; N],
+    rate: f64,
+    path: Bounds,
+) -> Vec<Step> {
+    let segments = parts.iter().map(|part| segment(part, axes, rate, path)).collect();
+    // What bounds `z` changes evenly from part to part.
+    gone(segments, f64::midpoint)
+}
+
+/// The fastest way where the bounds may change at once from one part to the next, as where pieces of a chain have speeds of
+/// their own.
+pub(super) fn steps_of_pieces<const N: usize>(parts: &[Part<N>], axes: &[Bounds; N]) -> Vec<Step> {
+    let of_part = |part| segment(part, axes, f64::INFINITY, Bounds::default());
+    gone(parts.iter().map(of_part).collect(), f64::min)
+}
+
+/// `between` tells the highest `z` where two parts meet from that of either.
+fn gone<const N: usize>(segments: Vec<Segment<N>>, between: fn(f64, f64) -> f64) -> Vec<Step> {
+    let stoppable = stoppable(&segments, between);
     let mut z = 0.0;
-    let step = |(segment, &most): (&Segment, &f64)| {
+    let step = |(segment, &most): (&Segment<N>, &f64)| {
         let up = segment.gain(z, Pass::Forward);
         let next = reached(z, up, segment.length, most);
         let time = segment.time(z, next, up);
@@ -79,12 +101,12 @@ pub(super) fn steps(parts: &[Part], axes: &[Bounds; MOST_AXES], rate: f64, path:
 }
 
 /// The highest `z` at the ends of segments from which the rest of the way can be braked.
-fn stoppable(segments: &[Segment]) -> Vec<f64> {
+fn stoppable<const N: usize>(segments: &[Segment<N>], between: fn(f64, f64) -> f64) -> Vec<f64> {
     let mut z = 0.0;
     let mut highest = vec![z];
     for (index, segment) in segments.iter().enumerate().rev() {
         let before = index.checked_sub(1).and_then(|before| segments.get(before));
-        let cap = before.map_or(0.0, |before| f64::midpoint(before.cap, segment.cap));
+        let cap = before.map_or(0.0, |before| between(before.cap, segment.cap));
         z = reached(z, segment.gain(z, Pass::Backward), segment.length, cap);
         highest.push(z);
     }
@@ -97,10 +119,10 @@ fn reached(z: f64, gain: Option<f64>, length: f64, cap: f64) -> f64 {
     gain.map_or(cap, |gain| (z + 2.0 * length * gain).clamp(0.0, cap.max(0.0)))
 }
 
-fn segment(part: &Part, axes: &[Bounds; MOST_AXES], rate: f64, path: Bounds) -> Segment {
+fn segment<const N: usize>(part: &Part<N>, axes: &[Bounds; N], rate: f64, path: Bounds) -> Segment<N> {
     let mut cap = rate * rate;
-    let mut lines = [None; MOST_LINES];
-    lines[MOST_AXES] = path.acceleration.map(|most| Line { most, lean: 0.0 });
+    let mut lines = [None; N];
+    let along = path.acceleration.map(|most| Line { most, lean: 0.0 });
     for ((slopes, bounds), line) in part.axes.iter().zip(axes).zip(&mut lines) {
         let steep = slopes.first.abs();
         if let Some(rate) = bounds.rate.filter(|_| steep > STILL) {
@@ -118,8 +140,9 @@ fn segment(part: &Part, axes: &[Bounds; MOST_AXES], rate: f64, path: Bounds) -> 
             }
         }
     }
-    for one in lines.iter().flatten() {
-        for other in lines.iter().flatten().filter(|other| other.lean > one.lean) {
+    let all = || lines.iter().chain([&along]).flatten();
+    for one in all() {
+        for other in all().filter(|other| other.lean > one.lean) {
             cap = cap.min((one.most + other.most) / (other.lean - one.lean));
         }
     }
@@ -127,14 +150,15 @@ fn segment(part: &Part, axes: &[Bounds; MOST_AXES], rate: f64, path: Bounds) -> 
         length: part.length,
         cap,
         lines,
+        along,
     }
 }
 
-impl Segment {
+impl<const N: usize> Segment<N> {
     /// The highest constant acceleration with which the segment can be entered at `z`, or left, going backwards; none where
     /// nothing bounds it.
     fn gain(&self, z: f64, pass: Pass) -> Option<f64> {
-        let gains = self.lines.iter().flatten().map(|line| {
+        let gains = self.lines.iter().chain([&self.along]).flatten().map(|line| {
             let lean = match pass {
                 Pass::Forward => line.lean,
                 Pass::Backward => -line.lean,

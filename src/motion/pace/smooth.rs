@@ -24,7 +24,6 @@
 
 use super::profile::Bounds;
 use super::track::{Part, Slopes};
-use vcutc_backend_api::ir::MOST_AXES;
 
 /// By how much, of its own time, another ride can be faster than the one that is found.
 pub(super) const NEAR: f64 = 0.01;
@@ -36,17 +35,26 @@ const SECTIONS: u32 = 20;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The largest derivatives of the axes on a stretch.
-type Largest = [Slopes; MOST_AXES];
+type Largest<const N: usize> = [Slopes; N];
 
 /// A way with what its axes do on ever longer stretches of it.
-struct Way<'a> {
-    axes: &'a [Bounds; MOST_AXES],
+pub(super) struct Way<'a, const N: usize> {
+    axes: &'a [Bounds; N],
     /// Of the part that is done.
     path: Bounds,
     /// From the start: how far, and the largest derivatives up to there.
-    rise: Vec<(f64, Largest)>,
+    rise: Vec<(f64, Largest<N>)>,
     /// The same from the end.
-    fall: Vec<(f64, Largest)>,
+    fall: Vec<(f64, Largest<N>)>,
+}
+
+/// An end of a way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    /// Where speed is gathered.
+    Start,
+    /// Where it is braked.
+    Finish,
 }
 
 /// How speed is gathered, or braked.
@@ -85,13 +93,13 @@ impl Span {
 
 /// A ride along a way that no other of its kind is faster than by more than [`NEAR`]; none where no rate was found that can be
 /// reached.
-pub(super) fn ride(parts: &[Part], axes: &[Bounds; MOST_AXES], rate: f64, path: Bounds) -> Option<Ride> {
-    let way = Way {
-        axes,
-        path,
-        rise: stretches(parts.iter()),
-        fall: stretches(parts.iter().rev()),
-    };
+pub(super) fn ride<const N: usize>(
+    parts: &[Part<N>],
+    axes: &[Bounds; N],
+    rate: f64,
+    path: Bounds,
+) -> Option<Ride> {
+    let way = Way::new(parts, axes, path);
     let highest = way.highest(rate)?;
     let mut best = (0..MOST_HALVINGS).find_map(|halvings| way.ride(highest * 0.5_f64.powi(halvings)))?;
     // Slower than that a ride takes longer without any ramps.
@@ -130,9 +138,9 @@ fn most_promising(spans: &[Span], time: f64) -> Option<usize> {
 }
 
 /// Ever longer stretches with the largest derivatives on them.
-fn stretches<'p>(parts: impl Iterator<Item = &'p Part>) -> Vec<(f64, Largest)> {
+fn stretches<'p, const N: usize>(parts: impl Iterator<Item = &'p Part<N>>) -> Vec<(f64, Largest<N>)> {
     let mut done = 0.0;
-    let mut largest = [Slopes::default(); MOST_AXES];
+    let mut largest = [Slopes::default(); N];
     parts
         .map(|part| {
             done += part.length;
@@ -153,9 +161,18 @@ fn stretches<'p>(parts: impl Iterator<Item = &'p Part>) -> Vec<(f64, Largest)> {
         .collect()
 }
 
-impl Way<'_> {
+impl<'a, const N: usize> Way<'a, N> {
+    pub(super) fn new(parts: &[Part<N>], axes: &'a [Bounds; N], path: Bounds) -> Self {
+        Self {
+            axes,
+            path,
+            rise: stretches(parts.iter()),
+            fall: stretches(parts.iter().rev()),
+        }
+    }
+
     /// The highest constant rate.
-    fn highest(&self, rate: f64) -> Option<f64> {
+    pub(super) fn highest(&self, rate: f64) -> Option<f64> {
         let (_, largest) = self.rise.last()?;
         let each = largest.iter().zip(self.axes).map(|(slopes, bounds)| {
             let over =
@@ -173,8 +190,8 @@ impl Way<'_> {
 
     /// The way at a constant rate between two ramps; none where these do not fit.
     fn ride(&self, rate: f64) -> Option<Ride> {
-        let rising = self.ramp(rate, &self.rise)?;
-        let falling = self.ramp(rate, &self.fall)?;
+        let rising = self.ramp([0.0, rate], End::Start)?;
+        let falling = self.ramp([0.0, rate], End::Finish)?;
         let ramps = rising.time + falling.time;
         let left = 1.0 - rate * ramps / 2.0;
         (left >= 0.0).then(|| Ride {
@@ -185,13 +202,16 @@ impl Way<'_> {
         })
     }
 
-    /// How a rate is gathered: on the shortest stretch that is as long as the ramp it allows. A longer stretch allows no
-    /// shorter ramp, so those that are shorter than the ramp just found can be passed over.
-    fn ramp(&self, rate: f64, stretches: &[(f64, Largest)]) -> Option<Ramp> {
-        let mut rest = stretches;
+    /// How a rate is gathered from another: on the shortest stretch that is as long as the ramp it allows. A longer stretch
+    /// allows no shorter ramp, so those that are shorter than the ramp just found can be passed over.
+    pub(super) fn ramp(&self, [from, rate]: [f64; 2], end: End) -> Option<Ramp> {
+        let mut rest = match end {
+            End::Start => self.rise.as_slice(),
+            End::Finish => self.fall.as_slice(),
+        };
         while let [(length, largest), ..] = rest {
-            let ramp = self.gathering(rate, largest)?;
-            let way = rate * ramp.time / 2.0;
+            let ramp = self.gathering([from, rate], largest)?;
+            let way = (from + rate) * ramp.time / 2.0;
             if way <= *length {
                 return Some(ramp);
             }
@@ -200,11 +220,12 @@ impl Way<'_> {
         None
     }
 
-    /// The shortest ramp up to a rate where the derivatives are no larger than these.
-    fn gathering(&self, rate: f64, largest: &Largest) -> Option<Ramp> {
+    /// The shortest ramp from one rate up to another where the derivatives are no larger than these.
+    fn gathering(&self, [from, rate]: [f64; 2], largest: &Largest<N>) -> Option<Ramp> {
         let allowed = self.acceleration(rate, largest)?;
         // No more than what jerk alone gathers on the way to the rate.
-        let gathered = self.jerk(rate, 0.0, largest)?.map(|jerk| (jerk * rate).sqrt());
+        let gain = rate - from;
+        let gathered = self.jerk(rate, 0.0, largest)?.map(|jerk| (jerk * gain).sqrt());
         let with = |acceleration: Option<f64>| {
             let jerk = self.jerk(rate, acceleration.unwrap_or(0.0), largest)?;
             let bounds = Bounds {
@@ -212,7 +233,7 @@ impl Way<'_> {
                 acceleration,
                 jerk,
             };
-            let time = bounds.gathering(rate);
+            let time = bounds.gathering(gain);
             Some(Ramp { time, bounds })
         };
         let most = [allowed, gathered].into_iter().flatten().reduce(f64::min);
@@ -227,7 +248,7 @@ impl Way<'_> {
         clippy::option_option,
         reason = "none at all, and none that bounds, are two answers"
     )]
-    fn acceleration(&self, rate: f64, largest: &Largest) -> Option<Option<f64>> {
+    fn acceleration(&self, rate: f64, largest: &Largest<N>) -> Option<Option<f64>> {
         let each = largest.iter().zip(self.axes).filter_map(|(slopes, bounds)| {
             Some((bounds.acceleration? - slopes.second * rate * rate, slopes.first))
         });
@@ -239,7 +260,7 @@ impl Way<'_> {
         clippy::option_option,
         reason = "none at all, and none that bounds, are two answers"
     )]
-    fn jerk(&self, rate: f64, acceleration: f64, largest: &Largest) -> Option<Option<f64>> {
+    fn jerk(&self, rate: f64, acceleration: f64, largest: &Largest<N>) -> Option<Option<f64>> {
         let each = largest.iter().zip(self.axes).filter_map(|(slopes, bounds)| {
             let bent = 3.0 * slopes.second * rate * acceleration + slopes.third * rate * rate * rate;
             Some((bounds.jerk? - bent, slopes.first))

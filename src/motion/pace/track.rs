@@ -12,13 +12,27 @@ pub(super) struct Slopes {
     pub(super) third: f64,
 }
 
-/// A part of a way.
+/// A part of a way, along which so many things move: the axes, and for chains what else has bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Part {
+pub(super) struct Part<const N: usize = MOST_AXES> {
     /// Its share of the way.
     pub(super) length: f64,
     /// The axes in its middle.
-    pub(super) axes: [Slopes; MOST_AXES],
+    pub(super) axes: [Slopes; N],
+}
+
+impl<const N: usize> Part<N> {
+    /// The same with its way measured otherwise: all of it is so long.
+    pub(super) fn over(self, length: f64) -> Self {
+        Self {
+            length: self.length * length,
+            axes: self.axes.map(|slopes| Slopes {
+                first: slopes.first / length,
+                second: slopes.second / (length * length),
+                third: slopes.third / (length * length * length),
+            }),
+        }
+    }
 }
 
 /// How large the rest of a series may be, in rad or mm: it makes second derivatives wrong by a thousandth of a rad (a mm) at

@@ -2,7 +2,7 @@
 
 use super::arm::{ArmBranch, Carrying};
 use super::bounds::Stretch;
-use super::course::{Flight, Shape, Span};
+use super::course::{Flight, Span};
 use super::serial;
 use super::types::{Course, Violation};
 use crate::rig::Rig;
@@ -27,8 +27,7 @@ pub(super) enum Solver<'m> {
 }
 
 impl<'m> ArmCourse<'m> {
-    /// `None` for a course without a duration, beyond all machines, on an arc for an arm without a closed form, or a branch
-    /// that the machine does not have.
+    /// `None` for a course without a duration, beyond all machines, or a branch that the machine does not have.
     pub(super) fn new(rig: &Rig<'m>, course: &Course, branch: Branch) -> Option<Self> {
         let lasts = course.duration > 0.0 && course.duration.is_finite();
         let mut rig = rig.clone();
@@ -46,11 +45,6 @@ impl<'m> ArmCourse<'m> {
             | (Mechanism::FiveAxis(_), _) => return None,
         };
         let flight = Flight::new(&rig, course).filter(|_| lasts)?;
-        match (solver, flight.shape()) {
-            // The theorem of these arms needs a constant twist, which an arc does not have.
-            (Solver::Numeric(_), Shape::Arc) => return None,
-            (Solver::Numeric(_), Shape::Straight | Shape::Turning) | (Solver::ClosedForm(..), _) => {}
-        }
         Some(Self { flight, solver })
     }
 

@@ -10,7 +10,7 @@ use vcutc_machine::kinematics::pose::Pose;
 /// Farther out (mm) there is nothing to work on, and nothing to compute with.
 const FARTHEST: f64 = 1e9;
 
-/// What positions on the course may be off by rounding, in mm.
+/// What positions on the course may be off by rounding, in mm; and velocities on an arc, for each rad that it goes round.
 const ROUNDING: f64 = 1e-9;
 
 /// A part of a course: all places within `half` of `middle`, in parts of the course from 0 to 1.
@@ -69,6 +69,23 @@ impl Arc {
         let (sin, cos) = libm::sincos(s * self.sweep);
         self.centre + self.first * cos + self.second * sin
     }
+
+    /// How fast the point moves, in mm a course.
+    fn velocity(&self, s: f64) -> DVec3 {
+        let (sin, cos) = libm::sincos(s * self.sweep);
+        (self.second * cos - self.first * sin) * self.sweep
+    }
+
+    /// How its velocity changes, in mm a course squared.
+    fn acceleration(&self, s: f64) -> DVec3 {
+        (self.centre - self.at(s)) * (self.sweep * self.sweep)
+    }
+
+    /// What each coordinate is off the centre by at most.
+    fn farthest(&self) -> DVec3 {
+        let [first, second] = [self.first.to_array(), self.second.to_array()];
+        DVec3::from_array(core::array::from_fn(|i| libm::hypot(first[i], second[i])))
+    }
 }
 
 impl Flight {
@@ -113,9 +130,34 @@ impl Flight {
         self.arc.map_or(self.tip + self.way * s, |arc| arc.at(s))
     }
 
-    /// On a line: how fast the tip moves, in mm a course, and how fast the flange turns, as a vector in rad a course.
-    pub(super) fn velocity(&self) -> (DVec3, DVec3) {
-        (self.way, self.axis * self.angle)
+    /// How fast the tip moves at a place, in mm a course.
+    pub(super) fn velocity_at(&self, s: f64) -> DVec3 {
+        self.arc.map_or(self.way, |arc| arc.velocity(s))
+    }
+
+    /// How fast the flange turns, as a vector in rad a course.
+    pub(super) fn spin(&self) -> DVec3 {
+        self.axis * self.angle
+    }
+
+    /// How fast the tip moves on a span, in mm a course: on an arc what it is in the middle, and what it may change by.
+    pub(super) fn velocity_over(&self, span: Span) -> [Interval; 3] {
+        let middle = self.velocity_at(span.middle).to_array();
+        let Some(arc) = self.arc else {
+            return middle.map(Interval::exactly);
+        };
+        let change = arc.farthest() * (arc.sweep * arc.sweep * span.half);
+        core::array::from_fn(|i| Interval::around(middle[i], change[i] + ROUNDING * arc.sweep))
+    }
+
+    /// How the tip's velocity changes on a span, in mm a course squared.
+    pub(super) fn acceleration_over(&self, span: Span) -> [Interval; 3] {
+        let Some(arc) = self.arc else {
+            return [Interval::ZERO; 3];
+        };
+        let (middle, square) = (arc.acceleration(span.middle), arc.sweep * arc.sweep);
+        let change = arc.farthest() * (square * arc.sweep * span.half);
+        core::array::from_fn(|i| Interval::around(middle[i], change[i] + ROUNDING * square))
     }
 
     /// Where the tip is on the flange.
@@ -123,10 +165,18 @@ impl Flight {
         self.start.rotation.transpose() * (self.tip - self.start.position)
     }
 
-    /// On a line: where the tip is in the root on a span.
+    /// Where the tip is in the root on a span.
     pub(super) fn tip_over(&self, span: Span) -> [Interval; 3] {
-        let (tip, slope) = (self.tip + self.way * span.middle, self.way * span.half);
-        core::array::from_fn(|i| Interval::around(tip[i], slope[i].abs() + ROUNDING))
+        let (tip, slope) = (
+            self.tip_at(span.middle),
+            self.velocity_at(span.middle) * span.half,
+        );
+        // What an arc bends away from its tangent in the middle, by Taylor's theorem.
+        let bends = self.arc.map_or(DVec3::ZERO, |arc| {
+            let angle = arc.sweep * span.half;
+            arc.farthest() * (0.5 * angle * angle)
+        });
+        core::array::from_fn(|i| Interval::around(tip[i], slope[i].abs() + bends[i] + ROUNDING))
     }
 
     /// What the flange's points and directions are on the way: the point that is given, and the flange's three axes.

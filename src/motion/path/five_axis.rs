@@ -1,6 +1,6 @@
 //! The path check of five-axis machines.
 //!
-//! A controller with tool-centre-point control (TCPM, G43.4, TRAORI) moves the tip on a straight line in the work while
+//! A controller with tool-centre-point control (TCPM, G43.4, TRAORI) moves the tip on a straight line or an arc in the work while
 //! **the rotary axes go each at a constant rate to their values at the end**. It does so unless told to interpolate the
 //! orientation vector (ORIVECT), and it is what is proven here. Between two taught poses the blade is therefore not turned
 //! about one fixed axis as a robot turns it. For cuts, approaches and retracts that makes no difference, since they keep
@@ -22,7 +22,8 @@
 //! - `d2 + 2 w d1 + w^2 r`,
 //! - `d3 + 3 w d2 + 3 w^2 d1 + w^3 r`.
 //!
-//! Starting with the tip on its line (`d1` its length, `d2 = d3 = 0`) and going through the axes from the inside out gives
+//! Starting with the tip on its line (`d1` its length, `d2 = d3 = 0`), or on an arc of the radius `R` that goes round by `a`
+//! (`d1 = a R`, `d2 = a^2 R`, `d3 = a^3 R`), and going through the axes from the inside out gives
 //! bounds `b2` and `b3` of second and third derivatives of all linear axes, on the whole course. Between two places that
 //! are `w` apart a function keeps within `b2 w^2 / 8` of the straight line through its values there, and its derivative
 //! within `b3 w^2 / 8` of the line through the derivatives (the error of linear interpolation). The course is divided until
@@ -33,10 +34,12 @@
 use super::types::{Breach, Clearance, Course, Proof, Violation};
 use crate::rig::Rig;
 use glam::DVec3;
+use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::ir::Axis;
 use vcutc_backend_api::motion::Branch;
 use vcutc_machine::kinematics::Joints;
 use vcutc_machine::kinematics::five_axis::{FiveAxis, Rotary};
+use vcutc_machine::kinematics::pose::Pose;
 
 /// By how much an axis may be beyond its limit, in rad or mm (or a second): rounding.
 const AT_LIMIT: f64 = 1e-9;
@@ -70,8 +73,7 @@ pub fn prove(
     let (apart, turned) = rig.blade_in_work(start).apart(&course.from);
     let begins_there = apart <= SAME.0 && turned <= SAME.1;
     let takes_time = course.duration > 0.0 && course.duration.is_finite();
-    // On arcs X, Y and Z have other bounds than those of a point that moves evenly.
-    if !(begins_there && takes_time && course.arc.is_none()) {
+    if !(begins_there && takes_time && follows_its_arc(course)) {
         return Err(out_of_reach(0.0));
     }
     let end = machine
@@ -90,6 +92,15 @@ pub fn prove(
         // Rotary axes move evenly whatever the blade points along: no course has a singular pose.
         clearance: Clearance::UNLIMITED,
         solves: search.looks + 1,
+    })
+}
+
+/// Whether the arc of a course, where it has one, begins and ends where the course does.
+fn follows_its_arc(course: &Course) -> bool {
+    course.arc.is_none_or(|arc| {
+        let ends = [(arc.at(0.0), &course.from), (arc.end(), &course.to)];
+        ends.into_iter()
+            .all(|(point, blade)| DVec3::from_array(point).distance(blade.position) <= SAME.0)
     })
 }
 
@@ -125,41 +136,82 @@ struct Bounds {
     third: f64,
 }
 
+/// How a point moves on what carries it, with all axes at zero.
+#[derive(Clone, Copy, Debug)]
+enum Way {
+    /// From a point on, evenly.
+    Line { from: DVec3, by: DVec3 },
+    /// Round a centre, evenly.
+    Arc(CircularArc),
+}
+
+impl Way {
+    fn at(&self, s: f64) -> Moving {
+        match self {
+            Self::Line { from, by } => Moving {
+                at: *from + *by * s,
+                velocity: *by,
+            },
+            Self::Arc(arc) => {
+                let sweep = arc.sweep().to_rad();
+                Moving {
+                    at: DVec3::from_array(arc.at(s * sweep)),
+                    velocity: DVec3::from_array(arc.direction(s * sweep)) * arc.length().to_mm(),
+                }
+            }
+        }
+    }
+
+    /// A ball around it, as centre and radius, and its bounds.
+    fn bounds(&self) -> (DVec3, f64, Bounds) {
+        match self {
+            Self::Line { from, by } => {
+                let first = by.length();
+                let bounds = Bounds {
+                    first,
+                    ..Bounds::default()
+                };
+                (*from, first, bounds)
+            }
+            Self::Arc(arc) => {
+                let (radius, sweep) = (arc.radius().to_mm(), arc.sweep().to_rad());
+                let bounds = Bounds {
+                    first: radius * sweep,
+                    second: radius * sweep * sweep,
+                    third: radius * sweep * sweep * sweep,
+                };
+                (DVec3::from_array(arc.centre()), radius, bounds)
+            }
+        }
+    }
+}
+
 /// A point that rotary axes at constant rates carry.
 #[derive(Clone, Debug)]
 struct Carried {
-    /// Where it is at the start with all axes at zero.
-    from: DVec3,
-    /// What it moves by on what carries it, during the course.
-    way: DVec3,
+    way: Way,
     /// What carries it, from the inside out: axis, value at the start, change during the course.
     by: Vec<(Rotary, f64, f64)>,
 }
 
 impl Carried {
     fn at(&self, s: f64) -> Moving {
-        let inside = Moving {
-            at: self.from + self.way * s,
-            velocity: self.way,
-        };
-        self.by.iter().fold(inside, |point, &(rotary, value, change)| {
-            let turned = rotary.turned(value + s * change);
-            let at = turned.rotation * point.at + turned.position;
-            let about = rotary.about.vector() * change;
-            Moving {
-                at,
-                velocity: turned.rotation * point.velocity + about.cross(at - rotary.centre),
-            }
-        })
+        self.by
+            .iter()
+            .fold(self.way.at(s), |point, &(rotary, value, change)| {
+                let turned = rotary.turned(value + s * change);
+                let at = turned.rotation * point.at + turned.position;
+                let about = rotary.about.vector() * change;
+                Moving {
+                    at,
+                    velocity: turned.rotation * point.velocity + about.cross(at - rotary.centre),
+                }
+            })
     }
 
     fn bounds(&self) -> Bounds {
-        // The ball around the line, seen from where the axis before lies.
-        let (mut seen_from, mut reach) = (self.from, self.way.length());
-        let mut bounds = Bounds {
-            first: self.way.length(),
-            ..Bounds::default()
-        };
+        // The ball around the way, seen from where the axis before lies.
+        let (mut seen_from, mut reach, mut bounds) = self.way.bounds();
         for &(rotary, _, change) in &self.by {
             reach += seen_from.distance(rotary.centre);
             seen_from = rotary.centre;
@@ -188,16 +240,21 @@ impl Run {
     fn new(machine: &FiveAxis, rig: &Rig<'_>, course: &Course, start: &Joints, end: &Joints) -> Self {
         let moving = |(rotary, place): (Rotary, usize)| (rotary, start[place], end[place] - start[place]);
         let mount = machine.mount_at_zero();
-        let [from, to] = [course.from, course.to].map(|blade| (mount * rig.work_in_root * blade).position);
+        let work_at_zero = mount * rig.work_in_root;
+        let [from, to] = [course.from, course.to].map(|blade| (work_at_zero * blade).position);
+        let way = course.arc.map_or(Way::Line { from, by: to - from }, |arc| {
+            Way::Arc(seen(&arc, &work_at_zero))
+        });
         let by_work = Carried {
-            from,
-            way: to - from,
+            way,
             by: machine.table().rev().map(moving).collect(),
         };
         let tip_in_nose = rig.flange_in_blade.inverse();
         let by_head = Carried {
-            from: (machine.nose_at_zero() * tip_in_nose).position,
-            way: DVec3::ZERO,
+            way: Way::Line {
+                from: (machine.nose_at_zero() * tip_in_nose).position,
+                by: DVec3::ZERO,
+            },
             by: machine.head().rev().map(moving).collect(),
         };
         let (work, head) = (by_work.bounds(), by_head.bounds());
@@ -217,6 +274,15 @@ impl Run {
             velocity: (work.velocity - head.velocity).to_array(),
         }
     }
+}
+
+/// An arc as seen from where a frame stands.
+fn seen(arc: &CircularArc, frame: &Pose) -> CircularArc {
+    let direction = |vector: [f64; 3]| frame.rotation * DVec3::from_array(vector);
+    arc.seen(
+        |vector| direction(vector).to_array(),
+        |point| (direction(point) + frame.position).to_array(),
+    )
 }
 
 /// The linear axes at a place of the course: mm, and mm a course.

@@ -1,8 +1,9 @@
 //! Arms without a closed form: enclosures of what the Jacobian makes of the course.
 //!
-//! With `v` the twist of the blade about its tip, which is constant along a course, the axes follow `q' = J(q)^-1 v`. Let
-//! `A` be some matrix near `J^-1`, `Q` a box of axis values, and `N` an interval matrix with `I - A J(q)` in it for all `q`
-//! of `Q`. From `J q' = v` follows `q' = A v + N q'`. If the row sums of `N` are at most `b < 1`, then `J(q)` is regular on
+//! With `v` the twist of the blade about its tip, the axes follow `q' = J(q)^-1 v`. On a line the twist is constant. On an arc
+//! its angular part is, and its linear part goes round with the tangent: `v` then stands for the box of all twists on a span.
+//! Let `A` be some matrix near `J^-1`, `Q` a box of axis values, and `N` an interval matrix with `I - A J(q)` in it for all
+//! `q` of `Q`. From `J q' = v` follows `q' = A v + N q'`. If the row sums of `N` are at most `b < 1`, then `J(q)` is regular on
 //! `Q`, no axis is faster there than `|A v| / (1 - b)`, and putting that in on the right gives the box `D` of all rates.
 //!
 //! **A span.** If `q` at its beginning, plus `D` times its length, lies inside of `Q`, then the axes cannot leave `Q` on the
@@ -10,8 +11,9 @@
 //! `q + D [0, length]` and its rates in `D` (the first step of Lohner's method for differential equations; Moore, Kearfott,
 //! Cloud 2009, chapter 10).
 //!
-//! **To the second order.** The twist is constant, so `J q'' = -J' q'`, which the same argument encloses. Then rates lie in
-//! `q'(begin) + q'' [0, length]`, and values correspondingly, both with an excess that fades with the square of the length.
+//! **To the second order.** From `J q' = v` follows `J q'' = v' - J' q'`, which the same argument encloses; `v'` is zero on a
+//! line, and on an arc it points to the centre. Then rates lie in `q'(begin) + q'' [0, length]`, and values correspondingly,
+//! both with an excess that fades with the square of the length.
 //!
 //! **The end.** Newton's method improves the end, and the same contraction, on the box that is known to have the true end
 //! and the improved one, tells that they are the same but for rounding: the pose, as position of the tip and as the vector
@@ -71,8 +73,9 @@ pub(super) fn stretch(
 
 fn span_of(arm: &SerialArm, flight: &Flight, span: Span, begin: &Joints) -> Option<Stretch> {
     let length = 2.0 * span.half;
-    let (linear, angular) = flight.velocity();
-    let twist = [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z];
+    let spin = flight.spin();
+    let twist_at = |place: f64| column(flight.velocity_at(place), spin);
+    let twist = twist_at(span.middle);
     let tip_in_flange = flight.tip_in_flange();
     let first = inverse_at(arm, begin, tip_in_flange)?;
     let ahead: Joints = core::array::from_fn(|i| begin[i] + times(&first, &twist)[i] * span.half);
@@ -86,6 +89,12 @@ fn span_of(arm: &SerialArm, flight: &Flight, span: Span, begin: &Joints) -> Opti
 
     let begin_box = begin.map(|value| Interval::around(value, UNCERTAIN));
     let course_tip = flight.tip_over(span);
+    let velocity = flight.velocity_over(span);
+    let twists = six(velocity, exactly(spin));
+    let first_twist = six(
+        flight.velocity_over(at_once(span.middle - span.half)),
+        exactly(spin),
+    );
     let moved = |rates: &Box6| -> Box6 {
         core::array::from_fn(|i| {
             begin_box[i]
@@ -101,16 +110,17 @@ fn span_of(arm: &SerialArm, flight: &Flight, span: Span, begin: &Joints) -> Opti
         let way = Interval::exactly(straight[i] * length) * Interval { low: -0.2, high: 1.2 };
         begin_box[i] + way + Interval::around(0.0, room + UNCERTAIN)
     });
-    let rates = contraction.rates(&guess, &course_tip, &twist)?;
+    let rates = contraction.rates(&guess, &course_tip, &twists)?;
     let value = moved(&rates);
     if !(0..MOST_AXES).all(|i| value[i].within(guess[i].low, guess[i].high)) {
         return None;
     }
     // Once more in the smaller box, and then to the second order.
-    let rates = contraction.rates(&value, &course_tip, &twist)?;
+    let rates = contraction.rates(&value, &course_tip, &twists)?;
     let value = moved(&rates);
-    let first_rates = contraction.rates(&begin_box, &course_tip, &twist)?;
-    let bends = contraction.bends(&value, &course_tip, &rates, linear)?;
+    let first_rates = contraction.rates(&begin_box, &course_tip, &first_twist)?;
+    let changes = six(flight.acceleration_over(span), [Interval::ZERO; 3]);
+    let bends = contraction.bends(&value, &course_tip, &rates, &velocity, &changes)?;
     let (whole, half_square) = (
         Interval {
             low: 0.0,
@@ -146,21 +156,30 @@ struct Contraction<'m> {
 }
 
 impl Contraction<'_> {
-    /// All rates with which the axes can follow a twist while they are in a box and the tip in another.
-    fn rates(&self, joints: &Box6, tip: &Vector, twist: &Column) -> Option<Box6> {
+    /// All rates with which the axes can follow the twists of a box while they are in a box and the tip in another.
+    fn rates(&self, joints: &Box6, tip: &Vector, twists: &Box6) -> Option<Box6> {
         let lines = Lines::of(self.arm, joints, self.tip_in_flange);
         let tip = core::array::from_fn(|i| lines.tip[i].and(tip[i]));
-        self.solved(&lines, &tip, &twist.map(Interval::exactly))
+        self.solved(&lines, &tip, twists)
     }
 
-    /// All second derivatives of axes that move in a box at rates in another, by the course; `velocity` is the tip's.
-    fn bends(&self, joints: &Box6, tip: &Vector, rates: &Box6, velocity: DVec3) -> Option<Box6> {
+    /// All second derivatives of axes that move in a box at rates in another, by the course; `velocity` is the tip's, and the
+    /// twist changes by `changes`.
+    fn bends(
+        &self,
+        joints: &Box6,
+        tip: &Vector,
+        rates: &Box6,
+        velocity: &Vector,
+        changes: &Box6,
+    ) -> Option<Box6> {
         let lines = Lines::of(self.arm, joints, self.tip_in_flange);
         let tip = core::array::from_fn(|i| lines.tip[i].and(tip[i]));
-        // Of (J q')' = 0, since the twist is constant: J q'' = -J' q'.
+        // Of (J q')' = v': J q'' = v' - J' q'.
         let turns = self.arm.turns_of(*rates, |third, second| third - second);
-        let bias = lines.bias(&turns, &tip, &exactly(velocity));
-        self.solved(&lines, &tip, &bias.map(|part| -part))
+        let bias = lines.bias(&turns, &tip, velocity);
+        let wanted = core::array::from_fn(|i| changes[i] - bias[i]);
+        self.solved(&lines, &tip, &wanted)
     }
 
     /// All solutions `x` of `J x = wanted` for the Jacobians of the lines.
@@ -318,6 +337,23 @@ fn row_sum(matrix: &[Box6; MOST_AXES]) -> f64 {
         .iter()
         .map(|row| row.iter().map(|entry| entry.magnitude()).sum())
         .fold(0.0, f64::max)
+}
+
+/// A twist of its linear and its angular part.
+fn column(linear: DVec3, angular: DVec3) -> Column {
+    [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]
+}
+
+fn six(linear: Vector, angular: Vector) -> Box6 {
+    core::array::from_fn(|i| if i < 3 { linear[i] } else { angular[i - 3] })
+}
+
+/// The span of one place.
+const fn at_once(place: f64) -> Span {
+    Span {
+        middle: place,
+        half: 0.0,
+    }
 }
 
 fn exactly(vector: DVec3) -> Vector {

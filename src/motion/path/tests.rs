@@ -202,6 +202,9 @@ fn branch_of(rig: &Rig<'_>, joints: &Joints) -> Branch {
     nearest.map_or(Branch::Numbered(0), |solution| solution.branch)
 }
 
+/// How moves are drawn: on lines or on arcs.
+type Draw = fn(&mut Dice, &Rig<'_>, &[Axis], f64, f64) -> (Course, Branch, Joints);
+
 /// A random move whose tip goes round an arc, by up to 300 deg.
 fn random_arc(
     dice: &mut Dice,

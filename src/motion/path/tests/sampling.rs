@@ -1,7 +1,6 @@
 //! The proof against dense sampling, on random moves of several arms.
 
 use super::*;
-use vcutc_machine::kinematics::serial::SerialArm;
 
 /// By how much the axes keep within all bounds, in parts of the margin below which the proof may refuse: 1 deg of angle,
 /// 5 mm, 5 percent of the rate. Negative where a bound is broken.
@@ -21,9 +20,6 @@ fn margin(rig: &Rig<'_>, found: &Sampled) -> f64 {
         .min((clearance.elbow - LEAST.elbow) / degree)
         .min((clearance.shoulder - LEAST.shoulder) / 5.0)
 }
-
-/// How moves are drawn: on lines or on arcs.
-type Draw = fn(&mut Dice, &Rig<'_>, &[Axis], f64, f64) -> (Course, Branch, Joints);
 
 fn agrees_with_sampling(model: &Model, moves: u32, longest: f64, most_turn: f64) {
     agree_with_sampling(random_move, model, moves, longest, most_turn);
@@ -127,36 +123,4 @@ fn arcs() {
     for model in [kuka(), beside(), rods()] {
         agree_with_sampling(random_arc, &model, 300, 60.0, 0.6);
     }
-}
-
-/// Without a closed form there is no proof of arcs, so they are refused.
-#[test]
-fn arcs_are_refused_where_they_cannot_be_proven() {
-    let model = kuka();
-    let serial = SerialArm::from(&arm_of(&model));
-    let numeric = Model {
-        mechanism: Mechanism::Serial(serial),
-        ..model.clone()
-    };
-    let rig_of_both = rig(&model);
-    let (course, _, start) = random_arc(&mut Dice(3), &rig_of_both, &model.axes, 60.0, 0.6);
-    let rig = rig(&numeric);
-    let straight = Course { arc: None, ..course };
-    let slow = Course {
-        duration: 1e4,
-        ..straight
-    };
-    let on_line = prove(&rig, &slow, Branch::Numbered(0), &start, &LEAST);
-    let on_arc = prove(
-        &rig,
-        &Course {
-            arc: course.arc,
-            ..slow
-        },
-        Branch::Numbered(0),
-        &start,
-        &LEAST,
-    );
-    assert!(on_line.is_ok(), "{on_line:?}");
-    assert_eq!(on_arc.map_err(|breach| breach.what), Err(Violation::OutOfReach));
 }

@@ -9,6 +9,15 @@ const ONLY: Branch = Branch::Numbered(0);
 
 #[test]
 fn both_methods_prove_the_same() {
+    both_prove_the_same(random_move);
+}
+
+#[test]
+fn both_methods_prove_the_same_on_arcs() {
+    both_prove_the_same(random_arc);
+}
+
+fn both_prove_the_same(draw: Draw) {
     for model in [kuka(), beside(), rods()] {
         let arm = arm_of(&model);
         let mut general = model.clone();
@@ -22,7 +31,7 @@ fn both_methods_prove_the_same() {
         };
         let (mut both, mut closed_only) = (0, 0);
         for _ in 0..30 {
-            let (course, branch, start) = random_move(&mut dice, &closed_rig, &model.axes, 100.0, 0.3);
+            let (course, branch, start) = draw(&mut dice, &closed_rig, &model.axes, 100.0, 0.3);
             let closed = prove(&closed_rig, &course, branch, &start, &least);
             let general = prove(&general_rig, &course, ONLY, &start, &least);
             match (closed, general) {
@@ -46,6 +55,15 @@ fn both_methods_prove_the_same() {
 
 #[test]
 fn an_arm_without_a_spherical_wrist_agrees_with_sampling() {
+    agrees_with_sampling(random_move);
+}
+
+#[test]
+fn an_arm_without_a_spherical_wrist_agrees_with_sampling_on_arcs() {
+    agrees_with_sampling(random_arc);
+}
+
+fn agrees_with_sampling(draw: Draw) {
     let mut model = unbound(kuka());
     model.mechanism = Mechanism::Serial(samples::ur10e());
     for axis in &mut model.axes {
@@ -67,12 +85,16 @@ fn an_arm_without_a_spherical_wrist_agrees_with_sampling() {
     let mut dice = Dice(33);
     let mut proven = 0;
     for number in 0..40 {
-        let (mut course, _, start) = random_move(&mut dice, &rig, &ranges, 60.0, 0.4);
+        let (mut course, _, start) = draw(&mut dice, &rig, &ranges, 60.0, 0.4);
         course.duration *= 3.0;
         let Ok(proof) = prove(&rig, &course, ONLY, &start, &LEAST) else {
             continue;
         };
         proven += 1;
+        assert!(
+            proof.rate.iter().all(|rate| *rate <= 2.0 * (1.0 + 1e-6)),
+            "{number}"
+        );
         let mut last = start;
         for k in 1..=300 {
             let flange = rig.flange_in_root(&blade_at(&course, f64::from(k) / 300.0));
