@@ -239,7 +239,11 @@ fn what_cannot_be_said_is_refused() {
     }
     for dialect in DIALECTS {
         let found = unsupported(with_small_arc(0.005), dialect);
-        assert_eq!(found, ["arcs as small as the last decimal"], "{dialect}");
+        assert_eq!(
+            found,
+            ["arcs that the decimals of the program cannot hold"],
+            "{dialect}"
+        );
         assert_eq!(issues(with_small_arc(5.0), dialect, &[]), [], "{dialect}");
         is_read_back(&on_the_head(with_small_arc(5.0)), dialect, &[]);
     }
@@ -309,7 +313,28 @@ fn edits_of_a_chain_are_named() {
         let goes_on = DivergenceKind::Differs(vec![Mismatch::NoStop]);
         assert_eq!(departs(&program, dialect, (word, "G1")), goes_on, "{dialect}");
     }
+    let tolerance = "33 CYCL DEF 32.0 TOLERANCE\n34 CYCL DEF 32.1 T0.1\n";
+    let stops = DivergenceKind::Differs(vec![Mismatch::Stops]);
+    assert_eq!(departs(&program, "heidenhain", (tolerance, "")), stops);
+    let reset = "40 CYCL DEF 32.0 TOLERANCE\n41 CYCL DEF 32.1\n";
+    let goes_on = DivergenceKind::Differs(vec![Mismatch::NoStop]);
+    assert_eq!(departs(&program, "heidenhain", (reset, "")), goes_on);
+    for dialect in CHAINING {
+        let faster = departs(&program, dialect, ("F942.", "F943."));
+        assert!(
+            matches!(&faster, DivergenceKind::Differs(what) if matches!(what.as_slice(), [Mismatch::Feed { .. }])),
+            "{dialect} {faster:?}"
+        );
+        let turned = departs(&program, dialect, ("C-90.0000", "C-89.0000"));
+        assert!(
+            matches!(&turned, DivergenceKind::Differs(what) if matches!(what.as_slice(), [Mismatch::Axis { .. }])),
+            "{dialect} {turned:?}"
+        );
+    }
     for dialect in ["linuxcnc", "sinumerik"] {
+        // Higher at its end it is a helix.
+        let helix = departs(&program, dialect, ("Z45.000 I9", "Z45.010 I9"));
+        assert_eq!(helix, DivergenceKind::NotUnderstood, "{dialect}");
         // Another plane has another centre; one that was not said, or a centre across it, is no arc.
         let plane = departs(&program, dialect, ("G2 X", "G18 G2 X"));
         assert_eq!(plane, DivergenceKind::NotUnderstood, "{dialect}");
