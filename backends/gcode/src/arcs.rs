@@ -36,7 +36,7 @@ pub(crate) enum NoArc {
     /// It lies in no plane that the control has.
     Oblique,
     /// Its printed words make another arc, or none.
-    TooSmall,
+    Lost,
 }
 
 /// How far a point may lie out of a plane to be in it, in units of the last decimal: what turning a frame leaves.
@@ -55,9 +55,9 @@ pub(crate) fn written(job: &Job<'_>, line: &LinearSegment) -> Result<Option<Writ
     let lengths = job.settings.common.lengths;
     let [from, via, to] =
         [line.from.tip, via, line.to.tip].map(|point| job.work_in_offset.in_offset(point).to_array());
-    let arc = CircularArc::through([from, via, to]).ok_or(NoArc::TooSmall)?;
+    let arc = CircularArc::through([from, via, to]).ok_or(NoArc::Lost)?;
     let plane = Plane::ALL.into_iter().find(|&plane| is_in(&arc, plane, lengths));
-    let printed = |point: [f64; 3]| as_printed(point, lengths).ok_or(NoArc::TooSmall);
+    let printed = |point: [f64; 3]| as_printed(point, lengths).ok_or(NoArc::Lost);
     let ends = [printed(from)?, printed(to)?];
     let written = match (job.settings.facts().arcs, plane) {
         (Arcs::InPlanes | Arcs::InAnyPlane, Some(plane)) => {
@@ -83,7 +83,7 @@ pub(crate) fn written(job: &Job<'_>, line: &LinearSegment) -> Result<Option<Writ
     };
     match written {
         (Some(is), written) if is_faithful(&is, &arc, lengths) => Ok(Some(written)),
-        (Some(_) | None, _) => Err(NoArc::TooSmall),
+        (Some(_) | None, _) => Err(NoArc::Lost),
     }
 }
 
@@ -100,9 +100,10 @@ fn about(
     } else {
         Sense::Clockwise
     };
-    let flat = |point: [f64; 3]| plane.within(point);
-    let is = CircularArc::about(flat(centre), sense.axis(plane), ends.map(flat));
-    let offset = flat(minus(centre, ends[0]));
+    // The end may be printed beside the plane of the start, by what turning the frame leaves.
+    let in_plane = |point: [f64; 3]| plus(ends[0], plane.within(minus(point, ends[0])));
+    let is = CircularArc::about(in_plane(centre), sense.axis(plane), ends.map(in_plane));
+    let offset = plane.within(minus(centre, ends[0]));
     (
         is,
         WrittenArc::About {
@@ -126,16 +127,13 @@ fn is_faithful(is: &CircularArc, should: &CircularArc, lengths: FixedDecimal) ->
     let within = FAITHFUL_UNITS * lengths.unit();
     let is_near = |is: f64, should: f64| (is - should).abs() <= within;
     let radius = should.radius().to_mm();
-    // The direction of an arc as small as its decimals is a matter of chance.
+    let middle = |arc: &CircularArc| arc.at(0.5 * arc.sweep().to_rad());
+    let ways = middle(is).into_iter().zip(middle(should));
+    // The direction of an arc as small as its decimals is a matter of chance; an end that is printed on the start makes a full
+    // circle; a point of an arc beside one of its ends says little of how far it bends.
     radius > within
         && is_near(is.length().to_mm(), should.length().to_mm())
-        && is.sweep().to_rad() > 0.0
-        && turns_alike(is, should)
-}
-
-/// Whether the way of both arcs is less than a turn apart: an end that is printed on the start makes a full circle.
-fn turns_alike(is: &CircularArc, should: &CircularArc) -> bool {
-    (is.sweep().to_rad() - should.sweep().to_rad()).abs() < core::f64::consts::FRAC_PI_2
+        && ways.into_iter().all(|(is, should)| is_near(is, should))
 }
 
 /// A point as the control reads it; none for what is not a number.

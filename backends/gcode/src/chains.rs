@@ -35,7 +35,7 @@ const OBLIQUE: &str = "arcs out of the planes XY, ZX and YZ of the work offset";
 
 const NOT_HORIZONTAL: &str = "arcs out of the plane XY of the work offset, which `C` needs";
 
-const TOO_SMALL: &str = "arcs as small as the last decimal";
+const LOST: &str = "arcs that the decimals of the program cannot hold";
 
 const STILL: &str = "pieces of a chain that are shorter than the last decimal";
 
@@ -67,7 +67,7 @@ pub(crate) fn piece(
     }
     match arcs::written(job, line) {
         Ok(_) => {}
-        Err(NoArc::TooSmall) => unsupported(TOO_SMALL),
+        Err(NoArc::Lost) => unsupported(LOST),
         Err(NoArc::Oblique) => unsupported(match job.settings.facts().arcs {
             Arcs::AboutPole => NOT_HORIZONTAL,
             Arcs::InPlanes | Arcs::InAnyPlane => OBLIQUE,

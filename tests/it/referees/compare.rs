@@ -81,8 +81,8 @@ pub(super) fn deeds(program: &ReachableProgram) -> Vec<(OpId, Deed)> {
                     Some(arc) => Deed::Round {
                         from,
                         to,
-                        centre: arc.centre(),
-                        axis: arc.axis(),
+                        centre: turned(cell, arc.centre()),
+                        axis: turned(cell, arc.axis()),
                         seconds,
                         end,
                     },
@@ -167,10 +167,17 @@ fn words(cell: &Cell, axes: &AxisValues) -> Position {
     words
 }
 
-/// A tip and the rotary axes as words. Base frames of these machines are not turned.
+/// A direction or a way of the work as the work offset sees it, which is not turned when the work is.
+fn turned(cell: &Cell, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    let base = cell.base.frame.orientation.matrix();
+    base.map(|row| row[0] * x + row[1] * y + row[2] * z)
+}
+
+/// A tip and the rotary axes as words.
 fn pose(cell: &Cell, tip: Point3, axes: &AxisValues) -> Position {
     let [_, _, _, a, b, c] = words(cell, axes);
-    [tip.x, tip.y, tip.z, a, b, c]
+    let [x, y, z] = turned(cell, tip.to_array());
+    [x, y, z, a, b, c]
 }
 
 /// How far a program may be from what it should do, given the decimals that it prints.

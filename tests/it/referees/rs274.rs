@@ -12,8 +12,10 @@ use std::process::{Command, Stdio};
 use vcutc::registry;
 use vcutc_backend_api::backend::{OptionValue, Options};
 use vcutc_backend_api::bundle::Bundle;
+use vcutc_backend_api::geometry::{Orientation, Zyx};
 use vcutc_backend_api::ir::OpId;
-use vcutc_backend_api::units::Length;
+use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::units::{Angle, Length};
 
 /// The configuration of a machine with switchable kinematics: two M codes of its own, as the sample configurations of
 /// LinuxCNC have them (`remap_subs/428remap.ngc`).
@@ -172,7 +174,15 @@ fn chains_are_carried_out() {
     let files = Files::of(root().join("tests/jobs/two_tools"));
     let outcome = compile_on(Some("gantry"), "job.vcut", &files);
     let reached = outcome.compiled.as_ref().unwrap().program.reached().unwrap();
-    let program = chained(reached.program.program().clone(), Length::mm(0.1));
+    let lying = |a: f64, b: f64| {
+        let mut program = reached.program.program().clone();
+        if let Some(cell) = &mut program.cell {
+            let [a, b, c] = [a, b, 0.0].map(Angle::deg);
+            cell.base.frame.orientation = Orientation::from_zyx(Zyx { a, b, c });
+        }
+        chained(program, Length::mm(0.1))
+    };
+    let program = lying(0.0, 0.0);
     let target = registry::backend("gcode").unwrap();
     let mut options = Options::defaults(target.options());
     for (key, code) in [("tcp_on", "M429"), ("tcp_off", "M428")] {
@@ -181,10 +191,10 @@ fn chains_are_carried_out() {
             .set(spec, OptionValue::Lines(vec![code.to_owned()]))
             .unwrap();
     }
-    let mut bundle = Bundle::default();
-    let emission = target.check(&program, &options).unwrap();
-    emission.write(&mut bundle).unwrap();
-    let judged = |from: &str, to: &str| {
+    let judged_as = |program: &ReachableProgram, from: &str, to: &str| {
+        let mut bundle = Bundle::default();
+        let emission = target.check(program, &options).unwrap();
+        emission.write(&mut bundle).unwrap();
         let edited = |(name, text): &(String, Vec<u8>)| {
             let text = str::from_utf8(text).unwrap();
             assert!(text.contains(from), "{from} in {text}");
@@ -192,9 +202,19 @@ fn chains_are_carried_out() {
         };
         let files: Vec<_> = bundle.files().iter().map(edited).collect();
         let within = Tolerance::of_decimals(3, 4, 2.0, BLADE);
-        carry_out(&files).and_then(|canon| compare(&deeds(&program), &canon, within))
+        carry_out(&files).and_then(|canon| compare(&deeds(program), &canon, within))
     };
-    assert_eq!(judged("T2 M6", "T2 M6"), Ok(()));
+    // The same arcs in all three planes, as the work lies on the machine.
+    for (program, block, other) in [
+        (lying(0.0, 0.0), "\nG19 G91.1 G3 X", "\nG19 G91.1 G2 X"),
+        (lying(90.0, 0.0), "\nG18 G91.1 G3 X", "\nG18 G91.1 G2 X"),
+        (lying(-90.0, 0.0), "\nG18 G91.1 G2 X", "\nG18 G91.1 G3 X"),
+        (lying(0.0, 90.0), "\nG91.1 G2 X", "\nG91.1 G3 X"),
+    ] {
+        assert_eq!(judged_as(&program, block, block), Ok(()), "{block}");
+        assert!(judged_as(&program, block, other).is_err(), "{other}");
+    }
+    let judged = |from: &str, to: &str| judged_as(&program, from, to);
     for (from, to) in [
         ("T2 M6", "T1 M6"),
         ("G43 H2", "G43 H1"),

@@ -4,6 +4,9 @@
 //! [F-5AX]. `G53` is rapid and for one block; all axes arrive together if parameter 1401.1 (LRP) is 1, and how fast is set by
 //! the rapid override. A number without a point may be read in thousandths, so every one has a point [F-30].
 //!
+//! Arcs go with `G43.4` too, and the rotary axes of a head turn along with them; those of a table as long as the coordinates are
+//! those of the table [F-TCP]. How far the tip leaves its way under `G64`, no word states, so a chain has one piece.
+//!
 //! The control has no words for digital signals: M codes are the builder's.
 //!
 //! A coordinate without a point may be read in thousandths of a mm, as a parameter says [F-30], so it is refused. One M code is
@@ -136,12 +139,10 @@ impl Controller for Fanuc {
         for code in words.m.iter() {
             m(code, &mut words, &mut order)?;
         }
-        let without = scope.words.iter().find(|word| words.lacks_a_point(word.letter));
-        if let Some(word) = without {
-            return expected(format!(
-                "a number with a point after `{}`",
-                char::from(word.letter)
-            ));
+        let axes = scope.words.iter().map(|word| word.letter);
+        let mut letters = axes.chain(*b"IJK");
+        if let Some(letter) = letters.find(|&letter| words.lacks_a_point(letter)) {
+            return expected(format!("a number with a point after `{}`", char::from(letter)));
         }
         words.finish(scope, &mut order)?;
         Ok(order)

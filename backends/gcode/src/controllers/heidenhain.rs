@@ -10,8 +10,12 @@
 //! Cycle 247 activates a preset where the job gives its number; without one that is the operator's. `~` at the end of its line
 //! says that the block goes on in the next line, which has no number of its own (TNC 640, Cycle Programming).
 //!
-//! `R0` blocks stop at corners; there is no word that allows rounding at one of them and not at the next. M codes for outputs
-//! are the builder's.
+//! `R0` blocks stop at corners, as exactly as the machine's tolerance says. Cycle 32 sets another tolerance, under which a chain goes
+//! on, and without a value the machine's again [H-620]; for single corners in the air it is not written. M codes for outputs are the
+//! builder's.
+//!
+//! `C` goes about the pole of `CC`, in the plane square to the axis of `TOOL CALL` [H-430]; `DR+` is counterclockwise. Every axis that
+//! the block names moves along.
 //!
 //! Every statement begins with a word. Lengths are in mm where `BEGIN PGM` says so, coordinates are absolute without an `I`
 //! before their letter, and blocks with `R0` end at a standstill.
@@ -380,7 +384,7 @@ fn tool_call<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
     Ok(Order::act(Act::CallTool(number)))
 }
 
-/// `CYCL DEF 9.0 DWELL TIME` and `CYCL DEF 9.1 DWELL 0.5`, or `CYCL DEF 247 DATUM SETTING ~`.
+/// `CYCL DEF 9.0 DWELL TIME` and `CYCL DEF 9.1 DWELL 0.5`, `CYCL DEF 32.0 TOLERANCE` and `CYCL DEF 32.1 T0.1`, or `CYCL DEF 247 DATUM SETTING ~`.
 fn cycle<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
     must(cursor, &["DEF"])?;
     let cycle = cursor.token();
@@ -390,23 +394,22 @@ fn cycle<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
         return Ok(Order::modes(vec![Mode::Cycle(Cycle::WorkOffset)]));
     }
     match cycle {
-        Some("32.0") => {
-            must(cursor, &["TOLERANCE"])?;
-            return Ok(Order::modes(vec![Mode::Cycle(Cycle::Tolerance)]));
-        }
-        Some("32.1") => return tolerance(cursor),
-        Some(_) | None => {}
-    }
-    must(cursor, &["DWELL"])?;
-    match cycle {
         Some("9.0") => {
-            must(cursor, &["TIME"])?;
+            must(cursor, &["DWELL", "TIME"])?;
             Ok(Order::modes(vec![Mode::Cycle(Cycle::Dwell)]))
         }
-        Some("9.1") => match cursor.number() {
-            Some(time) => Ok(Order::act(Act::CycleWait(seconds(time)?))),
-            None => expected("a time in seconds"),
-        },
+        Some("9.1") => {
+            must(cursor, &["DWELL"])?;
+            match cursor.number() {
+                Some(time) => Ok(Order::act(Act::CycleWait(seconds(time)?))),
+                None => expected("a time in seconds"),
+            }
+        }
+        Some("32.0") => {
+            must(cursor, &["TOLERANCE"])?;
+            Ok(Order::modes(vec![Mode::Cycle(Cycle::Tolerance)]))
+        }
+        Some("32.1") => tolerance(cursor),
         Some(_) | None => Err(ReadError::Unknown),
     }
 }

@@ -10,6 +10,9 @@
 //! time that F says. `M64` and `M65` wait for the motion before them. `M66` gives up after the time Q, with -1 in `#5399`, and goes
 //! on; so it is in a loop that waits again.
 //!
+//! I, J and K of an arc count from its start under `G91.1`, which a program before may have changed. F is the speed along the arc in
+//! X, Y and Z, and the rotary axes turn in proportion to it [L-GC].
+//!
 //! Checked with the interpreter of LinuxCNC 2.9.
 //!
 //! What switches the kinematics is given by the job ([`codes`](crate::read)), so nothing here says that the tip is

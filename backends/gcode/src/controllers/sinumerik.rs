@@ -10,6 +10,9 @@
 //! `SUPA` suppresses all offsets for one block, and with `D0` the words are positions of the axes. Outputs are written behind
 //! `STOPRE`, so that they switch where they stand and not when the block is read ahead.
 //!
+//! `CIP` leads through the point I1, J1, K1, which is absolute under `G90` as the end is, in any plane [S-JP]. In a plane of two axes
+//! arcs are `G2` and `G3`. With `ORIAXES` the rotary axes turn along with either.
+//!
 //! Besides letters with numbers it has words, values behind `=`, and labels. A word that stands alone and is none of the
 //! control's is the name of a part.
 

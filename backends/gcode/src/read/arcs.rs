@@ -1,6 +1,7 @@
 //! Arcs as a control carries them out.
 
-use crate::controller::{Arcs, Facts};
+use crate::controller::Arcs;
+use crate::options::Settings;
 use crate::statement::{Order, Parsed, Plane, Sense, expected};
 
 /// By how much the ends of an arc may be at other distances from its centre, in mm: less than any control takes, and more than
@@ -24,10 +25,10 @@ pub(super) struct Said {
 pub(super) fn about(
     order: &Order<'_>,
     (sense, said): (Sense, Said),
-    facts: &Facts,
+    settings: &Settings<'_>,
     [from, to]: [[f64; 3]; 2],
 ) -> Parsed<About> {
-    let (plane, centre) = match facts.arcs {
+    let (plane, centre) = match settings.facts().arcs {
         Arcs::AboutPole => match said.pole {
             Some([x, y]) if !order.has_arc() => (Plane::Xy, [x, y, from[2]]),
             Some(_) => return expected("no centre in the block of an arc, for `CC` says it"),
@@ -46,6 +47,11 @@ pub(super) fn about(
     };
     if (radius(from) - radius(to)).abs() > LARGEST_SPIRAL {
         return expected("an arc whose ends are equally far from its centre");
+    }
+    let across = |point: [f64; 3]| point.get(plane.normal()).copied().unwrap_or_default();
+    // A helix; what is printed may differ by a unit.
+    if (across(from) - across(to)).abs() > 1.5 * settings.common.lengths.unit() {
+        return expected(format!("both ends of an arc in one plane of `{}`", plane.word()));
     }
     // Without a way between its ends it is a full circle to the control.
     if plane.within(from) == plane.within(to) {

@@ -357,7 +357,7 @@ impl<'a> Control<'a> {
         };
         let Modes { plane, pole, .. } = self.modes;
         let said = (sense, Said { plane, pole });
-        let About { centre, axis } = arcs::about(order, said, self.facts(), [[x, y, z], to])?;
+        let About { centre, axis } = arcs::about(order, said, self.context.settings, [[x, y, z], to])?;
         // A frame that is only turned turns directions as it turns points.
         Ok(Some(Circle::About {
             centre: in_work(centre),

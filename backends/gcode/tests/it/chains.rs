@@ -239,15 +239,36 @@ fn what_cannot_be_said_is_refused() {
     }
     for dialect in DIALECTS {
         let found = unsupported(with_small_arc(0.005), dialect);
-        assert_eq!(found, ["arcs as small as the last decimal"], "{dialect}");
+        assert_eq!(
+            found,
+            ["arcs that the decimals of the program cannot hold"],
+            "{dialect}"
+        );
         assert_eq!(issues(with_small_arc(5.0), dialect, &[]), [], "{dialect}");
         is_read_back(&on_the_head(with_small_arc(5.0)), dialect, &[]);
+        // Nearly straight, with its centre beyond the largest coordinate.
+        let found = issues(with_arc(150_000.0, 50.0, 25.0), dialect, &[]);
+        let what = found.iter().map(|issue| match issue {
+            BackendIssue::OutOfRange { what, .. } => *what,
+            other => panic!("{dialect}: {other:?}"),
+        });
+        assert_eq!(what.collect::<Vec<_>>(), ["centre of an arc"], "{dialect}");
     }
+    // A point a hundredth from the start: printed, it bends the arc by much, which a centre does not mind.
+    let badly_known = with_arc(200.0, 150.0, 0.01);
+    assert_eq!(issues(badly_known.clone(), "linuxcnc", &[]), []);
+    let found = unsupported(lying(badly_known, [0.0, 30.0, 20.0]), "sinumerik");
+    assert_eq!(found, ["arcs that the decimals of the program cannot hold"]);
 }
 
 /// One more piece behind the chain, an arc of this radius and as long. To the control one of some units of the last decimal may be
 /// a circle or none, whichever its ends are rounded to.
 fn with_small_arc(radius: f64) -> Program {
+    with_arc(radius, radius, 0.5 * radius)
+}
+
+/// One more piece behind the chain: an arc of a radius and length, known by the point so far along it.
+fn with_arc(radius: f64, length: f64, via_at: f64) -> Program {
     let mut program = stopping(chain());
     let is_piece = |op: &Op| matches!(op.action, Action::Follow { .. });
     let last = program.ops.iter().rposition(is_piece).unwrap();
@@ -257,15 +278,15 @@ fn with_small_arc(radius: f64) -> Program {
         let (sin, cos) = libm::sincos(far / radius);
         Point3::new(start.x + radius * (1.0 - cos), start.y + radius * sin, start.z)
     };
-    program.vias.push(at(0.5 * radius));
+    program.vias.push(at(via_at));
     let count = u32::try_from(program.vias.len()).unwrap();
     let held = program.orientation(op.action.orientation().unwrap()).unwrap();
-    program.orientations.push(turned_right(held, 1.0));
+    program.orientations.push(turned_right(held, length / radius));
     if let Action::Follow {
         to, via, orientation, ..
     } = &mut op.action
     {
-        (*to, *via) = (at(radius), NonZeroU32::new(count).map(ViaId));
+        (*to, *via) = (at(length), NonZeroU32::new(count).map(ViaId));
         *orientation = OrientationId(u32::try_from(program.orientations.len() - 1).unwrap());
     }
     program.ops.insert(last + 1, op);
@@ -277,6 +298,102 @@ fn turned_right(held: Orientation, angle: f64) -> Orientation {
     let (sin, cos) = libm::sincos(-0.5 * angle);
     let [w, x, y, z] = product([cos, 0.0, 0.0, sin], held.quaternion());
     Orientation::from_quaternion(w, x, y, z).unwrap()
+}
+
+/// Layout, order and words that stay make no difference.
+#[test]
+fn another_layout_is_the_same_chain() {
+    let program = chain();
+    let stops = stopping(chain());
+    let oblique = turned(0.0, 30.0, 20.0);
+    let arc = "X29.899 Y26.601 Z45.000 I9.986 J0.523 B0.0000 A-30.0000 C-90.0000";
+    for (program, dialect, from, to) in [
+        (
+            &program,
+            "linuxcnc",
+            format!("G91.1 G2 {arc} F942.477796"),
+            "g91.1 (once)\ng17\nj.523 i9.986c-90 g2 x29.899 y26.601 f942.477796 ; to the right",
+        ),
+        (
+            &program,
+            "sinumerik",
+            format!("G2 {arc} F942.477796"),
+            "g17 g2 x=29.899 y=AC(26.601) i=9.986 j.523 c-90 f942.477796 ; to the right",
+        ),
+        (
+            &stops,
+            "fanuc",
+            format!("G2 {} F942.477", arc.replace("0000", "000")),
+            "N7G02X29.899Y26.601I9.986J.523C-90.F942.477",
+        ),
+        (
+            &program,
+            "heidenhain",
+            "36 CC X+30.422 Y+16.615\n37 C X+29.899 Y+26.601 B+0.0000 A-30.0000 C-90.0000 DR- R0 F942.477"
+                .to_owned(),
+            "36 CC Y+16.615 X+30.422 ; pole\n37 c y+26.601 C-90 DR- X29.899 F942.477",
+        ),
+        (
+            &oblique,
+            "sinumerik",
+            "CIP X52.482 Y8.101 Z28.401 I1=45.857 J1=5.349 K1=31.069 B0.0000".to_owned(),
+            "k1=AC(31.069) i1 = 45.857 cip z28.401 y8.101 x=52.482 j1=5.349",
+        ),
+    ] {
+        let program = on_the_head(program.clone());
+        let mut files = written(&program, dialect, &[]);
+        assert!(files[0].text.contains(&from), "{from}\n{}", files[0].text);
+        files[0].text = files[0].text.replacen(&from, to, 1);
+        let read = replayed(&program, &files, &options(&needed(dialect))).0;
+        let ops = program.program().ops.len();
+        assert_eq!(read.map(|places| places.len()), Ok(ops), "{dialect}");
+    }
+}
+
+/// Words of an arc that no program has, or that another control reads otherwise.
+#[test]
+fn words_that_are_no_arc() {
+    let (program, stops) = (chain(), stopping(chain()));
+    let oblique = turned(0.0, 30.0, 20.0);
+    for (program, dialect, from, to) in [
+        (&program, "linuxcnc", " I9.986 J0.523", " R10"),
+        (&program, "linuxcnc", " I9.986 J0.523", ""),
+        (&program, "linuxcnc", " I9.986 J0.523", " I9.986 J0.523 K0.0"),
+        (&program, "linuxcnc", " I9.986 J0.523", " I9.986 J0.523 P2"),
+        (&program, "linuxcnc", "X29.899 Y26.601", "X20.436 Y16.092"),
+        (&program, "linuxcnc", "G64 P0.1 Q0", "G64 P0.1"),
+        (&stops, "fanuc", "I9.986", "I9"),
+        (&program, "sinumerik", " I9.986", " I=AC(9.986)"),
+        (&program, "sinumerik", " I9.986", " I1=9.986"),
+        (&program, "sinumerik", " I9.986 J0.523", " CR=10"),
+        (&program, "sinumerik", " I9.986 J0.523", " I9.986 J0.523 TURN=1"),
+        (&program, "sinumerik", "G641 ADIS=0.1", "G642 ADIS=0.1"),
+        (&oblique, "sinumerik", " J1=5.349", ""),
+        (&oblique, "sinumerik", " J1=5.349", " J2=5.349"),
+        (&oblique, "sinumerik", " J1=5.349", " J1=IC(5.349)"),
+        (&oblique, "sinumerik", " J1=5.349", " J1=5.349 I5"),
+        (&program, "heidenhain", "CC X+30.422 Y+16.615", "CC X+30.422"),
+        (
+            &program,
+            "heidenhain",
+            "CC X+30.422 Y+16.615",
+            "CC X+30.422 Y+16.615 Z+0",
+        ),
+        (&program, "heidenhain", "36 CC X+30.422 Y+16.615\n", ""),
+        (&program, "heidenhain", "DR- ", ""),
+        (&program, "heidenhain", "DR-", "DR"),
+        (&program, "heidenhain", "C X+29.899", "CR X+29.899"),
+        (&program, "heidenhain", "CYCL DEF 32.1 T0.1", "CYCL DEF 32.1 T0"),
+        (
+            &program,
+            "heidenhain",
+            "CYCL DEF 32.1 T0.1",
+            "CYCL DEF 32.1 T0.1\n34 CYCL DEF 32.2 HSC-MODE:1 TA5",
+        ),
+    ] {
+        let what = departs(program, dialect, (from, to));
+        assert_eq!(what, DivergenceKind::NotUnderstood, "{dialect} {from} -> {to}");
+    }
 }
 
 /// Each difference by its name.
@@ -309,7 +426,28 @@ fn edits_of_a_chain_are_named() {
         let goes_on = DivergenceKind::Differs(vec![Mismatch::NoStop]);
         assert_eq!(departs(&program, dialect, (word, "G1")), goes_on, "{dialect}");
     }
+    let tolerance = "33 CYCL DEF 32.0 TOLERANCE\n34 CYCL DEF 32.1 T0.1\n";
+    let stops = DivergenceKind::Differs(vec![Mismatch::Stops]);
+    assert_eq!(departs(&program, "heidenhain", (tolerance, "")), stops);
+    let reset = "40 CYCL DEF 32.0 TOLERANCE\n41 CYCL DEF 32.1\n";
+    let goes_on = DivergenceKind::Differs(vec![Mismatch::NoStop]);
+    assert_eq!(departs(&program, "heidenhain", (reset, "")), goes_on);
+    for dialect in CHAINING {
+        let faster = departs(&program, dialect, ("F942.", "F943."));
+        assert!(
+            matches!(&faster, DivergenceKind::Differs(what) if matches!(what.as_slice(), [Mismatch::Feed { .. }])),
+            "{dialect} {faster:?}"
+        );
+        let turned = departs(&program, dialect, ("C-90.0000", "C-89.0000"));
+        assert!(
+            matches!(&turned, DivergenceKind::Differs(what) if matches!(what.as_slice(), [Mismatch::Axis { .. }])),
+            "{dialect} {turned:?}"
+        );
+    }
     for dialect in ["linuxcnc", "sinumerik"] {
+        // Higher at its end it is a helix.
+        let helix = departs(&program, dialect, ("Z45.000 I9", "Z45.010 I9"));
+        assert_eq!(helix, DivergenceKind::NotUnderstood, "{dialect}");
         // Another plane has another centre; one that was not said, or a centre across it, is no arc.
         let plane = departs(&program, dialect, ("G2 X", "G18 G2 X"));
         assert_eq!(plane, DivergenceKind::NotUnderstood, "{dialect}");
