@@ -1,6 +1,6 @@
 //! `rough vcut { ... }`: V-shaped roughing.
 
-mod limits;
+mod limits_block;
 #[cfg(test)]
 mod tests;
 mod tips;
@@ -33,7 +33,7 @@ const SPEC: BlockSpec = BlockSpec {
         value("overlap", "auto").within(OVERLAP).or_auto(),
         value("objective", "time").takes(Takes::Words(|| words_of(Objective::WORDS))),
         value("model", "exact").takes(Takes::Words(|| words_of(Formulas::WORDS))),
-        block("limits", "{ swing <= 50 deg, scallop <= 10 mm }").takes(Takes::Fields(&limits::LIMITS)),
+        block("limits", "{ swing <= 50 deg, scallop <= 10 mm }").takes(Takes::Fields(&limits_block::LIMITS)),
         value("allowance", "0.5 mm").within(DISTANCE),
         value("residual", "auto")
             .takes(Takes::Words(|| words_of(Residual::WORDS)))
@@ -97,7 +97,7 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
     // Blocks within first: they need the session, of which the reader holds a part.
     let limits = fields
         .block("limits")
-        .and_then(|inner| limits::check(inner, scope, session));
+        .and_then(|inner| limits_block::check(inner, scope, session));
     let setup = setup::check(&fields, written, session);
     let mut reader = Reader::new(scope, &mut session.reports);
     let lattice = reader.auto_choice(&fields, "lattice", Lattice::WORDS);

@@ -10,7 +10,7 @@
 
 pub mod asked;
 #[cfg(test)]
-mod bodies;
+mod body_tests;
 mod check;
 pub mod choice;
 mod lower;
