@@ -318,7 +318,7 @@ fn a_chain_is_timed_as_one_course() {
     for jerk in [None, Some(20_000.0)] {
         let timed = |joints: fn(Joint) -> Joint| {
             let (job, reached) = chain_on("0 deg", joints);
-            let mut model = job.machine.expect("it has a machine").model;
+            let mut model = (*job.machine.expect("it has a machine").model).clone();
             model.path.acceleration = Some(1500.0);
             model.path.jerk = jerk;
             for axis in &mut model.axes {
