@@ -57,7 +57,8 @@
 //! # What is assumed
 //!
 //! - The controller interpolates as said, at a constant rate. It rounds corners and ramps up and down within this line, which
-//!   is slower; accelerations are not looked at.
+//!   is slower; accelerations are not looked at. Where pieces of a chain go on into each other it may leave them by the
+//!   program's blend, which [`mod@joint`] encloses.
 //! - The blade's pose at a place is taken from floating point numbers, which are off by about 1e-15 of their size: over a
 //!   metre of arm by 1e-12 mm, less than the slack above unless the pose is next to singular, and asking for a clearance
 //!   excludes these.
@@ -68,11 +69,13 @@
 mod abreast;
 mod arm;
 mod arm_course;
+mod around;
 mod axes;
 mod bounds;
 mod chain;
 mod course;
 pub mod five_axis;
+mod joint;
 mod march;
 mod refuted;
 mod serial;
@@ -83,6 +86,7 @@ mod wide;
 mod worst;
 
 pub use axes::{AxesBreach, AxesViolation, Block, are_axes_refuted, prove_axes};
+pub use joint::{Through, prove_through};
 pub use refuted::{Refuted, refuted};
 pub use types::{Breach, Clearance, Course, Proof, Singularity, Violation};
 pub use worst::{Look, worst};

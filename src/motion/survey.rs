@@ -8,16 +8,19 @@
 
 use super::demand::Demand;
 use super::moves::numbered;
-use super::path::{Breach, Clearance, Course, Proof, Refuted, Violation, prove, prove_all, refuted};
+use super::path::{
+    Breach, Clearance, Course, Proof, Refuted, Through, Violation, prove, prove_all, prove_through, refuted,
+};
 use super::rig::Rig;
 use super::runs::Station;
 use super::stands::Stands;
 use core::f64::consts::TAU;
 use rayon::prelude::*;
-use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES, OpId, Program, ToolId};
+use vcutc_backend_api::ir::{Action, Axis, AxisKind, Joint, MOST_AXES, OpId, Program, ToolId};
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::segments::{LinearSegment, Path};
 use vcutc_backend_api::state::TipPose;
+use vcutc_backend_api::units::Length;
 use vcutc_cancellation::{Needless, Wanted};
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_machine::kinematics::{Joints, Solutions};
@@ -175,11 +178,44 @@ impl Survey<'_> {
             .collect();
         let courses: Vec<(Course, Joints)> = begun.iter().flatten().copied().collect();
         let mut proofs = prove_all(&self.open, &courses, branch, &self.least).into_iter();
-        let each = paths.iter().zip(&begun).map(|((_, path), begun)| {
+        let each = paths.iter().zip(&begun).map(|((op, path), begun)| {
             path.line()?;
-            Some(begun.and_then(|_| proofs.next()).unwrap_or(Err(NOWHERE)))
+            let Some((course, _)) = begun else {
+                return Some(Err(NOWHERE));
+            };
+            let proof = proofs.next().unwrap_or(Err(NOWHERE));
+            Some(proof.and_then(|proof| self.through(*op, course, branch, proof)))
         });
         each.collect()
+    }
+
+    /// The proof of a course with what the axes do at its end, where it goes on into another one without a stop.
+    fn through(&self, op: OpId, before: &Course, branch: Branch, proof: Proof) -> Result<Proof, Breach> {
+        let Some(after) = self.goes_on(op) else {
+            return Ok(proof);
+        };
+        let through = Through {
+            before,
+            after: &after,
+            blend: self.program.blend.to_mm(),
+        };
+        prove_through(&self.open, &through, branch, &proof, &self.least)
+    }
+
+    /// The course into which an op goes on, where the controller may round what is between them.
+    fn goes_on(&self, op: OpId) -> Option<Course> {
+        let Action::Follow {
+            joint: Joint::Through,
+            ..
+        } = self.program.op(op)?.action
+        else {
+            return None;
+        };
+        if self.program.blend <= Length::ZERO {
+            return None;
+        }
+        let next = self.paths.get(op.0 as usize + 1)?.line()?;
+        Course::of(self.program, next)
     }
 
     /// The course of a line, and the axes at its beginning.

@@ -8,8 +8,10 @@ use vcutc::job::CheckedJob;
 use vcutc::motion::pace::paced;
 use vcutc::motion::rigs::Rigs;
 use vcutc::motion::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
+use vcutc::motion::trajectory::{Spacing, trajectory};
 use vcutc::motion::verdict::explain;
 use vcutc::simulation::timing::op_times;
+use vcutc::vcut::PlannedVcut;
 use vcutc_backend_api::ir::{Action, AxisKind, Joint};
 use vcutc_backend_api::testkit::chained;
 use vcutc_backend_api::units::{Angle, Length};
@@ -318,7 +320,7 @@ fn a_chain_is_timed_as_one_course() {
     for jerk in [None, Some(20_000.0)] {
         let timed = |joints: fn(Joint) -> Joint| {
             let (job, reached) = chain_on("0 deg", joints);
-            let mut model = job.machine.expect("it has a machine").model;
+            let mut model = (*job.machine.expect("it has a machine").model).clone();
             model.path.acceleration = Some(1500.0);
             model.path.jerk = jerk;
             for axis in &mut model.axes {

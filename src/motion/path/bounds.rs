@@ -83,8 +83,13 @@ impl Bounds<'_> {
     pub(super) fn hold(&self, found: &Stretch) -> Result<(), Violation> {
         self.keep_clear(&found.clearance)?;
         self.hold_values(&found.value)?;
+        self.hold_rates(&found.rate)
+    }
+
+    /// Whether the axes are slow enough at rates a course; if not, which is not.
+    pub(super) fn hold_rates(&self, rates: &[Interval; MOST_AXES]) -> Result<(), Violation> {
         for (i, axis) in self.axes.iter().enumerate().take(MOST_AXES) {
-            let rate = found.rate[i].magnitude() / self.duration;
+            let rate = rates[i].magnitude() / self.duration;
             // What is not a number is not slow enough.
             let is_slow_enough = rate <= axis.rate.map_or(f64::MAX, |most| most * (1.0 + RATE_SLACK));
             if !is_slow_enough {
@@ -94,7 +99,7 @@ impl Bounds<'_> {
         Ok(())
     }
 
-    fn keep_clear(&self, clearance: &Clearance) -> Result<(), Violation> {
+    pub(super) fn keep_clear(&self, clearance: &Clearance) -> Result<(), Violation> {
         let least = &self.least;
         let broken = if clearance.shoulder < least.shoulder - SLACK {
             Singularity::Shoulder(clearance.shoulder)

@@ -135,6 +135,17 @@ impl Flight {
         self.arc.map_or(self.way, |arc| arc.velocity(s))
     }
 
+    /// How far the tip goes, in mm.
+    pub(super) fn length(&self) -> f64 {
+        self.arc
+            .map_or(self.way.length(), |arc| arc.first.length() * arc.sweep)
+    }
+
+    /// How much the direction of the way turns, in rad a course.
+    pub(super) fn bends(&self) -> f64 {
+        self.arc.map_or(0.0, |arc| arc.sweep)
+    }
+
     /// How fast the flange turns, as a vector in rad a course.
     pub(super) fn spin(&self) -> DVec3 {
         self.axis * self.angle

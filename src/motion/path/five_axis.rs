@@ -31,6 +31,8 @@
 //! between two places that were looked at is thus never missed; a motion that keeps less than about [`FINEST`] from a limit
 //! may be refused, when its bounds do not become fine enough.
 
+pub(super) mod joint;
+
 use super::types::{Breach, Clearance, Course, Proof, Violation};
 use crate::rig::Rig;
 use glam::DVec3;

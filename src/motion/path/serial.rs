@@ -38,14 +38,14 @@ use vcutc_machine::kinematics::serial::SerialArm;
 use vcutc_machine::kinematics::{Joints, newton};
 
 /// How far found axis values may be from the true ones, in rad.
-const UNCERTAIN: f64 = 1e-8;
+pub(super) const UNCERTAIN: f64 = 1e-8;
 /// Most that `N` may have as a row sum: beyond it bounds are of little use.
 const LARGEST_DEFECT: f64 = 0.6;
 
-type Box6 = [Interval; MOST_AXES];
-type Vector = [Interval; 3];
+pub(super) type Box6 = [Interval; MOST_AXES];
+pub(super) type Vector = [Interval; 3];
 type Matrix = [Vector; 3];
-type Square = [[f64; MOST_AXES]; MOST_AXES];
+pub(super) type Square = [[f64; MOST_AXES]; MOST_AXES];
 /// A column of numbers: a twist, or rates of the axes.
 type Column = [f64; MOST_AXES];
 
@@ -242,14 +242,14 @@ impl Contraction<'_> {
 }
 
 /// The lines of an arm's joints where boxes of joint values bring them, and the tip.
-struct Lines {
-    points: [Vector; MOST_AXES],
-    directions: [Vector; MOST_AXES],
-    tip: Vector,
+pub(super) struct Lines {
+    pub(super) points: [Vector; MOST_AXES],
+    pub(super) directions: [Vector; MOST_AXES],
+    pub(super) tip: Vector,
 }
 
 impl Lines {
-    fn of(arm: &SerialArm, joints: &Box6, tip_in_flange: DVec3) -> Self {
+    pub(super) fn of(arm: &SerialArm, joints: &Box6, tip_in_flange: DVec3) -> Self {
         let turns = arm.turns_of(*joints, |third, second| third - second);
         let mut rotation =
             [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|row| row.map(Interval::exactly));
@@ -322,7 +322,7 @@ impl Lines {
 }
 
 /// The inverse of the Jacobian at axis values, as far as floating point gives it.
-fn inverse_at(arm: &SerialArm, joints: &Joints, tip_in_flange: DVec3) -> Option<Square> {
+pub(super) fn inverse_at(arm: &SerialArm, joints: &Joints, tip_in_flange: DVec3) -> Option<Square> {
     let inverse = arm.jacobian(joints, tip_in_flange).inverse()?;
     let is_moderate = inverse.iter().flatten().all(|entry| entry.abs() < 1e9);
     is_moderate.then_some(inverse)

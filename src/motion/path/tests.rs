@@ -2,6 +2,7 @@
 
 mod abreast;
 mod axes;
+mod joint;
 mod sampling;
 mod serial;
 mod windows;

@@ -1,6 +1,7 @@
 //! Tests of the five-axis path check against dense sampling, with linear axes found by solving for the tip.
 
 use super::*;
+use crate::path::{Through, prove_through};
 use glam::{DMat3, DQuat};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
@@ -255,6 +256,70 @@ proptest! {
         prop_assert!(there > high - 2e-4, "{} {place}", breach.at);
         axes[axis].max = high + 1e-4;
         prop_assert!(prove(&machine, &rig(&mechanism, &axes), &course, branch, &start).is_ok());
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn no_way_through_a_joint_leaves_the_bounds(
+        arrangement in 0..4_usize, at in joints(), away in prop::array::uniform2(joints()), round in arcs(), blend in 0.05..3.0_f64,
+        ways in prop::collection::vec(prop::array::uniform12(0.0..1.0_f64), 60),
+    ) {
+        let machine = machine(arrangement);
+        let (mechanism, axes) = (Mechanism::FiveAxis(machine), axes(1e5));
+        let rig = rig(&mechanism, &axes);
+        let branch = Branch::Numbered(0);
+        let on_branch = |joints: &Joints| {
+            machine.on_branch(&rig.flange_in_root(&rig.blade_in_work(joints)), branch, joints).unwrap()
+        };
+        let at = on_branch(&at);
+        // The arc is that of the second piece, which begins at the joint.
+        let near = |joints: &Joints| on_branch(&core::array::from_fn(|axis| at[axis] + 0.3 * (joints[axis] - at[axis])));
+        let start = near(&away[0]);
+        let before = course(&rig, &start, &at);
+        let after = drawn(course(&rig, &at, &near(&away[1])), round);
+        let end = machine.on_branch(&rig.flange_in_root(&after.to), branch, &at).unwrap();
+        let standing = Proof {
+            start, end: at, low: at, high: at, rate: [0.0; 6], clearance: Clearance::UNLIMITED, solves: 0,
+        };
+        let through = Through { before: &before, after: &after, blend };
+        let proof = prove_through(&rig, &through, branch, &standing, &Clearance::UNLIMITED).unwrap();
+        let length = |course: &Course| course.arc.map_or_else(
+            || course.from.position.distance(course.to.position),
+            |arc| arc.length().to_mm(),
+        );
+        let shares = [&before, &after].map(|course| (blend / length(course)).min(1.0));
+        let velocity = |course: &Course, s: f64| (tip_at(course, s + 1e-6) - tip_at(course, s)) / (1e-6 * 1.5);
+        let mut most = (0.0_f64, 0.0_f64);
+        for way in &ways {
+            let places = [1.0 - shares[0] * way[0], shares[1] * way[1]];
+            let on_piece = if way[2] < 0.5 { tip_at(&before, places[0]) } else { tip_at(&after, places[1]) };
+            let off = DVec3::new(way[3] - 0.5, way[4] - 0.5, way[5] - 0.5).normalize_or(DVec3::X) * (blend * way[6]);
+            // Each rotary axis somewhere between the values of both pieces in the zone.
+            let rotary = [3, 4, 5].map(|axis| {
+                let ends = [at[axis] + (start[axis] - at[axis]) * shares[0], at[axis], at[axis] + (end[axis] - at[axis]) * shares[1]];
+                let low = ends.iter().copied().fold(f64::INFINITY, f64::min);
+                let high = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                low + (high - low) * way[4 + axis]
+            });
+            let xyz = solved(&rig, rotary, on_piece + off);
+            let moving = (velocity(&before, places[0]) * way[10] + velocity(&after, places[1]) * (1.0 - way[10])) * way[11];
+            let rates = [3, 4, 5].map(|axis| {
+                (way[3] * (at[axis] - start[axis]) + (1.0 - way[3]) * (end[axis] - at[axis])) / 1.5
+            });
+            let step = 1e-5;
+            let next = solved(&rig, core::array::from_fn(|i| rotary[i] + step * rates[i]), on_piece + off + moving * step);
+            for axis in 0..3 {
+                prop_assert!(proof.low[axis] <= xyz[axis] && xyz[axis] <= proof.high[axis], "{axis}");
+                let rate = (next[axis] - xyz[axis]).abs() / step;
+                prop_assert!(rate <= proof.rate[axis] + 0.05, "{axis}: {rate} {}", proof.rate[axis]);
+                most = (most.0.max((xyz[axis] - at[axis]).abs()), most.1.max(rate));
+            }
+        }
+        let wide = (0..3).map(|axis| proof.high[axis] - proof.low[axis]).fold(0.0, f64::max);
+        prop_assert!(wide <= 24.0 * most.0 + 1e-6, "{wide} {}", most.0);
     }
 }
 
