@@ -87,7 +87,13 @@ mod tests {
 
     #[test]
     fn an_arc_whose_point_is_too_near_its_end_is_not_the_same_in_print() {
-        let on = |angle: f64| [100.0 * libm::cos(angle), 100.0 * libm::sin(angle), 0.0];
+        let on = |angle: f64| {
+            [
+                100.0 * libm::cos(0.7 + angle),
+                100.0 * libm::sin(0.7 + angle),
+                0.0,
+            ]
+        };
         assert_eq!(found([0.0, 0.8, 1.6].map(on)), Ok(()));
         assert_eq!(found([0.0, 0.02, 0.04].map(on)), Ok(()));
         let near = found([0.0, 0.000_05, 1.6].map(on)).unwrap_err();
