@@ -152,6 +152,15 @@ impl CircularArc {
         self.radius() * self.sweep
     }
 
+    /// How much of its way is done at a point on it, from 0 where it begins to 1 where it ends.
+    #[must_use]
+    pub fn done_at(&self, point: [f64; 3]) -> f64 {
+        let out = minus(point, self.centre);
+        let angle = libm::atan2(dot(out, self.second), dot(out, self.first));
+        let angle = if angle < 0.0 { angle + TAU } else { angle };
+        angle / self.sweep
+    }
+
     /// Points along it, its end among them.
     pub fn points(&self, count: u32) -> impl Iterator<Item = [f64; 3]> {
         (1..=count).map(move |i| self.at(self.sweep * f64::from(i) / f64::from(count)))
@@ -235,6 +244,7 @@ mod tests {
             prop_assert!(distance(arc.at(arc.sweep), c) < 1e-5);
             let same = CircularArc::about(arc.centre(), arc.axis(), [a, c]).unwrap();
             prop_assert!(distance(same.at(0.4 * arc.sweep), arc.at(0.4 * arc.sweep)) < 1e-4);
+            prop_assert!(distance(arc.at(arc.done_at(b) * arc.sweep), b) < 1e-5);
             let steps = 4000;
             let near_b = arc.points(steps).map(|point| distance(point, b)).fold(f64::INFINITY, f64::min);
             prop_assert!(near_b <= 1e-5 + radius * TAU / f64::from(steps), "{near_b}");

@@ -78,6 +78,9 @@ impl Findings {
             if let Some(to) = action.tip() {
                 self.point(Some(id), ["X", "Y", "Z"], to, limits.farthest_mm);
             }
+            if let Some(via) = action.via().and_then(|via| tables.via(via)) {
+                self.point(Some(id), ["X", "Y", "Z"], via, limits.farthest_mm);
+            }
             if let Some(feed) = action.feed().and_then(|feed| tables.feed(feed)) {
                 let (value, unit) = limits.speed_unit.of(feed);
                 let what = "tip speed";

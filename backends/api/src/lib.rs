@@ -46,6 +46,7 @@ pub mod arm;
 pub mod backend;
 pub mod builder;
 pub mod bundle;
+pub mod chains;
 pub mod confdata;
 pub mod corners;
 pub mod exchange;

@@ -60,6 +60,13 @@ impl FixedDecimal {
         (value * scale + NOISE).floor() / scale
     }
 
+    /// The value as it is printed, but for ties.
+    #[must_use]
+    pub fn rounded(self, value: f64) -> f64 {
+        let scale = f64::from(self.scale);
+        (value * scale).round() / scale
+    }
+
     /// How many decimals.
     #[must_use]
     pub const fn decimals(self) -> u8 {

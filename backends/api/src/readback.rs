@@ -298,7 +298,8 @@ pub enum Pace {
         /// Of the blade.
         turn: Option<AngularSpeed>,
     },
-    /// Speed of the tip and rates of swivel and twist ([`crate::swivel`]), whichever takes longest. They are rounded down.
+    /// Speed of the tip and rates of swivel and twist ([`crate::swivel`]), whichever takes longest. They are rounded down. On an arc the
+    /// speed of the tip alone has to be slow enough: a controller that turns the blade with its way may not limit that turn.
     Apart {
         /// Of the tip.
         tip: Option<Speed>,

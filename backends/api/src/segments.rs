@@ -221,6 +221,15 @@ impl LinearSegment {
         CircularArc::through([self.from.tip, via, self.to.tip].map(Point3::to_array))
     }
 
+    /// The point of the arc in the middle of a stretch of it, from what is done where the stretch begins to what is done where it
+    /// ends; none on a straight line.
+    #[must_use]
+    pub fn via_between(&self, [from, to]: [f64; 2]) -> Option<Point3> {
+        let arc = self.arc()?;
+        let middle = 0.5 * (from + to);
+        Some(Point3::from(arc.at(arc.sweep().to_rad() * middle)))
+    }
+
     /// Whether the blade is held otherwise at its end.
     #[must_use]
     pub fn turns(&self) -> bool {

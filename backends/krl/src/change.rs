@@ -25,7 +25,7 @@ impl KrlDialect<'_, '_, '_> {
         }
         // The routine, or whoever moved the robot meanwhile, may leave other frames, modes and speeds.
         self.motion_setup(change.id)?;
-        self.rates = None;
+        self.said.rates = None;
         let later = change.op.0 as usize..self.source.program().ops.len();
         let turning = later.into_iter().find_map(|index| self.turns.at(index));
         self.turn_rates(turning)

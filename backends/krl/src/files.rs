@@ -1,7 +1,7 @@
 //! Modules: the `.src` and `.dat` around the ops of a part, or around the calls of parts.
 
 use crate::attitude::push_angles;
-use crate::dialect::KrlDialect;
+use crate::dialect::{Arcs, KrlDialect};
 use crate::keywords::{CHANGE, HOME, part_name};
 use crate::options::PartNames;
 use vcutc_backend_api::backend::EmitError;
@@ -10,6 +10,7 @@ use vcutc_backend_api::ir::{Action, AxisValues, Changer, Load, PlacedFrame, Regi
 use vcutc_backend_api::number::NotFinite;
 use vcutc_backend_api::script::{File, Files, Part, Written};
 use vcutc_backend_api::state::Place;
+use vcutc_backend_api::units::Length;
 
 const NO_HOME: EmitError = EmitError::Internal("the machine has no home angles");
 const NO_CHANGE: EmitError = EmitError::Internal("the machine has no place for changes");
@@ -95,9 +96,14 @@ impl KrlDialect<'_, '_, '_> {
         self.load_of(tool)?;
         self.text.line("$IPO_MODE=#BASE")?;
         self.text.line("$ORI_TYPE=#VAR")?;
+        match self.arcs {
+            Arcs::Some => self.text.line("$CIRC_TYPE=#PATH")?,
+            Arcs::None => {}
+        }
         self.text.line("$ADVANCE=3")?;
-        if let Some(distance) = settings.common.approximation {
-            self.assign(b"$APO.CDIS=", distance.to_mm())?;
+        self.said.rounding = settings.common.approximation.map(Length::to_mm);
+        if let Some(distance) = self.said.rounding {
+            self.assign(b"$APO.CDIS=", distance)?;
         }
         self.text
             .line(&format!("BAS (#VEL_PTP,{} )", settings.home_speed))?;

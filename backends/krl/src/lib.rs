@@ -23,6 +23,7 @@
 //! | `Home` | `PTP XVC_HOME`, the angles being in the `.dat` |
 //! | `AxisTravel` | `PTP {X ..,Y ..,Z ..,A ..,B ..,C ..,S n,T n}` |
 //! | `Travel`, `Approach`, `Retract`, `Cut` | `LIN {X ..,Y ..,Z ..,A ..,B ..,C ..}` |
+//! | `Follow` | `LIN {..}` or `CIRC {..},{..}`, with `C_DIS` where the chain goes on |
 //! | `Turn` | the same with the X, Y, Z of the move before |
 //! | `Ultrasonic` | `$OUT[n]=TRUE`, `$OUT[n]=FALSE` |
 //! | `AwaitReady` | `WAIT FOR $IN[n]` or `WAIT SEC t` |
@@ -32,6 +33,17 @@
 //!
 //! `$VEL.CP` and the rates of swivel and twist, `$VEL.ORI1` and `$VEL.ORI2`, are written where they change. With the option `motion = spline` the words
 //! are `SPTP`, `SLIN` and `C_SPL`; the two planners are never mixed in one program.
+//!
+//! # Chains
+//!
+//! A blade that follows an arc stands in the plane of its way from end to end. `$CIRC_TYPE=#PATH` says just that: the controller
+//! leads the orientation relative to the way, and relative to it nothing changes but the rake. With `#BASE` it would swivel the
+//! tool's direction along a great circle and twist about it at the same time, as in a `LIN`, which for a leaning blade is another
+//! turn than that about the axis of the arc. As nothing says whether `$VEL.ORI1` limits a turn that belongs to the way, `$VEL.CP`
+//! is so low on arcs that it takes its time without.
+//!
+//! Where a chain goes on, `C_DIS` with the blend as `$APO.CDIS` lets the robot leave the one piece before its end and join the next
+//! as far after its beginning. Between them the tip stays as near to both.
 //!
 //! # Long programs
 //!
@@ -76,13 +88,14 @@ pub mod syntax;
 mod turns;
 
 use crate::attitude::Attitudes;
-use crate::dialect::KrlDialect;
+use crate::dialect::{Arcs, KrlDialect, Said};
 use crate::keywords::{MOST_PARTS, main_name};
 use crate::options::{OPTIONS, Settings};
 use crate::read::KrlReader;
 use crate::turns::Turns;
 use vcutc_backend_api::arm::foreign;
 use vcutc_backend_api::backend::{Backend, BackendIssue, Emission, MachineMismatch, OptionSpec, Options};
+use vcutc_backend_api::chains::has_arcs;
 use vcutc_backend_api::ir::{MachineKind, Maker, Program};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::Reader;
@@ -90,7 +103,7 @@ use vcutc_backend_api::script::{Borders, CAPABILITIES, Layout, Source, Text, emi
 use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// Lines end as those that the controller's own editor writes (it runs on Windows). With `;FOLD` and indentation a line stays
-/// below 132 characters, which every release reads. Behind a `;` the pendant reads `;%` as the start of its own marks.
+/// below 132 characters, which every release reads; only `SCIRC` is longer, and its releases write longer lines themselves. Behind a `;` the pendant reads `;%` as the start of its own marks.
 const LAYOUT: Layout = Layout {
     line_end: b"\r\n",
     longest_comment: 110,
@@ -111,7 +124,7 @@ impl Backend for Krl {
     }
 
     fn capabilities(&self) -> Capabilities {
-        CAPABILITIES.with(Capability::ToolChange)
+        CAPABILITIES.with(Capability::ToolChange).with(Capability::Chain)
     }
 
     fn options(&self) -> &'static [OptionSpec] {
@@ -159,8 +172,13 @@ impl Backend for Krl {
                 settings: &settings,
                 attitudes: &Attitudes::new(orientations, settings.angles)?,
                 turns: &turns,
+                arcs: if has_arcs(source.program()) {
+                    Arcs::Some
+                } else {
+                    Arcs::None
+                },
                 text: &mut Text::new(sink, LAYOUT),
-                rates: None,
+                said: Said::default(),
             };
             write(&mut krl, source, &settings.common, &main, parts)
         })

@@ -9,6 +9,7 @@ use crate::configuration::status;
 use crate::options::Settings;
 use vcutc_backend_api::arm::{ArmLimits, SpeedUnit, foreign_arm};
 use vcutc_backend_api::backend::BackendIssue;
+use vcutc_backend_api::chains::{first_joint, has_arcs};
 use vcutc_backend_api::findings::{Findings, Number, driven_cell};
 use vcutc_backend_api::ir::{Action, AxisValues, Cell, Maker, OpId, PlacedFrame, Ready, Registered, Tool};
 use vcutc_backend_api::motion::ReachableProgram;
@@ -71,7 +72,33 @@ pub(crate) fn check<'p>(
         }
     });
     restarts(program, parts, &mut found);
+    chains(program, settings, &mut found);
     found.result().map(|()| cell)
+}
+
+/// Joints need something to round, and arcs their shape.
+fn chains(program: &ReachableProgram, settings: &Settings<'_>, found: &mut Findings) {
+    let program = program.program();
+    if let Some(joint) = first_joint(program) {
+        found.blend(program, joint);
+    }
+    if !has_arcs(program) {
+        return;
+    }
+    for segment in program.segments() {
+        let Some((line, via)) = segment.line().and_then(|line| line.via.map(|via| (line, via))) else {
+            continue;
+        };
+        let points = [line.from.tip, via, line.to.tip];
+        found.printed_arc(segment.id, points, settings.common.lengths);
+        // As it is written: so that the blade has the time to turn.
+        let number = Number {
+            what: "tip speed on an arc",
+            value: (line.length() / line.duration()).to_m_per_s(),
+            unit: "m/s",
+        };
+        found.range(Some(segment.id), &number, LIMITS.tip_speed);
+    }
 }
 
 fn machine(cell: &Cell, found: &mut Findings) {

@@ -69,6 +69,14 @@ impl Planner {
         }
     }
 
+    /// The word of a move on an arc, with the start of its auxiliary point.
+    pub(crate) const fn round(self) -> &'static [u8] {
+        match self {
+            Self::Classic => b"CIRC {X ",
+            Self::Spline => b"SCIRC {X ",
+        }
+    }
+
     /// The word behind a move that may be rounded.
     pub(crate) const fn approximate(self) -> &'static [u8] {
         match self {

@@ -3,7 +3,7 @@
 //! Most turns of a program are the same turn forward and back, so that the two rates are written once or a few times.
 
 use std::collections::BTreeMap;
-use vcutc_backend_api::ir::{OrientationId, Program, RateId};
+use vcutc_backend_api::ir::{Action, Joint, OrientationId, Program, RateId};
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::script::Lead;
 use vcutc_backend_api::swivel::Apart;
@@ -22,6 +22,8 @@ pub(crate) type Rates = Apart<f64>;
 pub(crate) struct Turns {
     /// For each op that turns the blade.
     of: Vec<Option<Rates>>,
+    /// For each op how many lines its chain takes besides the op's own: of speeds and rounding, there and back.
+    of_chains: Vec<u8>,
     /// For each op whether they are others than those of the turn before. The first ones stand at the head of the part.
     changes: Vec<bool>,
 }
@@ -32,6 +34,7 @@ impl Turns {
         let mut last = None;
         let mut turns = Self {
             of: Vec::with_capacity(program.ops.len()),
+            of_chains: program.ops.iter().map(|op| lines_of_chain(&op.action)).collect(),
             changes: Vec::with_capacity(program.ops.len()),
         };
         let mut held = None;
@@ -62,8 +65,22 @@ impl Turns {
     /// How many lines stand before the op at a place. A part says its first rates whatever was said before it.
     pub(crate) fn lines(&self, index: usize, lead: Lead) -> u64 {
         let changes = self.changes.get(index).copied().unwrap_or(false);
-        lead.lines(0) + if changes || lead.rate.is_some() { LINES } else { 0 }
+        let of_chain = self.of_chains.get(index).copied().unwrap_or(0);
+        lead.lines(0) + u64::from(of_chain) + if changes || lead.rate.is_some() { LINES } else { 0 }
     }
+}
+
+/// At most: the speed on an arc and after it, the distance of a joint and of corners in the air after it.
+const fn lines_of_chain(action: &Action) -> u8 {
+    let on_arc = if action.via().is_some() { 2 } else { 0 };
+    let at_joint = match action {
+        Action::Follow {
+            joint: Joint::Through,
+            ..
+        } => 2,
+        _ => 0,
+    };
+    on_arc + at_joint
 }
 
 fn rates(program: &Program, (from, to): (OrientationId, OrientationId), rate: RateId) -> Option<Rates> {

@@ -1,14 +1,15 @@
 //! How a program is put in RAPID.
 
-use crate::keywords::{AXES_SPEED, CHANGE, HOME, SPEED, ZONE};
+use crate::keywords::{AXES_SPEED, BLEND, CHANGE, HOME, SPEED, ZONE};
 use crate::options::Settings;
 use crate::orient::Quaternion;
 use crate::speeds::Speeds;
 use core::num::NonZeroU32;
 use vcutc_backend_api::backend::EmitError;
+use vcutc_backend_api::chains::has_arcs;
 use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{AxisValues, Cell, OpId, OrientationId, RateId, Switch, ToolId};
+use vcutc_backend_api::ir::{Action, AxisValues, Cell, OpId, OrientationId, RateId, Switch, ToolId};
 use vcutc_backend_api::motion::Waypoint;
 use vcutc_backend_api::readback::End;
 use vcutc_backend_api::script::{
@@ -40,6 +41,13 @@ impl AxisTarget {
     }
 }
 
+/// Whether a program follows arcs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Arcs {
+    None,
+    Some,
+}
+
 /// RAPID, as far as a program is written.
 pub(crate) struct RapidDialect<'a, 't, 's> {
     /// What it is written from.
@@ -56,6 +64,8 @@ pub(crate) struct RapidDialect<'a, 't, 's> {
     pub(crate) text: &'t mut Text<'s>,
     /// The files of modules so far.
     pub(crate) modules: Vec<String>,
+    /// Whether the program follows arcs.
+    pub(crate) arcs: Arcs,
     /// The quaternion written last, whose sign the next one follows.
     turned: Option<Quaternion>,
     /// Those that are not passed yet.
@@ -75,6 +85,7 @@ impl<'a, 't, 's> RapidDialect<'a, 't, 's> {
             frames: frames(source, settings, ToolId::FIRST),
             text,
             modules: Vec::new(),
+            arcs: if has_arcs(program) { Arcs::Some } else { Arcs::None },
             turned: None,
             waypoints: &[],
         }
@@ -153,23 +164,36 @@ impl Dialect for RapidDialect<'_, '_, '_> {
         Ok(self.text.line(&self.frames)?)
     }
 
-    /// Past the waypoints of an op to where it ends. The robot stops at waypoints.
+    /// Past the waypoints of an op to where it ends. The robot stops at waypoints, but for those of chains.
     fn linear_move(&mut self, motion: &LinearMove<'_>) -> Written {
         let speed = self.speeds.number(motion.action);
         let speed = speed.ok_or(EmitError::Internal("a move has no speed"))?;
+        let passes = match motion.action {
+            Action::Follow { .. } => End::Through {
+                within: self.source.program().blend,
+            },
+            _ => End::Exact,
+        };
+        let mut done = 0.0;
         while let [waypoint, rest @ ..] = self.waypoints
             && waypoint.op == motion.op
         {
             let quaternion = Quaternion::rounded(waypoint.frame.orientation);
-            self.begin(b"MoveL ");
+            let via = motion.line.via_between([done, waypoint.done]);
+            self.begin_move(motion, via, waypoint.axes)?;
             self.target(motion.op, waypoint.frame.origin, quaternion, waypoint.axes)?;
-            self.motion_end(speed, End::Exact)?;
-            self.waypoints = rest;
+            self.motion_end(speed, passes)?;
+            (done, self.waypoints) = (waypoint.done, rest);
         }
         let TipPose { tip, orientation } = motion.line.to;
         let quaternion = self.quaternion(orientation)?;
         let axes = self.source.axes_after(motion.op)?;
-        self.begin(b"MoveL ");
+        let via = if done > 0.0 {
+            motion.line.via_between([done, 1.0])
+        } else {
+            motion.line.via
+        };
+        self.begin_move(motion, via, axes)?;
         self.target(motion.op, tip, quaternion, axes)?;
         self.motion_end(speed, motion.end)
     }
@@ -211,6 +235,23 @@ impl RapidDialect<'_, '_, '_> {
         self.text.put(start);
     }
 
+    /// Starts a move along a line, or along an arc with a point of it. That point has the confdata of where the move ends, as only its
+    /// place counts; it stands in a line of its own, because two targets in one are too long to be read.
+    fn begin_move(&mut self, motion: &LinearMove<'_>, via: Option<Point3>, axes: AxisValues) -> Written {
+        let (Some(via), Some(arc)) = (via, motion.line.arc()) else {
+            self.begin(b"MoveL ");
+            return Ok(());
+        };
+        let done = arc.done_at(via.to_array());
+        let held = motion.line.frame_at(self.source.program(), done);
+        let held = held.ok_or(EmitError::Internal("an arc has no orientations"))?;
+        self.begin(b"MoveC ");
+        self.target(motion.op, via, Quaternion::rounded(held.orientation), axes)?;
+        self.text.line(",")?;
+        self.begin(b"  ");
+        Ok(())
+    }
+
     fn motion_end(&mut self, speed: u32, end: End) -> Written {
         self.text.put(b",");
         self.text.put(SPEED.as_bytes());
@@ -219,7 +260,7 @@ impl RapidDialect<'_, '_, '_> {
         self.text.put(match end {
             End::Exact => b"fine",
             End::Rounded => ZONE.as_bytes(),
-            End::Through { .. } => return Err(EmitError::Internal("a chain was not refused")),
+            End::Through { .. } => BLEND.as_bytes(),
         });
         Ok(self.text.line(&self.frames)?)
     }

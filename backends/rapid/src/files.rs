@@ -1,7 +1,10 @@
 //! Modules: the main one with the data and the entry of the task, those of the parts that it calls, and the list of them.
 
-use crate::dialect::{NO_EXTERNAL_AXES, RapidDialect};
-use crate::keywords::{AXES_SPEED, CHANGE, FEED, HOME, MAIN, RATE, SPEED, ZONE, part_module, part_routine};
+use crate::dialect::{Arcs, NO_EXTERNAL_AXES, RapidDialect};
+use crate::keywords::{
+    AXES_SPEED, BLEND, CHANGE, FEED, HOME, MAIN, RATE, SPEED, ZONE, part_module, part_routine,
+};
+use crate::limits::first_passed;
 use crate::options::zone_members;
 use crate::orient::Quaternion;
 use crate::speeds::{EXTERNAL, RATE_OF_NOTHING, named};
@@ -13,6 +16,9 @@ use vcutc_backend_api::units::Length;
 
 /// The modes that moves depend on. A task that is started anew has them, one that is started at a part may not.
 const MODES: [&str; 3] = ["    ConfJ\\On;", "    ConfL\\On;", "    SingArea\\Off;"];
+
+/// On arcs the blade turns about one axis, seen from the work object, in even steps along the way: as on lines [A-INS].
+const ARCS: &str = "    CirPathMode\\ObjectFrame;";
 
 impl Files for RapidDialect<'_, '_, '_> {
     fn part_name(&self, main: &str, part: usize) -> String {
@@ -45,6 +51,10 @@ impl Files for RapidDialect<'_, '_, '_> {
         if file.part.is_some() {
             for line in MODES {
                 self.text.line(line)?;
+            }
+            match self.arcs {
+                Arcs::Some => self.text.line(ARCS)?,
+                Arcs::None => {}
             }
         }
         if file.place == 0 {
@@ -107,10 +117,14 @@ impl RapidDialect<'_, '_, '_> {
         self.work_object()?;
         self.places()?;
         self.speed_data()?;
-        match self.settings.common.approximation {
-            Some(distance) => self.zone(distance),
-            None => Ok(()),
+        let common = &self.settings.common;
+        let corners = common.approximation.map(|distance| (ZONE, distance));
+        let joints = first_passed(self.source.reachable)
+            .map(|_| (BLEND, common.chain_distance(self.source.program().blend)));
+        for (name, distance) in corners.into_iter().chain(joints) {
+            self.zone(name, distance)?;
         }
+        Ok(())
     }
 
     fn tool(&mut self, id: ToolId, tool: &Tool) -> Written {
@@ -226,9 +240,9 @@ impl RapidDialect<'_, '_, '_> {
     }
 
     /// All seven members.
-    fn zone(&mut self, distance: Length) -> Written {
+    fn zone(&mut self, name: &str, distance: Length) -> Written {
         self.text
-            .put(format!("  CONST zonedata {ZONE}:=[FALSE").as_bytes());
+            .put(format!("  CONST zonedata {name}:=[FALSE").as_bytes());
         for member in zone_members(distance) {
             self.text.put(b",");
             self.text.trimmed(member)?;

@@ -27,6 +27,8 @@ pub(crate) const CHANGE: &str = "vc_change";
 pub(crate) const AXES_SPEED: &str = "vc_axes";
 /// The zone of rounded corners.
 pub(crate) const ZONE: &str = "vc_zone";
+/// The zone of joints of chains.
+pub(crate) const BLEND: &str = "vc_blend";
 /// The tool, when the program declares it and the job does not name it.
 pub(crate) const TOOL: &str = "vc_tool";
 /// The work object, likewise.

@@ -21,6 +21,7 @@
 //! | `Home` | `MoveAbsJ vc_home\NoEOffs,..` |
 //! | `AxisTravel` | `MoveAbsJ [[j1, .. j6],[9E9, ..]]\NoEOffs,..`; `MoveJ` to the pose where tool or work object are the controller's |
 //! | `Travel`, `Approach`, `Retract`, `Cut` | `MoveL [[x,y,z],[q1,q2,q3,q4],[cf1,cf4,cf6,cfx],[9E9, ..]],vc_speed1,fine,vc_tool\WObj:=vc_wobj;` |
+//! | `Follow` | `MoveL` or `MoveC`, with the zone `vc_blend` where the chain goes on |
 //! | `Turn` | the same with the position of the move before, timed by `v_ori` |
 //! | `Ultrasonic` | `SetDO do12,1;`, `SetDO do12,0;` behind a stop point |
 //! | `AwaitReady` | `WaitDI di7,1;` or `WaitTime t;` |
@@ -31,6 +32,14 @@
 //! A move of all axes to axis values leaves no doubt about how the arm stands, whatever a controller takes cfx for; should
 //! it take it for something else, the first `MoveL` stops. With frames that the controller keeps, and that may be calibrated
 //! anew, it is the pose that is meant, and `MoveJ` says it with `ConfJ\On`.
+//!
+//! # Chains
+//!
+//! On an arc `CirPathMode\ObjectFrame` has the blade turn as on a line: about one axis, seen from the work object, in even steps. The
+//! default, `\PathFrame`, would turn it relative to the way; for a blade that stands in the plane of its way both are the same turn,
+//! but only the former is timed like that of a line. Where a chain goes on, the zone is as large as the blend: within it of the
+//! joint the robot goes from the one piece to the next, and never farther from both. Waypoints on a chain are passed likewise, and an
+//! arc that has some is told as several, each by the point in its middle.
 //!
 //! # Long programs
 //!
@@ -96,7 +105,7 @@ impl Backend for Rapid {
     }
 
     fn capabilities(&self) -> Capabilities {
-        CAPABILITIES.with(Capability::ToolChange)
+        CAPABILITIES.with(Capability::ToolChange).with(Capability::Chain)
     }
 
     fn options(&self) -> &'static [OptionSpec] {
@@ -143,7 +152,13 @@ impl Backend for Rapid {
 /// How many lines stand before the line of an op itself: comments and waypoints, for speeds are named by the moves.
 fn lines_before(program: &ReachableProgram, at: usize, lead: Lead) -> u64 {
     let comments = u64::from(lead.operation.is_some()) + u64::from(lead.open.is_some() || lead.cut.is_some());
-    comments + waypoints_of(program, at)
+    let on_way = waypoints_of(program, at);
+    let action = program.program().ops.get(at).map(|op| op.action);
+    // On an arc every move has a line more, with the point on the way.
+    match action.and_then(|action| action.via()) {
+        Some(_) => comments + 2 * on_way + 1,
+        None => comments + on_way,
+    }
 }
 
 /// How many points on the way the op at this place has: each is a line.

@@ -4,18 +4,21 @@
 
 use crate::change;
 use crate::keywords::{
-    AXES_SPEED, CHANGE, FEED, HOME, MAIN, RATE, SPEED, ZONE, is_name, main_name, part_module, part_routine,
+    AXES_SPEED, BLEND, CHANGE, FEED, HOME, MAIN, RATE, SPEED, ZONE, is_name, main_name, part_module,
+    part_routine,
 };
 use crate::options::{
     CHANGE_ROUTINE, READY_SIGNAL, Settings, TOOL_NAME, ULTRASONIC_SIGNAL, WORK_OBJECT_NAME,
 };
 use crate::profile::objection;
+use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::arm::{ArmLimits, SpeedUnit, foreign_arm};
 use vcutc_backend_api::backend::BackendIssue;
+use vcutc_backend_api::chains::{first_joint, has_arcs};
 use vcutc_backend_api::confdata::confdata;
-use vcutc_backend_api::findings::{Findings, driven_cell};
+use vcutc_backend_api::findings::{Findings, Number, driven_cell};
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, AxisValues, Cell, Load, Maker, Ready, Registered};
+use vcutc_backend_api::ir::{Action, AxisValues, Cell, Load, Maker, OpId, Ready, Registered};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::wrist::{TOO_FAR, turn};
 
@@ -33,6 +36,12 @@ const LIMITS: ArmLimits = ArmLimits {
 
 /// A centre of mass nearer than this to the flange's origin, in mm, is none: all zeros are refused.
 const NO_DISTANCE_MM: f64 = 0.001;
+
+/// Points of an arc are at least so far apart, in mm [A-INS].
+const NEAREST_MM: f64 = 0.1;
+
+/// Middle and end of an arc lie in directions that are at least so far apart, in degrees, from where it begins [A-INS].
+const NARROWEST_DEG: f64 = 1.0;
 
 /// What modules may be called behind the dot; RobotWare 7 writes the second.
 const EXTENSIONS: [&str; 2] = ["mod", "modx"];
@@ -72,6 +81,7 @@ pub(crate) fn check<'p>(
     change::names(cell, settings, &mut findings);
     findings.arm_ops(program, &LIMITS, &mut |_, _, _| {});
     turns(program, &mut findings);
+    chains(program, settings, &mut findings);
     findings.result().map(|()| cell)
 }
 
@@ -145,7 +155,9 @@ fn used_names(settings: &Settings<'_>, cell: &Cell) -> Vec<(&'static str, String
 
 /// The names of data that every program declares.
 fn own_names() -> Vec<String> {
-    [HOME, CHANGE, AXES_SPEED, ZONE].map(str::to_owned).to_vec()
+    [HOME, CHANGE, AXES_SPEED, ZONE, BLEND]
+        .map(str::to_owned)
+        .to_vec()
 }
 
 /// Names that the module of a program must not have, besides those of RAPID itself.
@@ -219,6 +231,83 @@ fn load(load: Load, findings: &mut Findings) {
                 range: None,
             },
         );
+    }
+}
+
+/// The first op with a point that the robot passes without a stop, as the end of a piece of a chain or as a waypoint on it.
+pub(crate) fn first_passed(program: &ReachableProgram) -> Option<OpId> {
+    let is_piece = |op: OpId| {
+        let action = program.program().op(op).map(|op| op.action);
+        matches!(action, Some(Action::Follow { .. }))
+    };
+    let mut waypoints = program.motion().waypoints.iter().map(|waypoint| waypoint.op);
+    let joint = first_joint(program.program());
+    joint.into_iter().chain(waypoints.find(|op| is_piece(*op))).min()
+}
+
+/// Joints need a zone, and arcs points that are apart.
+fn chains(program: &ReachableProgram, settings: &Settings<'_>, findings: &mut Findings) {
+    if let Some(passed) = first_passed(program) {
+        findings.blend(program.program(), passed);
+    }
+    if !has_arcs(program.program()) {
+        return;
+    }
+    let waypoints = &program.motion().waypoints;
+    for segment in program.program().segments() {
+        let Some(line) = segment.line().filter(|line| line.via.is_some()) else {
+            continue;
+        };
+        let before = waypoints.partition_point(|waypoint| waypoint.op < segment.id);
+        let on_way = waypoints.iter().skip(before);
+        let on_way = on_way.take_while(|waypoint| waypoint.op == segment.id);
+        let (mut from, mut done) = (line.from.tip, 0.0);
+        for waypoint in on_way {
+            if let Some(via) = line.via_between([done, waypoint.done]) {
+                arc(segment.id, [from, via, waypoint.frame.origin], settings, findings);
+            }
+            (from, done) = (waypoint.frame.origin, waypoint.done);
+        }
+        let whole = line.via.filter(|_| done == 0.0);
+        if let Some(via) = whole.or_else(|| line.via_between([done, 1.0])) {
+            arc(segment.id, [from, via, line.to.tip], settings, findings);
+        }
+    }
+}
+
+/// Limits of `MoveC` [A-INS]. An arc of more than 240 deg would be another; no blade that turns with its way goes round by more than
+/// half a turn.
+fn arc(op: OpId, points: [Point3; 3], settings: &Settings<'_>, findings: &mut Findings) {
+    findings.printed_arc(op, points, settings.common.lengths);
+    let [from, via, to] = points;
+    for (what, distance) in [
+        (
+            "distance from where an arc begins to its middle point",
+            from.distance(via),
+        ),
+        (
+            "distance from where an arc begins to where it ends",
+            from.distance(to),
+        ),
+    ] {
+        let value = distance.to_mm();
+        let unit = "mm";
+        findings.range(
+            Some(op),
+            &Number { what, value, unit },
+            (NEAREST_MM, LIMITS.farthest_mm),
+        );
+    }
+    // From a point of a circle an arc of it is seen under half its angle.
+    let circle = CircularArc::through(points.map(Point3::to_array));
+    let seen = circle.map(|circle| circle.sweep() * (0.5 * (1.0 - circle.done_at(via.to_array()))));
+    if let Some(seen) = seen {
+        let number = Number {
+            what: "angle between middle and end of an arc, seen from where it begins",
+            value: seen.to_deg(),
+            unit: "deg",
+        };
+        findings.range(Some(op), &number, (NARROWEST_DEG, 180.0));
     }
 }
 

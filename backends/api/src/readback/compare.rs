@@ -6,7 +6,7 @@ use crate::geometry::{Frame, Orientation, Point3};
 use crate::ir::{Action, AxisKind, AxisValues, Joint, MOST_AXES, OpId, Program, Ready, Switch};
 use crate::motion::{ReachableProgram, Waypoint};
 use crate::number::is_within;
-use crate::segments::LinearSegment;
+use crate::segments::{LimitedBy, LinearSegment};
 use crate::state::{Generator, State, TipPose};
 use crate::swivel::Apart;
 use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
@@ -189,7 +189,7 @@ impl<'p> Comparator<'p> {
                         self.end(moment, &action, *end, &mut found);
                     }
                     (Some(line), Command::Round { on, .. }) if line.via.is_some() => {
-                        self.circle(&line, on, &mut found);
+                        self.circle(&line, on, self.last_via(moment.op, &line), &mut found);
                         self.motion(moment, &line, (to, *pace), &mut found);
                         self.end(moment, &action, *end, &mut found);
                     }
@@ -246,10 +246,25 @@ impl<'p> Comparator<'p> {
         waypoint: &Waypoint,
         command: &Command,
     ) -> Vec<Mismatch> {
-        let (Command::Straight { to, pace, .. }, Some(line)) = (command, self.line(moment)) else {
+        let Some(line) = self.line(moment) else {
             return vec![Mismatch::Kind];
         };
         let mut found = Vec::new();
+        let (to, pace, end) = match (command, line.via) {
+            (Command::Straight { to, pace, end }, None) => (to, pace, *end),
+            (Command::Round { on, to, pace, end }, Some(_)) => {
+                let earlier = self.waypoints_of(moment.op).iter();
+                let earlier = earlier.take_while(|other| other.done < waypoint.done);
+                let from = earlier.last().map_or(0.0, |last| last.done);
+                self.circle(&line, on, line.via_between([from, waypoint.done]), &mut found);
+                (to, pace, *end)
+            }
+            (_, _) => return vec![Mismatch::Kind],
+        };
+        let action = self.program().op(moment.op).map(|op| op.action);
+        if matches!(action, Some(Action::Follow { .. })) {
+            self.goes_on(end, &mut found);
+        }
         let branch = self.reachable.branch_after(moment.op);
         let configuration = branch.and_then(|branch| self.reader.configuration(branch, waypoint.axes));
         self.pose(to, waypoint.frame.origin, waypoint.frame.orientation, &mut found);
@@ -270,9 +285,26 @@ impl<'p> Comparator<'p> {
         self.pace(moment.op, line, pace, found);
     }
 
-    /// The arc on which the tip goes.
-    fn circle(&self, line: &LinearSegment, is: &Circle, found: &mut Vec<Mismatch>) {
-        let (Some(via), Some(arc)) = (line.via, line.arc()) else {
+    /// The waypoints of an op.
+    fn waypoints_of(&self, op: OpId) -> &'p [Waypoint] {
+        let all = &self.reachable.motion().waypoints;
+        let first = all.partition_point(|waypoint| waypoint.op < op);
+        let end = all.partition_point(|waypoint| waypoint.op <= op);
+        all.get(first..end).unwrap_or_default()
+    }
+
+    /// The point by which a dialect knows the last stretch of an arc: the program's own where the arc is one stretch, the middle of
+    /// the stretch where waypoints divide it.
+    fn last_via(&self, op: OpId, line: &LinearSegment) -> Option<Point3> {
+        match self.waypoints_of(op).last() {
+            Some(last) if self.needs_waypoints() => line.via_between([last.done, 1.0]),
+            Some(_) | None => line.via,
+        }
+    }
+
+    /// The arc on which the tip goes, with a point of it.
+    fn circle(&self, line: &LinearSegment, is: &Circle, via: Option<Point3>, found: &mut Vec<Mismatch>) {
+        let (Some(via), Some(arc)) = (via, line.arc()) else {
             found.push(Mismatch::Kind);
             return;
         };
@@ -454,7 +486,15 @@ impl<'p> Comparator<'p> {
                 }
             }
             Pace::Apart { tip, swivel, twist } => {
-                self.tip_speed(line, tip, found);
+                match line.limited_by() {
+                    Some(LimitedBy::Rate(_)) if line.via.is_some() => {
+                        let should = line.length() / duration;
+                        if !tip.is_some_and(|is| self.is_rounded_down(is, should)) {
+                            found.push(Mismatch::Feed { is: tip, should });
+                        }
+                    }
+                    _ => self.tip_speed(line, tip, found),
+                }
                 self.turns_apart(line, [swivel, twist], found);
             }
             Pace::Tip(is) => {
@@ -558,17 +598,23 @@ impl<'p> Comparator<'p> {
         match (joint, end) {
             (Joint::Stop, End::Exact) => {}
             (Joint::Stop, End::Rounded) if may_round(program.stock, before, action, next) => {}
-            (Joint::Through, End::Through { within }) => {
+            (Joint::Stop, End::Rounded | End::Through { .. }) => found.push(Mismatch::NoStop),
+            (Joint::Through, end) => self.goes_on(end, found),
+        }
+    }
+
+    /// A chain goes on without a stop, near its ways.
+    fn goes_on(&self, end: End, found: &mut Vec<Mismatch>) {
+        match end {
+            End::Through { within } => {
                 // A dialect rounds it down.
-                if within.to_mm() > program.blend.to_mm() + BLEND_SLACK {
-                    let (is, should) = (within, program.blend);
-                    found.push(Mismatch::Blend { is, should });
+                let should = self.program().blend;
+                if within.to_mm() > should.to_mm() + BLEND_SLACK {
+                    found.push(Mismatch::Blend { is: within, should });
                 }
             }
-            (Joint::Through, End::Exact) => found.push(Mismatch::Stops),
-            (Joint::Stop | Joint::Through, End::Rounded | End::Through { .. }) => {
-                found.push(Mismatch::NoStop)
-            }
+            End::Exact => found.push(Mismatch::Stops),
+            End::Rounded => found.push(Mismatch::NoStop),
         }
     }
 }

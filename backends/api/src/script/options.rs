@@ -5,6 +5,8 @@
 use crate::backend::{OptionKind, OptionSpec, Options};
 use crate::number::FixedDecimal;
 use crate::profile::Profile;
+use crate::readback::End;
+use crate::script::text::TRIMMED;
 use crate::units::Length;
 use core::num::NonZeroU32;
 
@@ -83,6 +85,32 @@ impl<'p> Common<'p> {
     }
 }
 
+impl Common<'_> {
+    /// How far before a joint of a chain a robot may begin to round it, for a blend. The tip stays within this of both pieces.
+    ///
+    /// It is rounded down as it is printed, and never the distance of corners in the air: by that [`Self::left`] knows them.
+    #[must_use]
+    pub fn chain_distance(&self, blend: Length) -> Length {
+        let distance = Length::mm(TRIMMED.floored(blend.to_mm()));
+        match self.left(distance) {
+            End::Rounded => Length::mm(distance.to_mm() - TRIMMED.unit()),
+            End::Exact | End::Through { .. } => distance,
+        }
+    }
+
+    /// How a motion ends that may be left so far before its end: as a corner in the air where that is the approximation of the job, or
+    /// else as a joint of a chain.
+    #[must_use]
+    pub fn left(&self, distance: Length) -> End {
+        let in_air = |approximation: Length| TRIMMED.is_near(distance.to_mm(), approximation.to_mm());
+        if self.approximation.is_some_and(in_air) {
+            End::Rounded
+        } else {
+            End::Through { within: distance }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -102,6 +130,22 @@ mod tests {
         assert_eq!(common.approximation, None);
         assert_eq!(common.lengths.decimals(), 3);
         assert_eq!(common.lines_per_part.map(NonZeroU32::get), Some(2500));
+    }
+
+    /// Distances of chains are told apart from those of corners in the air, and never above the blend.
+    #[test]
+    fn joints_of_chains_are_not_corners_in_the_air() {
+        let mut options = Options::defaults(SPECS);
+        let (blend, other) = (Length::mm(2.5), Length::mm(0.123_456_9));
+        let through = |within| End::Through { within };
+        assert_eq!(Common::read(&options).chain_distance(blend), blend);
+        options.set(&SPECS[3], OptionValue::Length(blend)).unwrap();
+        let common = Common::read(&options);
+        assert_eq!(common.left(blend), End::Rounded);
+        let distance = common.chain_distance(blend);
+        assert!((2.499_998..2.5).contains(&distance.to_mm()));
+        assert_eq!(common.left(distance), through(distance));
+        assert_eq!(common.chain_distance(other), Length::mm(0.123_456));
     }
 
     #[test]

@@ -7,15 +7,16 @@ use crate::interpreter::position::{Position, orientation};
 use crate::interpreter::variables::Outcome;
 use crate::interpreter::{Context, State};
 use crate::syntax::{
-    Approximation, Component, Coordinates, Directions, Motion, Path, Phrase, Planner, Points, Value,
-    Variable, is_same_name,
+    Approximation, Arc, Component, Coordinates, Directions, Motion, Path, Phrase, Planner, Points, Tail,
+    Value, Variable, is_same_name,
 };
+use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::{AxisValues, Switch, ToolId};
 use vcutc_backend_api::readback::{
-    Command, Configuration, Effect, End, FrameRole, FrameSetting, Held, Target as Goal,
+    Circle, Command, Configuration, Effect, End, FrameRole, FrameSetting, Held, Target as Goal,
 };
-use vcutc_backend_api::units::Duration;
+use vcutc_backend_api::units::{Angle, Duration};
 
 /// The state that instructions change.
 pub(super) struct Controller<'a> {
@@ -26,6 +27,37 @@ pub(super) struct Controller<'a> {
     turned: [([f64; 3], Orientation); 4],
     /// Which of them is the oldest.
     oldest: usize,
+}
+
+/// How far the attitude at an auxiliary point may be from that on the way: points are printed, and so is the share of the way.
+const SAME_ATTITUDE: Angle = Angle::deg(0.05);
+
+/// Where a motion may be left for the next one.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Left {
+    AtEnd,
+    Before,
+}
+
+/// Where a motion may be left, by the words behind its target.
+fn is_left(planner: Planner, tail: &Tail<'_>) -> Result<Left, MotionError> {
+    if tail.second.is_some() || tail.directions.is_some() || !tail.with.is_empty() {
+        return Err(MotionError::Unknown);
+    }
+    match (planner, tail.approximation) {
+        (_, None) => Ok(Left::AtEnd),
+        (Planner::Classic, Some(Approximation::Distance))
+        | (Planner::Spline, Some(Approximation::Spline)) => Ok(Left::Before),
+        (Planner::Classic | Planner::Spline, Some(_)) => Err(MotionError::Unknown),
+    }
+}
+
+/// Whether external axes, which no machine of ours has, go somewhere.
+fn moves_external_axes(target: &Coordinates) -> bool {
+    let external = Component::EXTERNAL.into_iter();
+    external
+        .filter_map(|component| target.get(component))
+        .any(|value| value != 0.0)
 }
 
 /// Why a motion is not told as a command.
@@ -83,10 +115,13 @@ impl<'a> Controller<'a> {
                 Some(input) => Effect::Command(Command::AwaitInput(input)),
                 None => Effect::Unknown,
             },
-            Phrase::Arc(_) => {
-                self.state.position = Position::default();
-                Effect::Unknown
-            }
+            Phrase::Arc(arc) => match self.arc(context, arc) {
+                Ok(command) => Effect::Command(command),
+                Err(error) => {
+                    self.state.position = Position::default();
+                    error.into()
+                }
+            },
             Phrase::Halt => self.halt(),
             Phrase::Other(_) | Phrase::Call { .. } => Effect::Unknown,
             Phrase::Unreadable { expected } => Effect::expected(*expected),
@@ -190,28 +225,20 @@ impl<'a> Controller<'a> {
             .state
             .coordinates(context, &motion.target)
             .ok_or(MotionError::Expected("a position that is declared"))?;
-        let external = Component::EXTERNAL.into_iter();
-        let mut external = external.filter_map(|component| target.get(component));
-        if external.any(|value| value != 0.0) {
+        if moves_external_axes(target) {
             return Err(MotionError::Unknown);
         }
-        let tail = &motion.tail;
-        if tail.second.is_some() || tail.directions.is_some() || !tail.with.is_empty() {
-            return Err(MotionError::Unknown);
-        }
-        let (need, end) = match (motion.points, motion.path, motion.planner, tail.approximation) {
-            (Points::Absolute, Path::Axes, _, None) => (Need::Axes, End::Exact),
-            (Points::Absolute, Path::Straight, _, None) => (Need::Straight, End::Exact),
-            (Points::Absolute, Path::Straight, Planner::Classic, Some(Approximation::Distance))
-            | (Points::Absolute, Path::Straight, Planner::Spline, Some(Approximation::Spline)) => {
-                (Need::Rounded, End::Rounded)
-            }
-            (Points::Absolute | Points::Relative, _, _, _) => return Err(MotionError::Unknown),
+        let need = match (motion.points, motion.path) {
+            (Points::Absolute, Path::Axes) => Need::Axes,
+            (Points::Absolute, Path::Straight) => Need::Straight,
+            (Points::Relative, _) => return Err(MotionError::Unknown),
         };
+        let is_left = is_left(motion.planner, &motion.tail)?;
         if let Some(missing) = self.setup.missing(need, self.wanted) {
             return Err(MotionError::Expected(missing));
         }
         match need {
+            Need::Axes if is_left == Left::Before => Err(MotionError::Unknown),
             Need::Axes if target.has_any(&Component::AXES) => self.axes(target).map(Command::Axes),
             Need::Axes => {
                 let configuration = match (target.get(Component::S), target.get(Component::T)) {
@@ -222,12 +249,81 @@ impl<'a> Controller<'a> {
                 };
                 self.goal(target, configuration).map(Command::AxesToPose)
             }
-            Need::Straight | Need::Rounded => {
+            Need::Straight | Need::Arc => {
+                let end = self.end(is_left)?;
                 // The controller takes S and T from where the motion begins.
                 let to = self.goal(target, None)?;
                 let pace = self.setup.pace();
                 Ok(Command::Straight { to, pace, end })
             }
+        }
+    }
+
+    fn end(&self, is_left: Left) -> Result<End, MotionError> {
+        match is_left {
+            Left::AtEnd => Ok(End::Exact),
+            Left::Before => self.setup.left(self.wanted).map_err(MotionError::Expected),
+        }
+    }
+
+    /// A motion on an arc. How the blade is held at its auxiliary point, where that is said, must be how it gets there.
+    fn arc(&mut self, context: Context<'_>, arc: &Arc<'_>) -> Result<Command, MotionError> {
+        let coordinates = |target| self.state.coordinates(context, target);
+        let [through, target] = [&arc.through, &arc.target].map(coordinates);
+        let declared = through.zip(target);
+        let (through, target) = declared.ok_or(MotionError::Expected("positions that are declared"))?;
+        let is_known = arc.points == Points::Absolute && arc.angle.is_none();
+        if !is_known || [through, target].iter().any(moves_external_axes) {
+            return Err(MotionError::Unknown);
+        }
+        if through.has_any(&Component::AXES) {
+            return Err(MotionError::Expected("an auxiliary point: X, Y, Z"));
+        }
+        let is_left = is_left(arc.planner, &arc.tail)?;
+        if let Some(missing) = self.setup.missing(Need::Arc, self.wanted) {
+            return Err(MotionError::Expected(missing));
+        }
+        let end = self.end(is_left)?;
+        let begin = self.state.position;
+        let pose = |position: Position| position.all(Component::TIP).zip(position.all(Component::ANGLES));
+        let from = pose(begin).ok_or(INCOMPLETE)?;
+        let on_way = begin.at_pose(&through, Points::Absolute, Directions::Base);
+        let via = on_way.and_then(|at| at.all(Component::TIP)).ok_or(INCOMPLETE)?;
+        let to = self.goal(&target, None)?;
+        let states_attitude = through.has_any(&Component::ANGLES);
+        if arc.planner == Planner::Spline && !states_attitude {
+            return Err(MotionError::Expected("an auxiliary point: X, Y, Z, A, B, C"));
+        }
+        if states_attitude {
+            let held = on_way
+                .and_then(|at| at.all(Component::ANGLES))
+                .ok_or(INCOMPLETE)?;
+            self.holds_on_arc((from, to), via, held)?;
+        }
+        let on = Circle::Via(Point3::from(via));
+        let pace = self.setup.pace();
+        Ok(Command::Round { on, to, pace, end })
+    }
+
+    /// Whether the blade is held at a point of an arc as it is when it gets there.
+    fn holds_on_arc(
+        &mut self,
+        ((from, angles), to): (([f64; 3], [f64; 3]), Goal),
+        via: [f64; 3],
+        held: [f64; 3],
+    ) -> Result<(), MotionError> {
+        let Held::Orientation(end, _) = to.held else {
+            return Err(MotionError::Unknown);
+        };
+        let arc = CircularArc::through([from, via, to.tip.to_array()]);
+        let done = arc.map(|arc| arc.done_at(via));
+        let done = done.ok_or(MotionError::Expected("three points that do not lie on a line"))?;
+        let there = self.orientation(angles).towards(end, done);
+        if there.angle_to(self.orientation(held)) <= SAME_ATTITUDE {
+            Ok(())
+        } else {
+            let what = "an auxiliary point where the blade is held as it is on the way there";
+            Err(MotionError::Expected(what))
         }
     }
 

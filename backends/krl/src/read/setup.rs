@@ -9,9 +9,9 @@ use crate::options::Settings;
 use crate::syntax::{Component, Coordinates, Field, Value, Variable, is_same_name};
 use vcutc_backend_api::ir::{Cell, Load, Registered, ToolId};
 use vcutc_backend_api::number::FixedDecimal;
-use vcutc_backend_api::readback::{Effect, Pace};
+use vcutc_backend_api::readback::{Effect, End, Pace};
 use vcutc_backend_api::script::TRIMMED;
-use vcutc_backend_api::units::{AngularSpeed, Speed};
+use vcutc_backend_api::units::{AngularSpeed, Length, Speed};
 
 /// `$ADVANCE`: how many motions the controller looks ahead.
 const ADVANCE: f64 = 3.0;
@@ -26,6 +26,8 @@ pub(super) struct Setup {
     swivel: Option<AngularSpeed>,
     /// `$VEL.ORI2`, the turn about it.
     twist: Option<AngularSpeed>,
+    /// `$APO.CDIS`, how far before its end a motion may be left.
+    rounding: Option<Length>,
 }
 
 /// Something that a motion depends on, once it has been said as it should be.
@@ -37,7 +39,7 @@ enum Said {
     Advance,
     Load,
     AxisSpeed,
-    Rounding,
+    CircType,
 }
 
 impl Said {
@@ -48,7 +50,7 @@ impl Said {
         Self::Advance,
         Self::Load,
         Self::AxisSpeed,
-        Self::Rounding,
+        Self::CircType,
     ];
 
     const fn bit(self) -> u32 {
@@ -64,20 +66,23 @@ impl Said {
             Self::Advance => "`$ADVANCE=3` before the first motion",
             Self::Load => "the job's `$LOAD` before the first motion",
             Self::AxisSpeed => "`BAS (#VEL_PTP,n )` before the first axis move, with the job's home speed",
-            Self::Rounding => "`$APO.CDIS` before the first rounded corner, with the job's approximation",
+            Self::CircType => "`$CIRC_TYPE=#PATH` before the first arc",
         }
     }
 }
+
+/// What to expect in front of a motion that may be left before its end.
+const NO_ROUNDING: &str = "`$APO.CDIS` before the first rounded corner, with the job's approximation";
 
 /// What needs the setup.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Need {
     /// A move of all axes.
     Axes,
-    /// A straight move that ends on its point.
+    /// A straight move.
     Straight,
-    /// A straight move that is rounded.
-    Rounded,
+    /// A move on an arc.
+    Arc,
 }
 
 /// What the job says.
@@ -115,7 +120,7 @@ impl Setup {
         let own = match need {
             Need::Axes => Said::AxisSpeed.bit(),
             Need::Straight => 0,
-            Need::Rounded => Said::Rounding.bit(),
+            Need::Arc => Said::CircType.bit(),
         };
         let missing = (always | load | own) & !self.said;
         if missing == 0 {
@@ -123,6 +128,12 @@ impl Setup {
         }
         let first = Said::ALL.into_iter().find(|said| missing & said.bit() != 0);
         first.map(Said::missing)
+    }
+
+    /// How a motion ends that may be left before its end.
+    pub(super) fn left(&self, wanted: Wanted<'_>) -> Result<End, &'static str> {
+        let distance = self.rounding.ok_or(NO_ROUNDING)?;
+        Ok(wanted.settings.common.left(distance))
     }
 
     /// The speeds of a straight move.
@@ -166,9 +177,9 @@ impl Setup {
         } else if to.is("$ADVANCE") {
             self.note(Said::Advance, *value == Value::Number(ADVANCE))
         } else if to.is_field("$APO", "CDIS") {
-            let should = wanted.settings.common.approximation;
-            let is = should.is_some_and(|should| is_number(value, should.to_mm(), TRIMMED));
-            self.note(Said::Rounding, is)
+            self.rounds(value)
+        } else if to.is("$CIRC_TYPE") {
+            self.note(Said::CircType, is_word(value, "PATH"))
         } else if to.is("$LOAD") {
             let is = wanted
                 .load()
@@ -178,6 +189,13 @@ impl Setup {
             return None;
         };
         Some(effect)
+    }
+
+    /// Takes a distance from which on a motion may be left. A distance of zero is a stop [K-SI].
+    fn rounds(&mut self, value: &Value<'_>) -> Effect {
+        let distance = value.number().filter(|distance| *distance > 0.0);
+        self.rounding = distance.map(Length::mm);
+        distance.map_or(Effect::Unknown, |_| Effect::Setting)
     }
 
     /// Takes speeds that a controller takes for some.

@@ -13,9 +13,9 @@ pub(super) fn phrase<'t>(word: &str, cursor: &mut Cursor<'t>) -> Option<Parsed<P
     if let Some(kind) = meaning(word, &MOTIONS) {
         return Some(motion(kind, cursor));
     }
-    let points = meaning(word, &ARCS)?;
+    let kind = meaning(word, &ARCS)?;
     // How an arc is said in other ways than this is not described.
-    Some(arc(points, cursor).map_err(|_| ParseError::Other))
+    Some(arc(kind, cursor).map_err(|_| ParseError::Other))
 }
 
 /// Words of motions to one point.
@@ -31,11 +31,11 @@ const MOTIONS: [(&str, (Path, Planner, Points)); 8] = [
 ];
 
 /// Words of arcs.
-const ARCS: [(&str, Points); 4] = [
-    ("CIRC", Points::Absolute),
-    ("SCIRC", Points::Absolute),
-    ("CIRC_REL", Points::Relative),
-    ("SCIRC_REL", Points::Relative),
+const ARCS: [(&str, (Planner, Points)); 4] = [
+    ("CIRC", (Planner::Classic, Points::Absolute)),
+    ("SCIRC", (Planner::Spline, Points::Absolute)),
+    ("CIRC_REL", (Planner::Classic, Points::Relative)),
+    ("SCIRC_REL", (Planner::Spline, Points::Relative)),
 ];
 
 #[inline]
@@ -53,7 +53,7 @@ fn motion<'t>(
 }
 
 /// `CIRC {point on the way}, {end}, CA 180`.
-fn arc<'t>(points: Points, cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
+fn arc<'t>((planner, points): (Planner, Points), cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
     let through = target(cursor)?;
     if !cursor.skip(b',') {
         return expected("`,` and the end of the arc");
@@ -72,6 +72,7 @@ fn arc<'t>(points: Points, cursor: &mut Cursor<'t>) -> Parsed<Phrase<'t>> {
         None
     };
     Ok(Phrase::Arc(Arc {
+        planner,
         points,
         through,
         target,

@@ -356,6 +356,8 @@ pub struct Motion<'t> {
 /// A motion on a circular arc from where the one before it ended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arc<'t> {
+    /// Which planner of the controller plans it.
+    pub planner: Planner,
     /// How its points are given.
     pub points: Points,
     /// A point on the way.

@@ -163,7 +163,7 @@ fn files_are_recognised_by_their_extension() {
 }
 
 /// A program before it is changed.
-struct Original<'p> {
+pub(crate) struct Original<'p> {
     program: &'p ReachableProgram,
     options: Options,
     files: Vec<ProgramFile>,
@@ -172,17 +172,17 @@ struct Original<'p> {
 
 /// What became of changed programs.
 #[derive(Debug, Default, PartialEq, Eq)]
-struct Count {
+pub(crate) struct Count {
     /// Left where they were changed.
-    departed: u32,
+    pub(crate) departed: u32,
     /// Followed to the end, since nothing that counts was changed, but with another statement.
-    other_statement: u32,
+    pub(crate) other_statement: u32,
     /// Changed in comments and layout.
     layout: u32,
 }
 
 impl<'p> Original<'p> {
-    fn new(program: &'p ReachableProgram, values: &[(&str, OptionValue)]) -> Self {
+    pub(crate) fn new(program: &'p ReachableProgram, values: &[(&str, OptionValue)]) -> Self {
         let options = options(values);
         let files = emitted(program, &options);
         let told = told(&files, program, &options);
@@ -211,7 +211,7 @@ impl<'p> Original<'p> {
     }
 
     /// Every character taken out, another put in its place, and one put before it.
-    fn change_characters(&self, count: &mut Count) {
+    pub(crate) fn change_characters(&self, count: &mut Count) {
         let others = b"0123456789.-,;{}()[]$#&\"'=_ XASETZ\n";
         for (file, ProgramFile { text, .. }) in self.files.iter().enumerate() {
             for at in 0..text.len() {
@@ -225,7 +225,7 @@ impl<'p> Original<'p> {
     }
 
     /// Every line taken out, told twice, and swapped with the next.
-    fn change_lines(&self, count: &mut Count) {
+    pub(crate) fn change_lines(&self, count: &mut Count) {
         for (file, ProgramFile { text, .. }) in self.files.iter().enumerate() {
             let lines: Vec<_> = text.split_inclusive('\n').collect();
             for at in 0..lines.len() {

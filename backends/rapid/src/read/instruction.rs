@@ -6,11 +6,13 @@
 
 use super::data::{Datum, SpeedData, View, Zone};
 use super::sentence::{Optional, Value};
-use crate::options::{CHANGE_ROUTINE, READY_SIGNAL, Settings, ULTRASONIC_SIGNAL};
+use crate::options::{CHANGE_ROUTINE, READY_SIGNAL, Settings, ULTRASONIC_SIGNAL, zone_members};
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Cell, Changer, PlacedFrame, Ready, Switch, Tool, ToolId};
-use vcutc_backend_api::readback::{Command, Configuration, Effect, End, FrameSetting, Held, Pace, Target};
-use vcutc_backend_api::units::{AngularSpeed, Duration, Speed};
+use vcutc_backend_api::readback::{
+    Circle, Command, Configuration, Effect, End, FrameSetting, Held, Pace, Target,
+};
+use vcutc_backend_api::units::{AngularSpeed, Duration, Length, Speed};
 
 /// How far members of a zone may be from those of the job, in mm or deg: they are printed with six decimals.
 const SAME_ZONE: f64 = 1e-6;
@@ -27,6 +29,8 @@ pub(super) struct Modes {
     conf_l: bool,
     /// `SingArea\Off`.
     sing_area: bool,
+    /// `CirPathMode\ObjectFrame`, on which arcs alone depend.
+    arcs: bool,
 }
 
 impl Modes {
@@ -66,14 +70,16 @@ impl Machine<'_> {
         modes: &mut Modes,
     ) -> (Effect, Known) {
         let command = match instruction.name {
-            "MOVEL" | "MOVEJ" | "MOVEABSJ" if !modes.are_said() => None,
+            "MOVEL" | "MOVEJ" | "MOVEABSJ" | "MOVEC" if !modes.are_said() => None,
             "MOVEL" | "MOVEJ" | "MOVEABSJ" => self.motion(instruction, view),
+            "MOVEC" => self.arc(instruction, view).filter(|_| modes.arcs),
             "SETDO" => self.switch(instruction),
             "WAITDI" => self.await_input(instruction),
             "WAITTIME" => wait(instruction, view),
             "CONFJ" => return (mode(instruction, "ON", &mut modes.conf_j), Known::Yes),
             "CONFL" => return (mode(instruction, "ON", &mut modes.conf_l), Known::Yes),
             "SINGAREA" => return (mode(instruction, "OFF", &mut modes.sing_area), Known::Yes),
+            "CIRPATHMODE" => return (mode(instruction, "OBJECTFRAME", &mut modes.arcs), Known::Yes),
             "ACCSET" => return (full(instruction, view, 100.0), Known::Yes),
             // The largest speed as a new program has it [A-INS], or more.
             "VELSET" => return (full(instruction, view, 5000.0), Known::Yes),
@@ -108,6 +114,20 @@ impl Machine<'_> {
         }
     }
 
+    /// A move on an arc, by a point on the way. How the blade would be held there has no effect.
+    fn arc(&self, instruction: Instruction<'_>, view: View<'_>) -> Option<Command> {
+        let [via, target, speed, zone, tool] = instruction.required else {
+            return None;
+        };
+        let rest = self.frames(instruction.optional, tool, view)?;
+        Some(Command::Round {
+            on: Circle::Via(robtarget(via, view)?.tip),
+            to: robtarget(target, view)?,
+            pace: pace(view.speed(speed)?, &rest, view)?,
+            end: self.end(view.zone(zone)?)?,
+        })
+    }
+
     /// The tool that a move names.
     fn tool(&self, named: &Value, view: View<'_>) -> Option<ToolId> {
         let Value::Name(name) = named else { return None };
@@ -132,9 +152,9 @@ impl Machine<'_> {
         instruction: Instruction<'_>,
         view: View<'_>,
     ) -> Option<(ToolId, FrameSetting)> {
-        let ("MOVEL" | "MOVEJ" | "MOVEABSJ", [_, _, _, named]) = (instruction.name, instruction.required)
-        else {
-            return None;
+        let named = match (instruction.name, instruction.required) {
+            ("MOVEL" | "MOVEJ" | "MOVEABSJ", [_, _, _, named]) | ("MOVEC", [_, _, _, _, named]) => named,
+            (_, _) => return None,
         };
         let id = self.tool(named, view)?;
         let PlacedFrame { frame, number } = self.cell.tools.get(id)?.frame;
@@ -203,17 +223,18 @@ impl Machine<'_> {
         tip == Some(f64::from(self.settings.home_speed)) && view.zone(zone) == Some(Zone::Fine)
     }
 
-    /// A corner may be rounded in the zone that the job asks for, and in no other.
+    /// A corner may be rounded in the zone that the job asks for, and a joint of a chain in one of those proportions.
     fn end(&self, zone: Zone) -> Option<End> {
         match zone {
             Zone::Fine => Some(End::Exact),
             Zone::Fly(members) => {
-                let asked = crate::options::zone_members(self.settings.common.approximation?);
-                let is_asked = members
-                    .iter()
-                    .zip(asked)
+                let [path, ..] = members;
+                let distance = Some(Length::mm(path)).filter(|distance| *distance > Length::ZERO)?;
+                let alike = members.iter().zip(zone_members(distance));
+                let is_one = alike
+                    .into_iter()
                     .all(|(is, should)| (is - should).abs() <= SAME_ZONE);
-                is_asked.then_some(End::Rounded)
+                is_one.then(|| self.settings.common.left(distance))
             }
         }
     }

@@ -8,6 +8,7 @@
 
 mod support;
 
+mod chains;
 mod changes;
 mod dialect;
 mod edits;
