@@ -335,3 +335,26 @@ fn an_arc_that_print_changes_is_refused() {
         "{refused:?}"
     );
 }
+
+/// Every digit of every place on the arcs made another: each is a difference of an op.
+#[test]
+fn no_digit_of_an_arc_can_be_changed() {
+    let program = reachable(program(&recipe()));
+    let files = files(&program, &[]);
+    let text = &files[0].text;
+    let mut tried = 0;
+    for (start, _) in text.match_indices("CIRC {") {
+        let line = &text[start..start + text[start..].find(",A ").unwrap()];
+        let digits = line.char_indices().filter(|(_, c)| c.is_ascii_digit());
+        for at in digits.map(|(at, _)| start + at) {
+            let other = (text.as_bytes()[at] - b'0' + 1) % 10;
+            let mut changed = files.clone();
+            changed[0].text.replace_range(at..=at, &other.to_string());
+            let found = replay(&program, &[], &changed).unwrap_err().what;
+            assert!(matches!(found, DivergenceKind::Differs(_)), "{at}: {found:?}");
+            tried += 1;
+        }
+    }
+    // Two arcs with six coordinates of five digits.
+    assert_eq!(tried, 60);
+}

@@ -239,3 +239,30 @@ fn points_of_arcs_that_are_too_near_are_refused() {
         "{found:?}"
     );
 }
+
+/// Every digit of every place on the arcs, and of the zone, made another: each is a difference of an op.
+#[test]
+fn no_digit_of_a_place_on_an_arc_can_be_changed() {
+    let program = reachable(program());
+    let files = files(&program);
+    let text = &files[0].text;
+    let mut places = Vec::new();
+    for (start, _) in text.match_indices("MoveC") {
+        let statement = &text[start..start + text[start..].find(';').unwrap()];
+        for (at, _) in statement.match_indices("[[") {
+            let end = at + statement[at..].find(']').unwrap();
+            places.extend((at..end).map(|at| start + at));
+        }
+    }
+    let is_digit = |at: &usize| text.as_bytes()[*at].is_ascii_digit();
+    let mut tried = 0;
+    for at in places.into_iter().filter(is_digit) {
+        let other = (text.as_bytes()[at] - b'0' + 1) % 10;
+        let mut changed = files.clone();
+        changed[0].text.replace_range(at..=at, &other.to_string());
+        let found = replayed(&program, &options(&[]), &changed).unwrap_err().what;
+        assert!(matches!(found, DivergenceKind::Differs(_)), "{at}: {found:?}");
+        tried += 1;
+    }
+    assert!(tried > 100, "{tried}");
+}
