@@ -276,6 +276,8 @@ fn chain_on(tilt: &str, joints: impl Fn(Joint) -> Joint) -> (CheckedJob, Result<
     let upright = "z = 50 mm, a = 0 deg, b = 0 deg, c = 0 deg";
     let job = read("tests/process/err/VC0528_short_extension.vcut")
         .replace("6.1 mm", "20 mm")
+        // A chain takes its speed from a table that has both.
+        .replace("travel = 200 mm/s", "travel = 150 mm/s")
         .replace(upright, &format!("z = 50 mm, a = 0 deg, b = 0 deg, c = {tilt}"));
     let outcome = compile("job.vcut", &Files::default().with("job.vcut", job));
     let compiled = outcome.compiled.expect("it compiles");
