@@ -70,7 +70,7 @@ fn sampled(rig: &Rig<'_>, [from, to]: [Joints; 2]) -> f64 {
         for direction in 0..200_u32 {
             // Points all over the sphere (a spiral of Fibonacci).
             let z = 1.0 - (2.0 * f64::from(direction) + 1.0) / 200.0;
-            let (sin, cos) = (2.399_963 * f64::from(direction)).sin_cos();
+            let (sin, cos) = libm::sincos(2.399_963 * f64::from(direction));
             let flat = (1.0 - z * z).sqrt();
             let point = Vector3::new(flat * cos, flat * sin, z) * RADIUS;
             farthest = farthest.max((is * point - should * point).norm());

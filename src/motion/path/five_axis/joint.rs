@@ -59,10 +59,10 @@ pub(in crate::path) fn reached(
     };
     let most = |of: fn(&Piece) -> f64| pieces.iter().map(of).fold(0.0, f64::max);
     // Points at rest on what carries them, moved by the axes as far as they go.
-    let mut to = joint;
-    for axis in 3..to.len() {
-        to[axis] += span(axis).magnitude();
-    }
+    let to: Joints = core::array::from_fn(|axis| {
+        let turns = if axis < 3 { 0.0 } else { span(axis).magnitude() };
+        joint[axis] + turns
+    });
     let still = Course {
         from: after.from,
         to: after.from,
