@@ -127,6 +127,8 @@ codes! {
     DrawnOver = "VC0230", Error, "overlapping lines in a drawing";
     /// A file of an airfoil that is read otherwise than it is written.
     AirfoilRepaired = "VC0231", Warning, "repaired airfoil file";
+    /// A blade of a kind that an operation does not cut with.
+    WrongBlade = "VC0232", Error, "blade of the wrong kind";
 
     /// A job that leaves nothing to cut.
     NothingToCut = "VC0301", Error, "nothing to cut";

@@ -3,6 +3,7 @@
 //! Every value that a later stage may have to complain about knows where it was written. What an operation is, at every
 //! stage, [`operation`] says; the operations themselves lie in `src/operations`.
 
+mod blades;
 pub mod description;
 pub mod operation;
 mod places;
@@ -10,6 +11,7 @@ pub mod sema;
 pub mod setup;
 mod tools;
 
+pub use blades::{Blade, BladeKind, Body, BodyStage, Crusher, Disc, StraightBlade};
 pub use operation::planned::{self, PlannedJob, PlannedOperation};
 pub use operation::planning::PlanningJob;
 pub use operation::{Operation, search};
@@ -18,9 +20,9 @@ pub use setup::Setup;
 pub use tools::{HeldChange, HeldTool, HeldTools};
 
 use std::sync::Arc;
-use vcutc_backend_api::ir::{self, AxisValues, Edges, PlacedFrame, Ready, Stock};
+use vcutc_backend_api::ir::{AxisValues, PlacedFrame, Ready, Stock};
 use vcutc_backend_api::profile::Profile as Habits;
-use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_machine::{LimitPlaces, Model};
 
@@ -66,72 +68,6 @@ pub struct CheckedJob {
     pub operations: Vec<Box<dyn Operation>>,
     /// On what: the one that `cell` names, else the one in the job's own file, else the only one there is.
     pub machine: Option<Machine>,
-}
-
-/// A straight blade.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Blade {
-    pub name: String,
-    /// Where it is defined.
-    pub span: Span,
-    /// Usable edge length from the tip; positive.
-    pub cutting_length: Sourced<Length>,
-    /// Half the apex angle; at least 0 and below 90 degrees.
-    pub half_apex: Sourced<Angle>,
-    /// Thickness; zero or more.
-    pub thickness: Sourced<Length>,
-    /// Which sides cut.
-    pub edges: Edges,
-    /// The body above the edge; none if the job does not state it.
-    pub body: Option<Body>,
-}
-
-/// The body of a blade above its edge: round stages about its axis, from the tip up. Each goes on up to the next one, the last
-/// one without end.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Body {
-    /// Where it is given.
-    pub span: Span,
-    /// At least one; the heights rise.
-    pub stages: Vec<BodyStage>,
-}
-
-/// A stage of a body.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BodyStage {
-    /// Height above the tip at which it begins, along the axis; at least the cutting length.
-    pub from: Sourced<Length>,
-    /// Its radius; positive.
-    pub radius: Sourced<Length>,
-}
-
-impl Body {
-    /// Its stages as programs have them.
-    #[must_use]
-    pub fn in_program(&self) -> Vec<ir::BodyStage> {
-        let stages = self.stages.iter();
-        stages
-            .map(|stage| ir::BodyStage {
-                from: stage.from.value,
-                radius: stage.radius.value,
-            })
-            .collect()
-    }
-}
-
-impl Blade {
-    /// The blade as programs have it.
-    #[must_use]
-    pub fn in_program(&self) -> ir::Blade {
-        ir::Blade {
-            name: self.name.clone(),
-            cutting_length: self.cutting_length.value,
-            half_apex: self.half_apex.value,
-            thickness: self.thickness.value,
-            edges: self.edges,
-            body: self.body.as_ref().map(Body::in_program),
-        }
-    }
 }
 
 /// Bounds of a value from below and above. Not crossed.

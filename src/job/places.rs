@@ -3,7 +3,7 @@
 //! All places become one; which values were given and which are defaults stays. Tips keep their places: there are as many of
 //! them as cuts.
 
-use super::{Blade, Bounds, CheckedJob, GivenOption, Machine, Setup, Sourced, TargetOptions};
+use super::{Bounds, CheckedJob, GivenOption, Machine, Setup, Sourced, StraightBlade, TargetOptions};
 use vcutc_diagnostics::source::{SourceMap, Span};
 
 impl CheckedJob {
@@ -61,7 +61,7 @@ fn setup(setup: &mut Setup, place: Span) {
     setup.run_out.forget_place(place);
 }
 
-fn blade(blade: &mut Blade, place: Span) {
+fn blade(blade: &mut StraightBlade, place: Span) {
     blade.span = place;
     blade.cutting_length.forget_place(place);
     blade.half_apex.forget_place(place);

@@ -45,7 +45,7 @@ pub mod units;
 pub mod vocabulary;
 pub mod written;
 
-use crate::{Blade, CheckedJob, Machine, Operation};
+use crate::{Blade, CheckedJob, Machine, Operation, StraightBlade};
 use eval::Scope;
 use files::{File, Files};
 use gather::Definitions;
@@ -169,7 +169,7 @@ fn named_things(
     let blades = all
         .blades
         .iter()
-        .map(|(name, placed)| blade::check(*name, placed.block, placed.place, scope, session))
+        .map(|(head, placed)| blade::check(*head, placed.block, placed.place, scope, session))
         .collect();
     let machines = all
         .machines
@@ -245,7 +245,7 @@ fn whole(
     });
     let machine = match (machine, &operations) {
         (Ok(Some(machine)), Ok(operations)) => {
-            let blades: Vec<&Blade> = operations
+            let blades: Vec<&StraightBlade> = operations
                 .iter()
                 .map(|operation| &operation.setup().blade)
                 .collect();

@@ -71,7 +71,7 @@ impl Desk<'_> {
     fn spec(&self) -> Option<&'static BlockSpec> {
         let mut blocks = self.context.blocks.iter();
         let outer = blocks.next()?;
-        let mut spec = vocabulary::block(outer.name(), outer.second(), self.operations());
+        let mut spec = vocabulary::block(&outer.words(), self.operations());
         for inner in blocks {
             spec = spec.and_then(|spec| spec.block(inner.name(), inner.second()));
         }
@@ -106,7 +106,13 @@ impl Desk<'_> {
     /// The block as the reference calls it.
     fn title(&self) -> String {
         match self.innermost().map(BlockAround::name) {
-            Some(name) => self.of_operation(name, self.innermost().and_then(BlockAround::second)),
+            Some(name) => {
+                let of_blade = self
+                    .innermost()
+                    .and_then(|block| vocabulary::kind_of_blade(&block.words()));
+                let second = self.innermost().and_then(BlockAround::second);
+                of_blade.map_or_else(|| self.of_operation(name, second), str::to_owned)
+            }
             None => String::new(),
         }
     }
@@ -276,9 +282,9 @@ fn item_snippet(form: &str) -> String {
 fn head(words: &[String], operations: Operations) -> Vec<Offer> {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let next = match words.as_slice() {
-        ["machine", _, "="] => vocabulary::head_words("machine", operations),
+        [first @ ("machine" | "blade"), _, "="] => vocabulary::head_words(first, operations),
         ["profile", "="] => return short_forms(),
-        ["machine"] => Vec::new(),
+        ["machine" | "blade"] => Vec::new(),
         [first] => vocabulary::head_words(first, operations),
         _ => Vec::new(),
     };

@@ -149,7 +149,7 @@ fn in_entry(around: &Surroundings<'_>, at: usize, before: usize, depth: usize) -
     if around.is_symbol(last, &["=", "<=", ">="]) {
         let words = around.words_before(before);
         return match words.first().map(String::as_str) {
-            Some("machine" | "profile") if depth == 0 => Wanted::Head(words),
+            Some("machine" | "blade" | "profile") if depth == 0 => Wanted::Head(words),
             _ => Wanted::Value(Slot::at(around, before)),
         };
     }

@@ -96,9 +96,14 @@ fn keyword_explained(word: &str) -> Option<String> {
     Some(format!("`{word}`: {}", row?.text()))
 }
 
-/// A word after the first one of a head: a kind of operation, or of machine.
+/// A word after the first one of a head: a kind of operation, of machine or of blade.
 fn head_word(block: &str, word: &str) -> Option<String> {
-    match manual::row(Table::Machines, word).filter(|_| block == "machine") {
+    let table = match block {
+        "machine" => Some(Table::Machines),
+        "blade" => Some(Table::Blades),
+        _ => None,
+    };
+    match table.and_then(|table| manual::row(table, word)) {
         Some(row) => Some(format!("`{word}`: {}", row.text())),
         None => manual::about(block),
     }
@@ -173,7 +178,7 @@ fn name(analysis: &Analysis, definition: &Definition) -> String {
             format!("`{name}` = `{}`, {}", texts.join("` = `"), value.kind())
         }
         Meaning::Value(None) => format!("`{name}`, a value that could not be worked out"),
-        Meaning::Blade => format!("`{name}`, a blade"),
+        Meaning::Blade(kind) => format!("`{name}`, {}", kind.words()),
         Meaning::Machine => format!("`{name}`, a machine"),
     };
     format!("{what}\n\n```vcut\n{shown}\n```\n\nDefined in {file}")

@@ -19,6 +19,8 @@ pub(super) enum Table<'a> {
     Files,
     /// The kinds of machines.
     Machines,
+    /// The kinds of blades.
+    Blades,
     /// The calls that fields of a machine take.
     Calls,
     /// The functions of calculations.
@@ -92,6 +94,7 @@ pub(super) fn rows(table: Table<'_>) -> impl Iterator<Item = Row> + Clone {
         Table::Joints => headed("| Word in a piece |"),
         Table::Files => headed("| File | Holds |"),
         Table::Machines => headed("| Kind | Is |"),
+        Table::Blades => headed("| Kind of blade | Is |"),
         Table::Calls => headed("| Value | Meaning |"),
         Table::Functions => headed("| Function |"),
         Table::Residuals => headed("| `residual` | Such a cut is |"),
@@ -115,6 +118,8 @@ fn fields_table(block: &str) -> Option<usize> {
         "points" => headed("| Field of `points` |"),
         "airfoil" => headed("| Field of `airfoil` |"),
         "dxf" | "svg" => headed("| Field of `dxf` and `svg` |"),
+        "disc" => headed("| Field of `disc` |"),
+        "crusher" => headed("| Field of `crusher` |"),
         _ => behind(&format!("\n### `{block}`\n"), "| Field |"),
     }
 }
@@ -200,10 +205,14 @@ mod tests {
             .map(|first| {
                 (
                     if first == "rough" { "rough vcut" } else { first },
-                    vocabulary::block(first, None, OPERATIONS).unwrap(),
+                    vocabulary::block(&[first], OPERATIONS).unwrap(),
                 )
             })
             .collect();
+        for kind in ["disc", "crusher"] {
+            let head = ["blade", "b", "=", kind];
+            all.push((kind, vocabulary::block(&head, OPERATIONS).unwrap()));
+        }
         for word in ["points", "airfoil", "dxf", "svg"] {
             all.push((word, vocabulary::data_file(word).unwrap()));
         }
@@ -263,6 +272,9 @@ mod tests {
                 None => Table::Pieces,
             };
             assert!(row(table, word).is_some(), "{word}");
+        }
+        for word in vocabulary::head_words("blade", OPERATIONS) {
+            assert!(row(Table::Blades, word).is_some(), "{word}");
         }
         for block in [
             "job",

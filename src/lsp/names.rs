@@ -71,7 +71,7 @@ fn is_reference(analysis: &Analysis, site: &Site<'_>, name: &str) -> bool {
     match (site.place.words, meaning) {
         (_, None) => false,
         (Words::Names, Some(_)) | (Words::OfTarget, Some(Meaning::Value(_))) => true,
-        (Words::OfTarget, Some(Meaning::Blade | Meaning::Machine)) => false,
+        (Words::OfTarget, Some(Meaning::Blade(_) | Meaning::Machine)) => false,
     }
 }
 
@@ -141,7 +141,7 @@ fn clash(analysis: &Analysis, new: &str) -> Option<String> {
         let file = analysis.sources.name(known.name.span.file);
         let what = match known.meaning {
             Meaning::Value(_) => "a value",
-            Meaning::Blade => "a blade",
+            Meaning::Blade(_) => "a blade",
             Meaning::Machine => "a machine",
         };
         return Some(format!("`{new}` is {what} already, in {file}"));

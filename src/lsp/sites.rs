@@ -169,11 +169,12 @@ impl<'a> Row<'a> {
                 self.profile_entry(entry, place);
             }
         } else {
-            self.entries(
-                &block.entries,
-                vocabulary::block(first, second, self.known),
-                place,
-            );
+            let head = head_words(block);
+            let place = Place {
+                block: vocabulary::kind_of_blade(&head).unwrap_or(place.block),
+                ..place
+            };
+            self.entries(&block.entries, vocabulary::block(&head, self.known), place);
         }
     }
 
@@ -392,6 +393,15 @@ fn bare_word<'a>(word: &'a str, field: Option<&'static FieldSpec>) -> Kind<'a> {
         )
         | None => Kind::Reference(word),
     }
+}
+
+/// The words of a head, with the equals sign as one of them.
+fn head_words(block: &Block) -> Vec<&str> {
+    let parts = block.head.iter().map(|part| match &part.node {
+        HeadPart::Word(text) | HeadPart::Text(text) => text.as_str(),
+        HeadPart::Equals => "=",
+    });
+    parts.collect()
 }
 
 #[cfg(test)]

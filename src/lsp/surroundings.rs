@@ -19,6 +19,11 @@ impl BlockAround {
         self.head.first().map_or("", String::as_str)
     }
 
+    /// All words of the head.
+    pub(super) fn words(&self) -> Vec<&str> {
+        self.head.iter().map(String::as_str).collect()
+    }
+
     /// The second word of the head.
     pub(super) fn second(&self) -> Option<&str> {
         self.head.get(1).map(String::as_str)

@@ -50,13 +50,21 @@ const MACHINE: &str = "machine m = robot \"kuka/kr210_r3100_ultra\" ";
 
 /// The blocks at the top, each with its whole head.
 fn heads() -> Vec<(&'static str, &'static BlockSpec)> {
-    ["stock ", "blade b ", "rough vcut ", MACHINE, "cell "]
-        .into_iter()
-        .map(|head| {
-            let first = head.split(' ').next().unwrap();
-            (head, vocabulary::block(first, None, OPERATIONS).unwrap())
-        })
-        .collect()
+    [
+        "stock ",
+        "blade b ",
+        "blade b = disc ",
+        "blade b = crusher ",
+        "rough vcut ",
+        MACHINE,
+        "cell ",
+    ]
+    .into_iter()
+    .map(|head| {
+        let words: Vec<&str> = head.split_whitespace().collect();
+        (head, vocabulary::block(&words, OPERATIONS).unwrap())
+    })
+    .collect()
 }
 
 const FILES: [&str; 4] = ["points", "airfoil", "dxf", "svg"];
@@ -152,7 +160,10 @@ fn other_spots() -> Vec<Spot> {
             .replace("...", "");
         spots.push(spot(&text, word, word));
         for next in vocabulary::head_words(word, OPERATIONS) {
-            let text = text.replace("robot", next);
+            let text = match word {
+                "blade" => format!("blade n = {next} {{ }}"),
+                _ => text.replace("robot", next),
+            };
             spots.push(spot(&text, &format!(" {next} "), next));
         }
     }
@@ -223,7 +234,7 @@ fn every_word_is_explained() {
 fn words_that_enter_formulas_show_them() {
     let mut shown = 0;
     for spot in spots_of_fields() {
-        let is_operations = spot.text.starts_with("rough") || spot.text.starts_with("blade");
+        let is_operations = spot.text.starts_with("rough") || spot.text.starts_with("blade b {");
         let row = manual::row(Table::Formulas, &spot.word);
         if let (Some(row), true) = (row, is_operations && spot.text[spot.at..].contains(['='])) {
             let text = explained(&spot).unwrap_or_default();
@@ -341,6 +352,11 @@ fn the_grammar_of_editors_has_every_word_and_no_other() {
         named_by("head", Some(1)),
         set(machines.into_iter().chain(["machine"]))
     );
+    let blades = vocabulary::head_words("blade", OPERATIONS);
+    assert_eq!(
+        named_by("head", Some(0)),
+        set(blades.into_iter().chain(["blade"]))
+    );
     let roughings = vocabulary::head_words("rough", OPERATIONS);
     assert_eq!(
         named_by("head", Some(2)),
@@ -424,7 +440,7 @@ fn functions_take_and_give_what_their_signatures_say() {
         let known = Analysis::of("/job.vcut", 1, &One(text), OPERATIONS).unwrap();
         let dimension = |name: &str| match known.study.definition(name).unwrap().meaning {
             Meaning::Value(Some(value)) => value.dimension(),
-            Meaning::Value(None) | Meaning::Blade | Meaning::Machine => panic!("{example}"),
+            Meaning::Value(None) | Meaning::Blade(_) | Meaning::Machine => panic!("{example}"),
         };
         let (taken, given) = (dimension("taken"), dimension("given"));
         match vocabulary::signature(name).unwrap() {

@@ -8,6 +8,7 @@ use super::slots::{Owner, Part, Rest, Slot, Within};
 use lsp_types::CompletionItemKind;
 use vcutc_backend_api::backend::{Backend, OptionKind};
 use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind};
+use vcutc_job::BladeKind;
 use vcutc_job::sema::study::{Definition, Meaning};
 use vcutc_job::sema::vocabulary::{self, Dimension, FieldSpec, Inside, Leaving, Signature, Takes};
 use vcutc_machine::{catalogue, usual_home};
@@ -70,7 +71,8 @@ impl Place<'_> {
         }
         match spec.takes {
             Takes::Words(words) => offers.extend(words().iter().map(|word| self.word(spec.name, word))),
-            Takes::Blade => offers.extend(self.named(Meaning::Blade)),
+            // All operations cut with straight blades.
+            Takes::Blade => offers.extend(self.named(Meaning::Blade(BladeKind::Straight))),
             Takes::Machine => offers.extend(self.named(Meaning::Machine)),
             Takes::Calls(calls) => offers.extend(self.calls(spec.name, calls)),
             Takes::Quantity(range) => {

@@ -4,7 +4,7 @@ use super::Material;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{AxisKind, Change, Changer, Edges, Load, Ready, Registered};
 use vcutc_diagnostics::number::show;
-use vcutc_job::{Blade, Body, CheckedJob, HeldTool, Machine, Setup};
+use vcutc_job::{Body, CheckedJob, HeldTool, Machine, Setup, StraightBlade};
 
 /// A name and a value, as plain text.
 pub(super) type Fact = (&'static str, String);
@@ -33,8 +33,8 @@ fn frame(frame: &Frame) -> String {
 }
 
 /// The blades of a job, each once.
-pub(super) fn blades<'a>(material: &Material<'a>) -> Vec<&'a Blade> {
-    let mut named: Vec<&Blade> = Vec::new();
+pub(super) fn blades<'a>(material: &Material<'a>) -> Vec<&'a StraightBlade> {
+    let mut named: Vec<&StraightBlade> = Vec::new();
     for planned in &material.plan.operations {
         let blade = &planned.asked().setup().blade;
         if named.iter().all(|other| other.name != blade.name) {
@@ -44,7 +44,7 @@ pub(super) fn blades<'a>(material: &Material<'a>) -> Vec<&'a Blade> {
     named
 }
 
-pub(super) fn of_blades(blades: &[&Blade]) -> Vec<Fact> {
+pub(super) fn of_blades(blades: &[&StraightBlade]) -> Vec<Fact> {
     blades.iter().map(|blade| ("blade", words(blade))).collect()
 }
 
@@ -88,7 +88,7 @@ fn changed(change: Change) -> String {
     format!("changed {by} in {} s", show(change.time.to_s()))
 }
 
-fn words(blade: &Blade) -> String {
+fn words(blade: &StraightBlade) -> String {
     let edges = match blade.edges {
         Edges::Single => "single",
         Edges::Double => "double",

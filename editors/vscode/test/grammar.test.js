@@ -45,6 +45,12 @@ test("words are what they are", async () => {
       ["let", "keyword.control"], ["width", "variable.other.constant"], ["=", "keyword.operator"],
       ["0.8", "constant.numeric"], ["*", "keyword.operator"], ["// wide", "comment.line.double-slash"],
     ]],
+    ["blade wheel = disc {", [
+      ["blade", "keyword.other.block"], ["wheel", "entity.name.type"], ["=", "keyword.operator"], ["disc", "keyword.other.kind"],
+    ]],
+    ["  spin = 3000 rev/min", [
+      ["spin", "entity.other.attribute-name"], ["=", "keyword.operator"], ["3000", "constant.numeric"], ["rev/min", "keyword.other.unit"],
+    ]],
     ["rough vcut {", [["rough", "keyword.other.block"], ["vcut", "keyword.other.kind"]]],
     ["  layer = auto", [["layer", "entity.other.attribute-name"], ["=", "keyword.operator"], ["auto", "constant.language"]]],
     ["  residual = shift", [["residual", "entity.other.attribute-name"], ["=", "keyword.operator"], ["shift", "support.constant"]]],

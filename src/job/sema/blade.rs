@@ -1,58 +1,94 @@
-//! `blade NAME { ... }`.
+//! `blade NAME { ... }` and `blade NAME = KIND { ... }`.
 
 mod body;
+mod kinds;
+
+pub(crate) use kinds::spec;
 
 use super::eval::Scope;
-use super::fields::{BlockSpec, Fields, Inner, Place, Takes, points, value};
-use super::range::{DISTANCE, HALF_APEX, SIZE};
-use super::read::{Reader, words_of};
+use super::fields::{Fields, Place};
+use super::heads::BladeHead;
+use super::read::Reader;
 use super::report::Checked;
 use super::session::Session;
-use crate::Blade;
-use vcutc_backend_api::ir::Edges;
-use vcutc_diagnostics::source::Spanned;
+use crate::{Blade, BladeKind, Crusher, Disc, Sourced, StraightBlade};
+use body::Edge;
+use kinds::EDGES;
+use vcutc_backend_api::units::Length;
 use vcutc_syntax::ast::Block;
-
-pub(crate) const SPEC: BlockSpec = BlockSpec {
-    title: "`blade`",
-    fields: &[
-        value("cutting_length", "10 mm").required().within(SIZE),
-        value("half_apex", "7.13 deg").required().within(HALF_APEX),
-        value("thickness", "1.5 mm").required().within(DISTANCE),
-        value("edges", "double")
-            .required()
-            .takes(Takes::Words(|| words_of(EDGES))),
-        points("body", "(40 mm, 8 mm) (90 mm, 30 mm)"),
-    ],
-    inner: Inner::Refused,
-};
-
-const EDGES: &[(&str, Edges)] = &[("single", Edges::Single), ("double", Edges::Double)];
 
 /// A blade.
 pub(crate) fn check(
-    name: Spanned<&str>,
+    head: BladeHead<'_>,
     block: &Block,
     place: Place,
     scope: Scope<'_>,
     session: &mut Session<'_>,
 ) -> Checked<Blade> {
-    let fields = Fields::sort(&SPEC, place, &block.entries, session);
+    let fields = Fields::sort(spec(head.kind), place, &block.entries, session);
     let mut reader = Reader::new(scope, &mut session.reports);
-    let cutting_length = reader.required(&fields, "cutting_length");
-    let half_apex = reader.required(&fields, "half_apex");
-    let thickness = reader.required(&fields, "thickness");
+    match head.kind {
+        BladeKind::Straight => straight(head, &fields, &mut reader).map(Blade::Straight),
+        BladeKind::Disc => disc(head, &fields, &mut reader).map(Blade::Disc),
+        BladeKind::Crusher => crusher(head, &fields, &mut reader).map(Blade::Crusher),
+    }
+}
+
+fn straight(head: BladeHead<'_>, fields: &Fields<'_>, reader: &mut Reader<'_>) -> Checked<StraightBlade> {
+    let cutting_length = reader.required(fields, "cutting_length");
+    let half_apex = reader.required(fields, "half_apex");
+    let thickness = reader.required(fields, "thickness");
     let edges = fields
         .required_value("edges", reader.reports)
         .and_then(|expr| reader.word("edges", expr, EDGES));
-    let body = body::check(&fields, cutting_length.ok(), &mut reader);
-    Ok(Blade {
-        name: name.node.to_owned(),
-        span: name.span,
+    let body = body::check(fields, cutting_length.ok().map(Edge::UpTo), reader);
+    Ok(StraightBlade {
+        name: head.name.node.to_owned(),
+        span: head.name.span,
         cutting_length: cutting_length?,
         half_apex: half_apex?,
         thickness: thickness?,
         edges: edges?.value,
+        body: body?,
+    })
+}
+
+fn disc(head: BladeHead<'_>, fields: &Fields<'_>, reader: &mut Reader<'_>) -> Checked<Disc> {
+    let radius: Checked<Sourced<Length>> = reader.required(fields, "radius");
+    let thickness = reader.required(fields, "thickness");
+    let depth = reader.required(fields, "depth");
+    let width = reader.required(fields, "width");
+    let spin = reader.required(fields, "spin");
+    let rim = match (radius, thickness) {
+        (Ok(radius), Ok(thickness)) => Some(Edge::Rim { radius, thickness }),
+        _ => None,
+    };
+    let body = body::required(fields, rim, reader);
+    Ok(Disc {
+        name: head.name.node.to_owned(),
+        span: head.name.span,
+        radius: radius?,
+        thickness: thickness?,
+        depth: depth?,
+        width: width?,
+        spin: spin?,
+        body: body?,
+    })
+}
+
+fn crusher(head: BladeHead<'_>, fields: &Fields<'_>, reader: &mut Reader<'_>) -> Checked<Crusher> {
+    let radius = reader.required(fields, "radius");
+    let height = reader.required(fields, "height");
+    let spin = reader.required(fields, "spin");
+    let ramp = reader.required(fields, "ramp");
+    let body = body::check(fields, height.ok().map(Edge::UpTo), reader);
+    Ok(Crusher {
+        name: head.name.node.to_owned(),
+        span: head.name.span,
+        radius: radius?,
+        height: height?,
+        spin: spin?,
+        ramp: ramp?,
         body: body?,
     })
 }

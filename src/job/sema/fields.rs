@@ -236,6 +236,11 @@ impl<'a> Fields<'a> {
         }
     }
 
+    /// A field that is a row of points and must be given, and where it is.
+    pub fn required_points(&self, name: &str, reports: &mut Reports) -> Checked<(&'a [Point], Span)> {
+        self.points(name)?.ok_or_else(|| self.missing(name, reports))
+    }
+
     /// The place of the name of a field, in whatever form it is given.
     pub fn place_of(&self, name: &str) -> Option<Span> {
         self.slots.get(name).map(|(_, span)| *span)
@@ -244,6 +249,11 @@ impl<'a> Fields<'a> {
     /// A field that is a block and must be given.
     pub fn required_block(&self, name: &str, reports: &mut Reports) -> Checked<&'a Block> {
         self.block(name)?.ok_or_else(|| self.missing(name, reports))
+    }
+
+    /// What the block is called in a sentence, such as `` `rough vcut` ``.
+    pub const fn title(&self) -> &'static str {
+        self.spec.title
     }
 
     /// The range of a field's values, which are of this dimension.

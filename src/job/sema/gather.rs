@@ -2,7 +2,7 @@
 
 use super::fields::{Place, head_span};
 use super::files::Files;
-use super::heads::{Head, Kind, classify};
+use super::heads::{BladeHead, Head, Kind, classify};
 use super::kind::{Kind as OperationKind, Operations};
 use super::names::{Names, Thing, did_you_mean, more_than_one};
 use super::overrides::Overrides;
@@ -44,7 +44,7 @@ pub(crate) struct Definitions<'a> {
     /// `let`s of all files.
     pub(crate) lets: Vec<Let<'a>>,
     /// Blades of all files.
-    pub(crate) blades: Vec<(Spanned<&'a str>, Placed<'a>)>,
+    pub(crate) blades: Vec<(BladeHead<'a>, Placed<'a>)>,
     /// Machines of all files.
     pub(crate) machines: Vec<MachineBlock<'a>>,
     /// The job's name.
@@ -158,9 +158,10 @@ impl<'a> Definitions<'a> {
                     self.operations.push((kind, placed));
                 }
             }
-            Kind::Blade(name) => {
-                self.names.define(name, Thing::Blade(self.blades.len()), reports);
-                self.blades.push((name, placed));
+            Kind::Blade(head) => {
+                self.names
+                    .define(head.name, Thing::Blade(self.blades.len()), reports);
+                self.blades.push((head, placed));
             }
             Kind::Machine(head) => {
                 self.names

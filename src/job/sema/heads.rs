@@ -3,6 +3,7 @@
 use super::fields::head_span;
 use super::kind::{Kind as OperationKind, Operations};
 use super::names::did_you_mean;
+use crate::BladeKind;
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
@@ -18,12 +19,19 @@ pub(crate) enum Kind<'a> {
     Profile,
     /// `cell`.
     Cell,
-    /// `blade NAME`.
-    Blade(Spanned<&'a str>),
+    /// `blade NAME`, `blade NAME = disc`.
+    Blade(BladeHead<'a>),
     /// An operation such as `rough vcut`.
     Operation(&'static dyn OperationKind),
     /// `machine NAME = robot "model"`.
     Machine(Head<'a>),
+}
+
+/// What the head of a blade's block says.
+#[derive(Clone, Copy)]
+pub(crate) struct BladeHead<'a> {
+    pub(crate) name: Spanned<&'a str>,
+    pub(crate) kind: BladeKind,
 }
 
 /// What the head of a machine's block says.
@@ -167,12 +175,33 @@ fn incomplete(first: &str, what: &str, at: Span, form: &str) -> Box<Diagnostic> 
     Box::new(diagnostic.help(format!("write `{form}`")))
 }
 
+/// How the head of a blade looks that states its kind.
+const OF_KIND: &str = "blade NAME = disc { ... }";
+
 fn blade<'a>(at: Span, rest: &[(&'a HeadPart, Span)]) -> Result<Kind<'a>, Box<Diagnostic>> {
-    match rest {
-        [(HeadPart::Word(name), span)] => Ok(Kind::Blade(Spanned::new(name, *span))),
-        [(HeadPart::Word(_), _), (_, span), ..] => Err(surplus("blade", *span, &form_of("blade"))),
-        _ => Err(incomplete("blade", "a name", at, &form_of("blade"))),
-    }
+    let form = form_of("blade");
+    let (name, behind) = match rest {
+        [(HeadPart::Word(name), span), behind @ ..] => (Spanned::new(name.as_str(), *span), behind),
+        _ => return Err(incomplete("blade", "a name", at, &form)),
+    };
+    let kind = match behind {
+        [] => BladeKind::Straight,
+        [(HeadPart::Equals, _), (HeadPart::Word(kind), span)] => blade_kind(kind, *span)?,
+        [(HeadPart::Equals, _), (HeadPart::Word(_), _), (_, span), ..] => {
+            return Err(surplus("blade", *span, OF_KIND));
+        }
+        [(HeadPart::Equals, span), ..] => return Err(incomplete("blade", "a kind", *span, OF_KIND)),
+        [(_, span), ..] => return Err(surplus("blade", *span, &form)),
+    };
+    Ok(Kind::Blade(BladeHead { name, kind }))
+}
+
+fn blade_kind(kind: &str, at: Span) -> Result<BladeKind, Box<Diagnostic>> {
+    let known = BladeKind::WORDS.iter().find(|(word, _)| *word == kind);
+    known.map(|(_, kind)| *kind).ok_or_else(|| {
+        let names = BladeKind::WORDS.iter().map(|(word, _)| *word);
+        Box::new(no_kind("blade", kind, at, &names.collect::<Vec<_>>()))
+    })
 }
 
 fn operation<'a>(
@@ -250,16 +279,19 @@ fn machine_kind(kind: &str, at: Span) -> Result<MachineKind, Box<Diagnostic>> {
     if let Some((_, known)) = MACHINES.iter().find(|(word, _)| *word == kind) {
         return Ok(*known);
     }
+    let names: Vec<&str> = MACHINES.iter().map(|(word, _)| *word).collect();
+    Err(Box::new(no_kind("machine", kind, at, &names)))
+}
+
+/// A word that is not one of the kinds of something.
+fn no_kind(what: &str, kind: &str, at: Span, names: &[&str]) -> Diagnostic {
     let diagnostic = Diagnostic::new(
         Code::UnknownBlock,
-        format!("there is no machine of the kind `{kind}`"),
+        format!("there is no {what} of the kind `{kind}`"),
         at,
-        "not a kind of machine",
+        format!("not a kind of {what}"),
     );
-    let names: Vec<&str> = MACHINES.iter().map(|(word, _)| *word).collect();
     let near = nearest(kind, names.iter().copied());
     let diagnostic = did_you_mean(diagnostic, at, &near);
-    Err(Box::new(
-        diagnostic.note(format!("kinds of machine: {}", names.join(", "))),
-    ))
+    diagnostic.note(format!("kinds of {what}: {}", names.join(", ")))
 }

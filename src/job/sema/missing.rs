@@ -7,6 +7,7 @@ use super::kind::Operations;
 use super::quantity::number;
 use super::report::Reported;
 use super::session::{Session, start_of};
+use crate::BladeKind;
 use vcutc_backend_api::ir::Stock;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -49,6 +50,8 @@ impl Missing {
             .next()
             .unwrap_or_default();
         let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+        let mut blades = all.blades.iter();
+        let straight = blades.find(|(head, _)| head.kind == BladeKind::Straight);
         Self {
             anchor: Anchor { place, end },
             start,
@@ -57,7 +60,7 @@ impl Missing {
                 .filter(|letter| !matches!(letter, '"' | '\\') && !letter.is_control())
                 .collect(),
             operation: operations.0.first().map_or_else(String::new, |kind| {
-                kind.example(all.blades.first().map_or("dagger", |(name, _)| name.node))
+                kind.example(straight.map_or("dagger", |(head, _)| head.name.node))
             }),
             quiet: session.damage_at(start).or(all.doubtful),
         }

@@ -27,6 +27,10 @@ pub const AXIS_ANGLE: Range = Range::closed(Dimension::ANGLE, -1080.0, 1080.0);
 pub const SPEED: Range = Range::positive(Dimension::SPEED, 100_000.0);
 /// Rates of turning the blade.
 pub const TURNING_RATE: Range = Range::positive(Dimension::TURNING_RATE, 10_000.0);
+/// Rates at which a disc or a crusher turns about its axis, up to 100 000 rev/min.
+pub const SPIN: Range = Range::positive(Dimension::TURNING_RATE, 600_000.0);
+/// The steepest way of a crusher down into the material.
+pub const RAMP: Range = Range::new(Dimension::ANGLE, Bound::Excluded(0.0), Bound::Excluded(90.0));
 /// Overlap of neighbouring cuts.
 pub const OVERLAP: Range = Range::new(Dimension::PURE, Bound::Included(0.0), Bound::Excluded(1.0));
 /// Waiting times, up to an hour.

@@ -9,9 +9,9 @@ use super::read::{Reader, default, looks_like, words_of};
 use super::report::Checked;
 use super::session::Session;
 use super::written::Written;
-use crate::{Blade, Direction, Setup, Sourced};
+use crate::{Blade, BladeKind, Direction, Setup, Sourced, StraightBlade};
 use vcutc_backend_api::units::{AngularSpeed, Length, Speed};
-use vcutc_diagnostics::source::Spanned;
+use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::{Block, Expr};
 
@@ -58,9 +58,10 @@ pub fn check(fields: &Fields<'_>, written: Written<'_>, session: &mut Session<'_
         .required_block("feed", &mut session.reports)
         .and_then(|inner| feeds(inner, written, session));
     let mut reader = Reader::new(scope, &mut session.reports);
-    let blade = fields
-        .required_value("blade", reader.reports)
-        .and_then(|expr| find_blade(expr, written.blades, &mut reader));
+    let blade = fields.required_value("blade", reader.reports).and_then(|expr| {
+        let blade = find_blade(expr, written.blades, &mut reader)?;
+        straight(blade, expr.span, (fields, written), &mut reader)
+    });
     let rake = reader.required(fields, "rake");
     let direction = reader.choice(fields, "direction", Direction::WORDS);
     let clearance = reader.required(fields, "clearance");
@@ -110,8 +111,60 @@ fn feeds(inner: &Block, written: Written<'_>, session: &mut Session<'_>) -> Chec
     })
 }
 
+/// The blade, as the operation needs it: straight.
+fn straight(
+    blade: &Blade,
+    at: Span,
+    of: (&Fields<'_>, Written<'_>),
+    reader: &mut Reader<'_>,
+) -> Checked<StraightBlade> {
+    match blade {
+        Blade::Straight(blade) => Ok(blade.clone()),
+        Blade::Disc(_) | Blade::Crusher(_) => {
+            let diagnostic = not_straight(blade, at, of);
+            Err(reader.reports.push(diagnostic))
+        }
+    }
+}
+
+fn not_straight(blade: &Blade, at: Span, (fields, written): (&Fields<'_>, Written<'_>)) -> Diagnostic {
+    let (name, kind) = (blade.name(), blade.kind().words());
+    let diagnostic = Diagnostic::new(
+        Code::WrongBlade,
+        format!(
+            "{} cuts with a straight blade; `{name}` is {kind}",
+            fields.title()
+        ),
+        at,
+        "needs a straight blade",
+    )
+    .and(blade.span(), format!("defined as {kind}"));
+    let straight: Vec<String> = written
+        .blades
+        .iter()
+        .flatten()
+        .filter(|blade| blade.kind() == BladeKind::Straight)
+        .map(|blade| format!("`{}`", blade.name()))
+        .collect();
+    match straight.as_slice() {
+        [] => diagnostic.help(
+            "define one, such as `blade dagger { cutting_length = 30 mm, half_apex = 8 deg, thickness = 1.5 mm, edges = double }`, \
+             and write `blade = dagger`",
+        ),
+        [one] => {
+            let name = one.trim_matches('`').to_owned();
+            diagnostic.fix(format!("use {one}, which is straight"), at, name)
+        }
+        several => diagnostic.help(format!("the straight blades defined are {}", several.join(", "))),
+    }
+}
+
 /// The blade that the operation names.
-fn find_blade(expr: &Spanned<Expr>, blades: &[Checked<Blade>], reader: &mut Reader<'_>) -> Checked<Blade> {
+fn find_blade<'b>(
+    expr: &Spanned<Expr>,
+    blades: &'b [Checked<Blade>],
+    reader: &mut Reader<'_>,
+) -> Checked<&'b Blade> {
     let names = reader.scope.names;
     let is_blade = |thing| matches!(thing, Thing::Blade(_));
     let Expr::Name(name) = &expr.node else {
@@ -135,7 +188,8 @@ fn find_blade(expr: &Spanned<Expr>, blades: &[Checked<Blade>], reader: &mut Read
         Some(Thing::Let(_) | Thing::Machine(_)) | None => None,
     };
     match blade {
-        Some(blade) => blade.clone(),
+        Some(Ok(blade)) => Ok(blade),
+        Some(Err(reported)) => Err(*reported),
         None => Err(names.not_a("blade", name, expr.span, is_blade, reader.reports)),
     }
 }

@@ -14,7 +14,7 @@ use super::quantity::{Quantity, number};
 use super::report::{Checked, Reports};
 use super::session::Session;
 use super::{Choices, Part, Said, cell, cut_short, options, understand, units};
-use crate::CheckedJob;
+use crate::{BladeKind, CheckedJob};
 use vcutc_diagnostics::source::{FileId, LoadError, Loader, SourceMap, Spanned};
 use vcutc_diagnostics::{Diagnostic, has_errors};
 use vcutc_syntax::ast::{Ast, Expr};
@@ -52,7 +52,7 @@ pub struct Definition {
 pub enum Meaning {
     /// A value; none if it could not be worked out.
     Value(Option<Value>),
-    Blade,
+    Blade(BladeKind),
     Machine,
 }
 
@@ -122,9 +122,9 @@ pub(super) fn definitions(all: &Definitions<'_>, values: &[Option<Checked<Quanti
         let meaning = Meaning::Value(value.map(Value));
         (subject.name.clone(), Thing::Let(index), meaning)
     });
-    let blades = all.blades.iter().enumerate().map(|(index, (name, _))| {
-        let name = name.map(str::to_owned);
-        (name, Thing::Blade(index), Meaning::Blade)
+    let blades = all.blades.iter().enumerate().map(|(index, (head, _))| {
+        let name = head.name.map(str::to_owned);
+        (name, Thing::Blade(index), Meaning::Blade(head.kind))
     });
     let machines = all.machines.iter().enumerate().map(|(index, machine)| {
         let name = machine.head.name.map(str::to_owned);

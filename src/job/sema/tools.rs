@@ -12,7 +12,7 @@ use super::read::{Reader, words_of};
 use super::report::Checked;
 use super::session::Session;
 use super::setup::inner_place;
-use crate::{Blade, HeldChange, HeldTool, HeldTools, Machine};
+use crate::{HeldChange, HeldTool, HeldTools, Machine, StraightBlade};
 use vcutc_backend_api::ir::{Change, Changer};
 use vcutc_backend_api::units::Duration;
 use vcutc_diagnostics::schema::faults;
@@ -216,8 +216,8 @@ pub(crate) fn change(
 }
 
 /// The machine with the tools that a job needs, in the order in which its blades are first used.
-pub(crate) fn used(mut machine: Machine, blades: &[&Blade]) -> Result<Machine, Box<Diagnostic>> {
-    let mut wanted: Vec<&Blade> = Vec::new();
+pub(crate) fn used(mut machine: Machine, blades: &[&StraightBlade]) -> Result<Machine, Box<Diagnostic>> {
+    let mut wanted: Vec<&StraightBlade> = Vec::new();
     for &blade in blades {
         if !wanted.iter().any(|known| known.name == blade.name) {
             wanted.push(blade);
@@ -254,7 +254,7 @@ pub(crate) fn used(mut machine: Machine, blades: &[&Blade]) -> Result<Machine, B
 }
 
 /// A machine with one tool for two blades.
-fn one_tool(machine: &Machine, first: &Blade, second: &Blade) -> Diagnostic {
+fn one_tool(machine: &Machine, first: &StraightBlade, second: &StraightBlade) -> Diagnostic {
     Diagnostic::new(
         Code::BladeWithoutTool,
         format!(
@@ -272,7 +272,7 @@ fn one_tool(machine: &Machine, first: &Blade, second: &Blade) -> Diagnostic {
     ))
 }
 
-fn without_tool(machine: &Machine, blade: &Blade) -> Diagnostic {
+fn without_tool(machine: &Machine, blade: &StraightBlade) -> Diagnostic {
     Diagnostic::new(
         Code::BladeWithoutTool,
         format!("`{}` has no tool for blade `{}`", machine.name, blade.name),

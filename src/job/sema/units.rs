@@ -32,6 +32,7 @@ pub(super) const UNITS: &[Unit] = &[
     unit("ft", "foot", 304.8, Dimension::LENGTH),
     unit("deg", "degree", PI / 180.0, Dimension::ANGLE),
     unit("rad", "radian", 1.0, Dimension::ANGLE),
+    unit("rev", "revolution", 2.0 * PI, Dimension::ANGLE),
     unit("ms", "millisecond", 0.001, Dimension::TIME),
     unit("s", "second", 1.0, Dimension::TIME),
     unit("min", "minute", 60.0, Dimension::TIME),
@@ -63,6 +64,10 @@ const ALIASES: &[(&str, &str)] = &[
     ("degrees", "deg"),
     ("radian", "rad"),
     ("radians", "rad"),
+    ("revolution", "rev"),
+    ("revolutions", "rev"),
+    ("turn", "rev"),
+    ("turns", "rev"),
     ("sec", "s"),
     ("secs", "s"),
     ("second", "s"),
@@ -88,6 +93,8 @@ const COMPOUND_ALIASES: &[(&str, &str)] = &[
     ("ipm", "in/min"),
     ("ips", "in/s"),
     ("dps", "deg/s"),
+    ("rpm", "rev/min"),
+    ("rps", "rev/s"),
 ];
 
 fn find(name: &str) -> Option<&'static Unit> {
@@ -159,7 +166,6 @@ const AMBIGUOUS: &[(&str, [&str; 2])] = &[
 
 /// Units that the language lacks, and how they are written in those it has.
 const CONVERSIONS: &[(&str, &str)] = &[
-    ("rpm", "1 rpm is 6 deg/s"),
     ("km", "1 km is 1000 m"),
     ("km/h", "1 km/h is 1000 m/h, which is 277.8 mm/s"),
     ("gon", "1 gon is 0.9 deg"),
@@ -218,6 +224,8 @@ mod tests {
             quantity(180.0, "deg/s"),
             Some(Quantity::new(PI, Dimension::TURNING_RATE))
         );
+        assert_eq!(quantity(1.0, "rev"), quantity(360.0, "deg"));
+        assert_eq!(quantity(3000.0, "rev/min"), quantity(18_000.0, "deg/s"));
         assert_eq!(quantity(30.0, "%"), Some(Quantity::pure(0.3)));
         assert_eq!(quantity(5.0, "furlong"), None);
         assert_eq!(quantity(5.0, "mm/furlong"), None);
@@ -233,6 +241,7 @@ mod tests {
         assert!(meant("parsec/fortnight").is_empty());
         assert_eq!(meant("grad"), ["deg", "rad"]);
         assert_eq!(meant("Grad/s"), ["deg/s", "rad/s"]);
-        assert!(meant("rpm").is_empty() && conversion("RPM").is_some());
+        assert_eq!(meant("RPM"), ["rev/min"]);
+        assert!(meant("gon").is_empty() && conversion("Gon").is_some());
     }
 }

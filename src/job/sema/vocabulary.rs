@@ -12,6 +12,7 @@ use super::profile::{data, drawing};
 pub(crate) use super::range::Range;
 use super::range::{AXIS_ANGLE, COORDINATE, QUATERNION_PART, SIGNAL, TABLE_NUMBER, WAIT};
 use super::{Part, blade, cell, frame, functions, machine, names, stock, units};
+use crate::BladeKind;
 use vcutc_backend_api::ir::MachineKind;
 pub use vcutc_diagnostics::schema::field::{BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Takes};
 use vcutc_syntax::ast::Block;
@@ -31,19 +32,38 @@ pub fn items(operations: Operations) -> impl Iterator<Item = (&'static str, Stri
 pub fn head_words(first: &str, operations: Operations) -> Vec<&'static str> {
     match first {
         "machine" => heads::MACHINES.iter().map(|(word, _)| *word).collect(),
+        "blade" => BladeKind::WORDS.iter().map(|(word, _)| *word).collect(),
         first => heads::second_words(first, operations),
     }
 }
 
-/// The fields of the block whose head begins with these words.
-pub fn block(first: &str, second: Option<&str>, operations: Operations) -> Option<&'static BlockSpec> {
-    match first {
-        "stock" => Some(&stock::SPEC),
-        "blade" => Some(&blade::SPEC),
-        "machine" => Some(&machine::SPEC),
-        "cell" => Some(&cell::SPEC),
-        first => Some(operations.find(first, second)?.spec()),
+/// The fields of the block whose head consists of these words, with the equals sign as one of them.
+pub fn block(head: &[&str], operations: Operations) -> Option<&'static BlockSpec> {
+    match head {
+        ["stock", ..] => Some(&stock::SPEC),
+        ["blade", ..] => Some(blade::spec(blade_kind(head)?)),
+        ["machine", ..] => Some(&machine::SPEC),
+        ["cell", ..] => Some(&cell::SPEC),
+        [first, rest @ ..] => Some(operations.find(first, rest.first().copied())?.spec()),
+        [] => None,
     }
+}
+
+/// What the block of a disc or a crusher is called in the reference, by the words of its head; none for other blocks.
+pub fn kind_of_blade(head: &[&str]) -> Option<&'static str> {
+    match (head.first(), blade_kind(head)?) {
+        (Some(&"blade"), kind @ (BladeKind::Disc | BladeKind::Crusher)) => Some(kind.word()),
+        (_, BladeKind::Straight | BladeKind::Disc | BladeKind::Crusher) => None,
+    }
+}
+
+/// The kind of blade that a head of a blade's block means: straight where it states none, and none for an unknown word.
+fn blade_kind(head: &[&str]) -> Option<BladeKind> {
+    let ["blade", _, "=", kind, ..] = head else {
+        return Some(BladeKind::Straight);
+    };
+    let mut known = BladeKind::WORDS.iter();
+    known.find(|(word, _)| word == kind).map(|(_, kind)| *kind)
 }
 
 /// The fields after a file of a profile: points, airfoils and drawings.

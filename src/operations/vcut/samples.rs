@@ -11,7 +11,7 @@ use vcutc_backend_api::ir::{Edges, Stock};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_geometry::curve::Point2;
-use vcutc_job::{Auto, Blade, CheckedJob, Direction, Order, Part, PlannedJob, Setup, Sourced};
+use vcutc_job::{Auto, CheckedJob, Direction, Order, Part, PlannedJob, Setup, Sourced, StraightBlade};
 
 /// A value that the job gives, at no place.
 pub fn given<T>(value: T) -> Sourced<T> {
@@ -45,7 +45,7 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
         operations: vec![Box::new(RoughVcut {
             setup: Setup {
                 head_span: span,
-                blade: Blade {
+                blade: StraightBlade {
                     name: "dagger".to_owned(),
                     span,
                     cutting_length: mm(10.0),

@@ -47,7 +47,7 @@ fn hovering_tells_values_units_and_formulas() {
         (
             "blade = da|gger",
             vec![
-                "`dagger`, a blade",
+                "`dagger`, a straight blade",
                 "cutting_length = 20 mm",
                 "Defined in /shop/blades.vcut",
             ],
@@ -130,7 +130,10 @@ fn units_words_names_and_machines_that_fit_are_offered() {
         labels(&mut editor, "clearance = 10 |mm"),
         ["cm", "ft", "in", "m", "mm", "um"]
     );
-    assert_eq!(labels(&mut editor, "reorient = 90 |deg/s"), ["deg/s", "rad/s"]);
+    assert_eq!(
+        labels(&mut editor, "reorient = 90 |deg/s"),
+        ["deg/s", "rad/s", "rev/min", "rev/s"]
+    );
     assert_eq!(
         labels(&mut editor, "residual = |discard"),
         ["auto", "discard", "lift", "mixed", "shift"]
@@ -162,6 +165,14 @@ fn units_words_names_and_machines_that_fit_are_offered() {
     );
     editor.replace(PATH, "machine arm = robot", "machine arm = ro");
     assert_eq!(labels(&mut editor, "machine arm = ro|"), ["five_axis", "robot"]);
+    editor.type_in(PATH, end..end, "blade wheel = di\n");
+    assert_eq!(
+        labels(&mut editor, "blade wheel = di|"),
+        ["crusher", "disc", "straight"]
+    );
+    editor.replace(PATH, "blade wheel = di", "blade wheel = disc { radius = 25 mm }");
+    let fields = labels(&mut editor, "disc { |radius");
+    assert!(fields.contains(&"spin".to_owned()) && !fields.contains(&"edges".to_owned()));
 }
 
 #[test]

@@ -47,7 +47,7 @@ impl Tried {
 }
 
 const LENGTHS: [&str; 6] = ["cm", "ft", "in", "m", "mm", "um"];
-const ANGLES: [&str; 2] = ["deg", "rad"];
+const ANGLES: [&str; 3] = ["deg", "rad", "rev"];
 const TIMES: [&str; 4] = ["h", "min", "ms", "s"];
 const SPEEDS: [&str; 6] = ["in/min", "in/s", "m/min", "m/s", "mm/min", "mm/s"];
 
@@ -151,7 +151,10 @@ fn units_fit_the_dimension_of_their_place() {
         ("rough vcut { layer = 4 | }", &LENGTHS),
         ("rough vcut { overlap = 4 | }", &["%"]),
         ("rough vcut { feed { cut = 12 | } }", &SPEEDS),
-        ("rough vcut { feed { reorient = 12 | } }", &["deg/s", "rad/s"]),
+        (
+            "rough vcut { feed { reorient = 12 | } }",
+            &["deg/s", "rad/s", "rev/min", "rev/s"],
+        ),
         ("rough vcut { limits { swing <= 4 | } }", &ANGLES),
         ("rough vcut { limits { layer >= 4 | } }", &LENGTHS),
         ("rough vcut { limits { time <= 4 | } }", &TIMES),
@@ -182,7 +185,7 @@ fn units_fit_the_dimension_of_their_place() {
         "rough vcut { layer = (2 |) / 3 }",
         "let any = 3 |",
     ] {
-        assert_eq!(tried.labels(piece).len(), 15, "{piece}");
+        assert_eq!(tried.labels(piece).len(), 16, "{piece}");
     }
     tried.process.end();
 }
@@ -193,7 +196,8 @@ fn values_fit_the_dimension_of_their_place() {
     let swing = tried.labels("rough vcut { swing = | }");
     assert_eq!(&swing[..2], ["auto", "wide"]);
     let rest = [
-        "0 deg", "0 rad", "abs", "acos", "asin", "atan", "atan2", "clamp", "max", "min", "share", "sqrt",
+        "0 deg", "0 rad", "0 rev", "abs", "acos", "asin", "atan", "atan2", "clamp", "max", "min", "share",
+        "sqrt",
     ];
     assert_eq!(&swing[2..], rest);
     let layer = tried.labels("rough vcut { layer = | }");

@@ -2,7 +2,7 @@
 
 use crate::sema::fields::Fields;
 use crate::sema::quantity::{Measured, mm};
-use crate::sema::range::SIZE;
+use crate::sema::range::{DISTANCE, Range, SIZE};
 use crate::sema::read::{Reader, sourced};
 use crate::sema::report::{Checked, Reported};
 use crate::{Body, BodyStage, Sourced};
@@ -11,22 +11,50 @@ use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::{Expr, Point};
 
+/// What a body must not hide.
+#[derive(Clone, Copy)]
+pub(super) enum Edge {
+    /// An edge that reaches up to this height.
+    UpTo(Sourced<Length>),
+    /// The rim of a disc.
+    Rim {
+        radius: Sourced<Length>,
+        thickness: Sourced<Length>,
+    },
+}
+
 /// The body, if it is given. An edge that is at fault has no say.
 pub(super) fn check(
     fields: &Fields<'_>,
-    edge: Option<Sourced<Length>>,
+    edge: Option<Edge>,
     reader: &mut Reader<'_>,
 ) -> Checked<Option<Body>> {
-    let Some((points, span)) = fields.points("body")? else {
-        return Ok(None);
+    match fields.points("body")? {
+        Some(row) => stages(row, edge, reader).map(Some),
+        None => Ok(None),
+    }
+}
+
+/// The body, which must be given.
+pub(super) fn required(fields: &Fields<'_>, edge: Option<Edge>, reader: &mut Reader<'_>) -> Checked<Body> {
+    let row = fields.required_points("body", reader.reports)?;
+    stages(row, edge, reader)
+}
+
+fn stages((points, span): (&[Point], Span), edge: Option<Edge>, reader: &mut Reader<'_>) -> Checked<Body> {
+    // The body of a disc may begin in the plane of its edge.
+    let heights = match edge {
+        Some(Edge::Rim { .. }) => DISTANCE,
+        Some(Edge::UpTo(_)) | None => SIZE,
     };
     let mut fault: Option<Reported> = None;
     let mut stages: Vec<BodyStage> = Vec::with_capacity(points.len());
     let mut below: Option<Span> = None;
     for written in points {
-        match stage(written, reader) {
+        match stage(written, heights, reader) {
             Ok(stage) => {
-                let found = beside_edge(stage, written, edge).or_else(|| {
+                let hidden = edge.and_then(|edge| edge.hidden_by(stage, written));
+                let found = hidden.or_else(|| {
                     let (before, place) = (stages.last()?, below?);
                     not_above(*before, place, stage, written)
                 });
@@ -41,29 +69,68 @@ pub(super) fn check(
     }
     match fault {
         Some(reported) => Err(reported),
-        None => Ok(Some(Body {
+        None => Ok(Body {
             span: below.map_or(span, |last| span.to(last)),
             stages,
-        })),
+        }),
     }
 }
 
-fn stage(written: &Point, reader: &mut Reader<'_>) -> Checked<BodyStage> {
-    let mut length = |expr: &Spanned<Expr>, taker: &str, typical: &str| {
-        let value = reader.within(expr, SIZE, taker, Some(typical))?;
+fn stage(written: &Point, heights: Range, reader: &mut Reader<'_>) -> Checked<BodyStage> {
+    let mut length = |expr: &Spanned<Expr>, range: Range, taker: &str, typical: &str| {
+        let value = reader.within(expr, range, taker, Some(typical))?;
         Ok(sourced(Length::from_base(value), expr.span))
     };
-    let from = length(&written.x, "the height of a stage", "40 mm");
-    let radius = length(&written.z, "the radius of a stage", "8 mm");
+    let from = length(&written.x, heights, "the height of a stage", "40 mm");
+    let radius = length(&written.z, SIZE, "the radius of a stage", "8 mm");
     Ok(BodyStage {
         from: from?,
         radius: radius?,
     })
 }
 
-/// A stage that would hide part of the edge.
-fn beside_edge(stage: BodyStage, written: &Point, edge: Option<Sourced<Length>>) -> Option<Diagnostic> {
-    let edge = edge.filter(|edge| stage.from.value < edge.value)?;
+impl Edge {
+    /// A stage that would hide part of the edge.
+    fn hidden_by(self, stage: BodyStage, written: &Point) -> Option<Diagnostic> {
+        match self {
+            Self::UpTo(height) => beside_edge(stage, written, height),
+            Self::Rim { radius, thickness } => over_rim(stage, written, radius, thickness),
+        }
+    }
+}
+
+/// A stage beside a disc that is as wide as its edge: the edge would not stand out.
+fn over_rim(
+    stage: BodyStage,
+    written: &Point,
+    edge: Sourced<Length>,
+    thickness: Sourced<Length>,
+) -> Option<Diagnostic> {
+    if stage.from.value >= thickness.value || stage.radius.value < edge.value {
+        return None;
+    }
+    let (radius, rim) = (mm(stage.radius.value.to_mm()), mm(edge.value.to_mm()));
+    let diagnostic = Diagnostic::new(
+        Code::OutOfRange,
+        format!("the body has a radius of {radius} beside the disc, whose edge has {rim}"),
+        written.z.span,
+        "would hide the edge",
+    );
+    let diagnostic = match edge.span {
+        Some(span) => diagnostic.and(span, "the radius of the edge"),
+        None => diagnostic,
+    };
+    let above = mm(thickness.value.to_mm());
+    Some(diagnostic.help(format!(
+        "give a radius below {rim}, or let the stage begin at {above} or above"
+    )))
+}
+
+/// A stage that would hide part of an edge up to a height.
+fn beside_edge(stage: BodyStage, written: &Point, edge: Sourced<Length>) -> Option<Diagnostic> {
+    if stage.from.value >= edge.value {
+        return None;
+    }
     let (from, length) = (mm(stage.from.value.to_mm()), mm(edge.value.to_mm()));
     let diagnostic = Diagnostic::new(
         Code::OutOfRange,
