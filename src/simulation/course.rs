@@ -282,12 +282,12 @@ pub(super) mod samples {
             // In the plane: (0, 0), (w, 0), and the point between them at (p, q) with q > 0.
             let (w, p, q) = (dot(minus(b, a), u), dot(off, u), dot(off, v));
             let (cx, cy) = (w / 2.0, (p * p + q * q - w * p) / (2.0 * q));
-            let radius = cx.hypot(cy);
-            let start = (-cy).atan2(-cx);
+            let radius = libm::hypot(cx, cy);
+            let start = libm::atan2(-cy, -cx);
             // Clockwise, over the side on which q is greater than 0.
-            let sweep = (start - (-cy).atan2(w - cx)).rem_euclid(core::f64::consts::TAU);
+            let sweep = (start - libm::atan2(-cy, w - cx)).rem_euclid(core::f64::consts::TAU);
             let angle = start - sweep * share;
-            let [x, y] = [cx + radius * angle.cos(), cy + radius * angle.sin()];
+            let [x, y] = [cx + radius * libm::cos(angle), cy + radius * libm::sin(angle)];
             core::array::from_fn(|i| a[i] + u[i] * x + v[i] * y)
         }
 
@@ -309,7 +309,7 @@ pub(super) mod samples {
             ];
             let down = [0.0, 1.0, 0.0, 0.0];
             let [w, x, y, z] = turns.into_iter().rev().fold(down, |held, [half, x, y, z]| {
-                let (sine, cosine) = half.sin_cos();
+                let (sine, cosine) = libm::sincos(half);
                 product([cosine, sine * x, sine * y, sine * z], held)
             });
             Orientation::from_quaternion(w, x, y, z).unwrap()

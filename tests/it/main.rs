@@ -25,6 +25,8 @@ mod codes;
 mod commit;
 #[cfg(feature = "krl")]
 mod convert;
+#[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
+mod curve;
 #[cfg(feature = "krl")]
 mod examples;
 #[cfg(feature = "krl")]

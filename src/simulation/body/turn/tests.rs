@@ -47,7 +47,7 @@ proptest! {
             let tip = sample.tip(share);
             for turned in (0..24_u32).map(|i| f64::from(15 * i).to_radians()) {
                 for up in [0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0] {
-                    let skin = [radius * turned.cos(), radius * turned.sin(), -(from + up)];
+                    let skin = [radius * libm::cos(turned), radius * libm::sin(turned), -(from + up)];
                     let off = sample.seen(share, skin);
                     let [x, y, z]: [f64; 3] = core::array::from_fn(|i| tip[i] + off[i]);
                     if (0.0..=100.0).contains(&y) {

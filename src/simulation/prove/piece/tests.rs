@@ -37,7 +37,7 @@ fn height(line: &[Point2], x: f64) -> Option<f64> {
 fn skin(sample: &Sample, blade: &Blade, share: f64) -> impl Iterator<Item = [f64; 3]> {
     let tip = sample.tip(share);
     let (length, half) = (blade.cutting_length.to_mm(), blade.thickness.to_mm() / 2.0);
-    let (sine, cosine) = blade.half_apex.to_rad().sin_cos();
+    let (sine, cosine) = libm::sincos(blade.half_apex.to_rad());
     let sample = *sample;
     (0..=12_u32).flat_map(move |up| {
         let up = length * f64::from(up) / 12.0;
@@ -90,7 +90,7 @@ proptest! {
         let blade = blade(cutting_length, 1.0);
         let used = Piece::new(sample.course(Length::ZERO), &blade, STOCK).edge_used(&mut surface);
         let corners: Vec<Point2> = surface.corners().collect();
-        let (sine, cosine) = blade.half_apex.to_rad().sin_cos();
+        let (sine, cosine) = libm::sincos(blade.half_apex.to_rad());
         for share in (0..=300_u32).map(|i| f64::from(i) / 300.0) {
             let tip = sample.tip(share);
             for edge in [sine, -sine].map(|aside| sample.seen(share, [aside, 0.0, -cosine])) {
@@ -115,7 +115,7 @@ fn an_upright_blade_turns_on_a_flat_part() {
     let mut surface = Surface::untouched(STOCK);
     let used = piece.edge_used(&mut surface);
     // 40 mm of height, along edges 7 deg off the upright.
-    let expected = 40.0 / 7.0_f64.to_radians().cos();
+    let expected = 40.0 / libm::cos(7.0_f64.to_radians());
     assert!((used - expected).abs() < 1e-9, "{used} {expected}");
     let lower = Sample::level_quarter(19.5);
     let entry = Piece::new(lower.course(Length::mm(0.25)), &blade(50.0, 1.0), STOCK).entry(&part);
