@@ -70,7 +70,7 @@ mod abreast;
 mod arm;
 mod arm_course;
 mod around;
-mod axes;
+mod axis_moves;
 mod bounds;
 mod chain;
 mod course;
@@ -85,7 +85,7 @@ mod types;
 mod wide;
 mod worst;
 
-pub use axes::{AxesBreach, AxesViolation, Block, are_axes_refuted, prove_axes};
+pub use axis_moves::{AxesBreach, AxesViolation, Block, are_axes_refuted, prove_axes};
 pub use joint::{Through, prove_through};
 pub use refuted::{Refuted, refuted};
 pub use types::{Breach, Clearance, Course, Proof, Singularity, Violation};

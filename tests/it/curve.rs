@@ -14,9 +14,9 @@ use vcutc::geometry::profile::Profile;
 use vcutc::job::description::{ParameterRow, ParameterTable, length_text};
 use vcutc::job::operation::{Ground, Laid, Operation, Trials, Unplanned, WorksThere};
 use vcutc::job::planned::{Estimate, PlannedTip, TipOrigin};
+use vcutc::job::sema::field_ranges::SIZE;
 use vcutc::job::sema::fields::{BlockSpec, Fields, Inner, value};
 use vcutc::job::sema::kind::{Kind, Operations};
-use vcutc::job::sema::range::SIZE;
 use vcutc::job::sema::read::Reader;
 use vcutc::job::sema::report::Checked;
 use vcutc::job::sema::session::Session;
@@ -331,8 +331,11 @@ fn compiled(depth: &str, machine: &str) -> Outcome {
     driver::compile(request, &mut |_| {}).unwrap()
 }
 
+/// A text, and what takes its place.
+type Edit = (&'static str, &'static str);
+
 /// A machine for each target, what it writes for an arc, and edits that change the chain.
-const CELLS: [(&str, &str, &str, [(&str, &str); 2]); 3] = [
+const CELLS: [(&str, &str, &str, [Edit; 2]); 3] = [
     (
         "large_cell",
         "krl",

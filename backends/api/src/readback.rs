@@ -11,7 +11,7 @@
 //!   already at the beginning of a part.
 //! * [`normalized()`] is a statement without its layout: two statements with the same normalized text do the same.
 
-mod compare;
+mod comparator;
 mod normalize;
 mod replay;
 mod resolution;
@@ -19,7 +19,7 @@ mod resolution;
 #[cfg(feature = "testkit")]
 mod tests;
 
-pub use compare::{Comparator, Mismatch, Moment, rotary_way};
+pub use comparator::{Comparator, Mismatch, Moment, rotary_way};
 pub use normalize::normalized;
 pub use replay::{Divergence, DivergenceKind, Replay};
 pub use resolution::COARSEST;

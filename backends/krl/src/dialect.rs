@@ -2,7 +2,7 @@
 
 use crate::attitude::{Attitudes, push_angles};
 use crate::configuration::StatusAndTurn;
-use crate::keywords::{CHANGE, HOME};
+use crate::names::{CHANGE, HOME};
 use crate::options::Settings;
 use crate::syntax::Planner;
 use crate::turns::{Rates, Turns, rounded_down};

@@ -2,7 +2,7 @@
 
 use crate::attitude::push_angles;
 use crate::dialect::{Arcs, KrlDialect};
-use crate::keywords::{CHANGE, HOME, part_name};
+use crate::names::{CHANGE, HOME, part_name};
 use crate::options::PartNames;
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;

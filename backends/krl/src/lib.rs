@@ -79,8 +79,8 @@ mod configuration;
 mod dialect;
 mod files;
 pub mod interpreter;
-mod keywords;
 mod limits;
+mod names;
 mod options;
 mod profile;
 pub mod read;
@@ -89,7 +89,7 @@ mod turns;
 
 use crate::attitude::Attitudes;
 use crate::dialect::{Arcs, KrlDialect, Said};
-use crate::keywords::{MOST_PARTS, main_name};
+use crate::names::{MOST_PARTS, main_name};
 use crate::options::{OPTIONS, Settings};
 use crate::read::KrlReader;
 use crate::turns::Turns;

@@ -5,7 +5,7 @@
 //! assign, declare and wait; all else is refused, and so is every line that names the output of the generator or the
 //! program's home, because the program would no longer be what was proven.
 
-use crate::keywords::HOME;
+use crate::names::HOME;
 use crate::syntax::{Phrase, Statement, is_same_name, statements};
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::ir::Cell;

@@ -1,7 +1,7 @@
 //! Changes of the blade: the call of the cell's routine, or a stop for a person. The moves after it name another tool.
 
 use crate::dialect::RapidDialect;
-use crate::keywords::is_name;
+use crate::names::is_name;
 use crate::options::{CHANGE_ROUTINE, Settings, TOOL_NAME};
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::findings::Findings;

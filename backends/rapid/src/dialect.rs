@@ -1,6 +1,6 @@
 //! How a program is put in RAPID.
 
-use crate::keywords::{AXES_SPEED, BLEND, CHANGE, HOME, SPEED, ZONE};
+use crate::names::{AXES_SPEED, BLEND, CHANGE, HOME, SPEED, ZONE};
 use crate::options::Settings;
 use crate::orient::Quaternion;
 use crate::speeds::Speeds;

@@ -1,10 +1,10 @@
 //! Modules: the main one with the data and the entry of the task, those of the parts that it calls, and the list of them.
 
 use crate::dialect::{Arcs, NO_EXTERNAL_AXES, RapidDialect};
-use crate::keywords::{
+use crate::limits::first_passed;
+use crate::names::{
     AXES_SPEED, BLEND, CHANGE, FEED, HOME, MAIN, RATE, SPEED, ZONE, part_module, part_routine,
 };
-use crate::limits::first_passed;
 use crate::options::zone_members;
 use crate::orient::Quaternion;
 use crate::speeds::{EXTERNAL, RATE_OF_NOTHING, named};

@@ -64,8 +64,8 @@
 mod change;
 mod dialect;
 mod files;
-mod keywords;
 mod limits;
+mod names;
 mod options;
 mod orient;
 mod profile;
@@ -73,7 +73,7 @@ mod read;
 mod speeds;
 
 use crate::dialect::RapidDialect;
-use crate::keywords::{MOST_PARTS, main_name};
+use crate::names::{MOST_PARTS, main_name};
 use crate::options::{OPTIONS, Settings};
 use crate::read::RapidReader;
 use vcutc_backend_api::arm::foreign;

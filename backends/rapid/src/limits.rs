@@ -3,7 +3,7 @@
 //! Sources: [A-KER] ABB 3HAC050946, RAPID kernel; [A-INS] ABB, RAPID instructions, functions and data types.
 
 use crate::change;
-use crate::keywords::{
+use crate::names::{
     AXES_SPEED, BLEND, CHANGE, FEED, HOME, MAIN, RATE, SPEED, ZONE, is_name, main_name, part_module,
     part_routine,
 };

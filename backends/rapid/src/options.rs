@@ -3,7 +3,7 @@
 //! [`OPTIONS`] is what the compiler checks a job against; [`Settings`] is the same as types, so that the rest of the crate
 //! never asks for a key by its name.
 
-use crate::keywords::{TOOL, WORK_OBJECT};
+use crate::names::{TOOL, WORK_OBJECT};
 use vcutc_backend_api::backend::{OptionSpec, Options};
 use vcutc_backend_api::ir::{Cell, PlacedFrame, ToolId};
 use vcutc_backend_api::number::FixedDecimal;

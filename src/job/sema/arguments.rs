@@ -1,8 +1,8 @@
 //! Calls that describe a thing of a machine, such as `frame(x = 0 mm, ...)` or `output(12)`.
 
 use super::decimal_comma;
+use super::field_ranges::Range;
 use super::names::did_you_mean;
-use super::range::Range;
 use super::read::{Reader, looks_like};
 use super::report::{Checked, Reports};
 use vcutc_diagnostics::source::{Span, Spanned};

@@ -2,8 +2,8 @@
 //! that the controller keeps too.
 
 use super::arguments::{Arguments, Parameter, calls};
+use super::field_ranges::{COORDINATE, FRAME_ANGLE, QUATERNION_PART, TABLE_NUMBER};
 use super::quantity::number;
-use super::range::{COORDINATE, FRAME_ANGLE, QUATERNION_PART, TABLE_NUMBER};
 use super::read::{Reader, looks_like};
 use super::report::Checked;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};

@@ -2,7 +2,7 @@
 
 use super::arguments::{Parameter, calls};
 use super::dimension::Dimension;
-use super::range::{AXIS_ANGLE, COORDINATE};
+use super::field_ranges::{AXIS_ANGLE, COORDINATE};
 use super::read::Reader;
 use super::report::Checked;
 use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, MOST_AXES, MachineKind};

@@ -2,13 +2,13 @@
 
 use super::arguments::{Parameter, calls};
 use super::eval::Scope;
+use super::field_ranges::{MASS, SIGNAL, WAIT};
 use super::fields::{BlockSpec, Fields, Inner, Place, Takes, block, value};
 use super::frame::{self, FRAME, coordinate, table_number};
 use super::heads::Head;
 use super::home::{self, JOINTS};
 use super::model;
 use super::options;
-use super::range::{MASS, SIGNAL, WAIT};
 use super::read::{Reader, default, sourced};
 use super::report::Checked;
 use super::session::{Described, Session};

@@ -2,9 +2,9 @@
 
 use super::dimension::Dimension;
 use super::eval::Scope;
+use super::field_ranges::Range;
 use super::fields::Fields;
 use super::quantity::{Measured, Quantity, number};
-use super::range::Range;
 use super::report::{Checked, Reports};
 use crate::{Auto, Sourced};
 use vcutc_diagnostics::schema::faults;

@@ -2,9 +2,9 @@
 //!
 //! An operation names them in its own table of fields, in the order in which people write them, and reads them here.
 
+use super::field_ranges::{DISTANCE, RAKE, SIZE, SPEED, TURNING_RATE};
 use super::fields::{BlockSpec, FieldSpec, Fields, Inner, Place, Takes, block, head_span, value};
 use super::names::Thing;
-use super::range::{DISTANCE, RAKE, SIZE, SPEED, TURNING_RATE};
 use super::read::{Reader, default, looks_like, words_of};
 use super::report::Checked;
 use super::session::Session;

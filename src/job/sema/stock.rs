@@ -2,8 +2,8 @@
 
 use super::decimal_comma;
 use super::eval::Scope;
+use super::field_ranges::SIZE;
 use super::fields::{BlockSpec, Fields, Inner, Place, value};
-use super::range::SIZE;
 use super::read::{Reader, looks_like};
 use super::report::{Checked, Reported};
 use super::session::Session;

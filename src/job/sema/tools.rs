@@ -2,12 +2,12 @@
 //! and how they are changed: `change { ... }`.
 
 use super::eval::Scope;
+use super::field_ranges::{TABLE_NUMBER, WAIT};
 use super::fields::{BlockSpec, Fields, Inner, NamedBlock, Takes, value};
 use super::frame::{self, FRAME};
 use super::home::{self, JOINTS};
 use super::machine::{LOAD, LOADS, load, optional, required_frame};
 use super::names::Thing;
-use super::range::{TABLE_NUMBER, WAIT};
 use super::read::{Reader, words_of};
 use super::report::Checked;
 use super::session::Session;

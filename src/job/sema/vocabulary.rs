@@ -5,12 +5,12 @@
 use super::arguments::Parameter;
 pub use super::dimension::Dimension;
 pub use super::eval::walk;
+pub(crate) use super::field_ranges::Range;
+use super::field_ranges::{AXIS_ANGLE, COORDINATE, QUATERNION_PART, SIGNAL, TABLE_NUMBER, WAIT};
 pub use super::functions::Signature;
 use super::heads::{self, Kind};
 use super::kind::Operations;
 use super::profile::{data, drawing};
-pub(crate) use super::range::Range;
-use super::range::{AXIS_ANGLE, COORDINATE, QUATERNION_PART, SIGNAL, TABLE_NUMBER, WAIT};
 use super::{Part, blade, cell, frame, functions, machine, names, stock, units};
 use crate::BladeKind;
 use vcutc_backend_api::ir::MachineKind;

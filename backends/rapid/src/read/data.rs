@@ -280,7 +280,7 @@ fn whole(number: f64) -> Option<i32> {
 
 /// `v5` to `v7000` [A-INS].
 fn predefined_speed(name: &str) -> Option<SpeedData> {
-    let is_known = crate::keywords::RESERVED.contains(&name);
+    let is_known = crate::names::RESERVED.contains(&name);
     let tip: u32 = name.strip_prefix('V').filter(|_| is_known)?.parse().ok()?;
     Some(SpeedData {
         tip: f64::from(tip),

@@ -5,7 +5,7 @@ use super::instruction::Machine;
 use super::list::{Entry, entries};
 use super::piece::{Piece, PieceKind, Pieces, pieces};
 use super::sentence::{Sentence, Value, sentence};
-use crate::keywords::MAIN;
+use crate::names::MAIN;
 use core::ops::Range;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::ir::{Load, Registered, Tool, ToolId};

@@ -1,8 +1,8 @@
 //! `body (height, radius) ...`: the body of a blade above its edge.
 
+use crate::sema::field_ranges::{DISTANCE, Range, SIZE};
 use crate::sema::fields::Fields;
 use crate::sema::quantity::{Measured, mm};
-use crate::sema::range::{DISTANCE, Range, SIZE};
 use crate::sema::read::{Reader, sourced};
 use crate::sema::report::{Checked, Reported};
 use crate::{Body, BodyStage, Sourced};

@@ -1,8 +1,8 @@
 //! The tables of fields of the kinds of blades.
 
 use crate::BladeKind;
+use crate::sema::field_ranges::{DISTANCE, HALF_APEX, RAMP, SIZE, SPIN};
 use crate::sema::fields::{BlockSpec, Inner, Takes, points, value};
-use crate::sema::range::{DISTANCE, HALF_APEX, RAMP, SIZE, SPIN};
 use crate::sema::read::words_of;
 use vcutc_backend_api::ir::Edges;
 

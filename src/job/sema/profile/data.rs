@@ -5,9 +5,9 @@
 
 use super::repairs;
 use crate::sema::eval::Scope;
+use crate::sema::field_ranges::{COORDINATE, SCALE, SIZE};
 use crate::sema::fields::{BlockSpec, Fields, Inner, Place, Takes, value};
 use crate::sema::files::{Relative, not_loaded, text_of};
-use crate::sema::range::{COORDINATE, SCALE, SIZE};
 use crate::sema::read::{Reader, words_of};
 use crate::sema::report::Checked;
 use crate::sema::session::Session;

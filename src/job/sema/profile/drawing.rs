@@ -8,9 +8,9 @@ mod unread;
 
 use super::data::{as_text, bad_data, bytes_of, place_of};
 use crate::sema::eval::Scope;
+use crate::sema::field_ranges::{COORDINATE, JOINING, SCALE};
 use crate::sema::fields::{BlockSpec, FieldSpec, Fields, Inner, Takes, value};
 use crate::sema::part::{Part, Section};
-use crate::sema::range::{COORDINATE, JOINING, SCALE};
 use crate::sema::read::{Reader, words_of};
 use crate::sema::report::Checked;
 use crate::sema::session::Session;
