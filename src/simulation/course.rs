@@ -223,10 +223,27 @@ pub(super) mod samples {
     use super::Course;
     use proptest::prelude::*;
     use vcutc_backend_api::geometry::{Orientation, Point3};
-    use vcutc_backend_api::ir::OrientationId;
+    use vcutc_backend_api::ir::{OrientationId, Stock};
     use vcutc_backend_api::segments::LinearSegment;
     use vcutc_backend_api::state::TipPose;
     use vcutc_backend_api::units::{Angle, Length};
+    use vcutc_geometry::curve::Point2;
+
+    /// Height of a polyline at x; none beside it.
+    pub(crate) fn height(line: &[Point2], x: f64) -> Option<f64> {
+        line.windows(2).find_map(|pair| {
+            (pair[0].x..=pair[1].x)
+                .contains(&x)
+                .then(|| pair[0].z + (pair[1].z - pair[0].z) * (x - pair[0].x) / (pair[1].x - pair[0].x))
+        })
+    }
+
+    /// The stock under the courses.
+    pub(crate) const STOCK: Stock = Stock {
+        width: Length::mm(100.0),
+        depth: Length::mm(100.0),
+        height: Length::mm(60.0),
+    };
 
     /// A course, and where its tip and its blade are at a share of it, computed apart.
     #[derive(Clone, Copy, Debug)]

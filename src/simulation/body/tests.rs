@@ -3,6 +3,7 @@
 use super::shadow::Shadow;
 use super::stage::{Axis, Cylinder};
 use crate::course::Way;
+use crate::course::samples::height;
 use proptest::prelude::*;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{BodyStage, Stock};
@@ -145,14 +146,6 @@ fn skin(from: f64, to: f64, radius: f64, Axis([x, y, z]): Axis) -> Vec<[f64; 3]>
         }
     }
     points
-}
-
-fn height(line: &[Point2], x: f64) -> Option<f64> {
-    line.windows(2).find_map(|pair| {
-        (pair[0].x..=pair[1].x)
-            .contains(&x)
-            .then(|| pair[0].z + (pair[1].z - pair[0].z) * (x - pair[0].x) / (pair[1].x - pair[0].x))
-    })
 }
 
 proptest! {

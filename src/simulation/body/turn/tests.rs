@@ -3,27 +3,12 @@
 use super::entry;
 use crate::body::section::{Ceiling, Section};
 use crate::body::stage::Cylinder;
-use crate::course::samples::courses;
+use crate::course::samples::{STOCK, courses, height};
 use crate::surface::{Surface, Vee};
 use proptest::prelude::*;
-use vcutc_backend_api::ir::{BodyStage, Stock};
+use vcutc_backend_api::ir::BodyStage;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
-
-const STOCK: Stock = Stock {
-    width: Length::mm(100.0),
-    depth: Length::mm(100.0),
-    height: Length::mm(60.0),
-};
-
-/// The upper side of all material at x; walls there may be as high as either side.
-fn height(line: &[Point2], x: f64) -> Option<f64> {
-    line.windows(2).find_map(|pair| {
-        (pair[0].x..=pair[1].x)
-            .contains(&x)
-            .then(|| pair[0].z + (pair[1].z - pair[0].z) * (x - pair[0].x) / (pair[1].x - pair[0].x))
-    })
-}
 
 proptest! {
     #[test]

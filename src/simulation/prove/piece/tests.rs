@@ -1,18 +1,12 @@
 //! Pieces of chains against points of the blade sampled in space.
 
 use super::Piece;
-use crate::course::samples::{Sample, courses};
+use crate::course::samples::{STOCK, Sample, courses, height};
 use crate::surface::{Surface, Vee};
 use proptest::prelude::*;
-use vcutc_backend_api::ir::{Blade, Edges, Stock};
+use vcutc_backend_api::ir::{Blade, Edges};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::curve::Point2;
-
-const STOCK: Stock = Stock {
-    width: Length::mm(100.0),
-    depth: Length::mm(100.0),
-    height: Length::mm(60.0),
-};
 
 fn blade(cutting_length: f64, thickness: f64) -> Blade {
     Blade {
@@ -23,14 +17,6 @@ fn blade(cutting_length: f64, thickness: f64) -> Blade {
         edges: Edges::Double,
         body: None,
     }
-}
-
-fn height(line: &[Point2], x: f64) -> Option<f64> {
-    line.windows(2).find_map(|pair| {
-        (pair[0].x..=pair[1].x)
-            .contains(&x)
-            .then(|| pair[0].z + (pair[1].z - pair[0].z) * (x - pair[0].x) / (pair[1].x - pair[0].x))
-    })
 }
 
 /// Points of both faces of the blade at a share of a course, in space.
