@@ -10,6 +10,7 @@ use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{Action, Program};
 use vcutc_backend_api::segments::{LinearSegment, Segment};
 use vcutc_backend_api::units::Length;
+use vcutc_backend_api::vector::length;
 
 /// A straight way of the tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -211,10 +212,6 @@ impl Course {
 
 fn point([x, y, z]: [f64; 3]) -> Point3 {
     Point3::new(x, y, z)
-}
-
-fn length([x, y, z]: [f64; 3]) -> f64 {
-    (x * x + y * y + z * z).sqrt()
 }
 
 /// Courses for tests.

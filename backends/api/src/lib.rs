@@ -67,6 +67,6 @@ pub mod swivel;
 #[cfg(feature = "testkit")]
 pub mod testkit;
 pub mod units;
-mod vector;
+pub mod vector;
 pub mod verify;
 pub mod wrist;

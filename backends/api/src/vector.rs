@@ -1,10 +1,14 @@
 //! Vectors of three numbers.
 
-pub(crate) fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+/// The sum of two vectors.
+#[must_use]
+pub fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
-pub(crate) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+/// What leads from the second point to the first.
+#[must_use]
+pub fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
@@ -24,6 +28,8 @@ pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-pub(crate) fn length(a: [f64; 3]) -> f64 {
+/// The length of a vector.
+#[must_use]
+pub fn length(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }

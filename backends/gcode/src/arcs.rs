@@ -13,6 +13,7 @@ use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::segments::LinearSegment;
+use vcutc_backend_api::vector::{minus, plus};
 
 /// An arc as it is written, in the frame of the work offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,12 +146,4 @@ fn as_printed(point: [f64; 3], format: FixedDecimal) -> Option<[f64; 3]> {
         *printed = core::str::from_utf8(&text).ok()?.parse().ok()?;
     }
     Some(out)
-}
-
-fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }

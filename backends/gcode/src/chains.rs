@@ -40,7 +40,7 @@ const LOST: &str = "arcs that the decimals of the program cannot hold";
 const STILL: &str = "pieces of a chain that are shorter than the last decimal";
 
 /// The distance as it is printed: rounded down, and less than how far the job rounds corners in the air by a unit where the two are
-/// the same, so that a reader tells one from the other.
+/// the same, so that a reader can distinguish them.
 pub(crate) fn printed_blend(within: Length, settings: &Settings<'_>) -> Length {
     let down = DISTANCE.floored(within.to_mm());
     let is_taken = settings

@@ -39,7 +39,7 @@
 //! default, `\PathFrame`, would turn it relative to the way; for a blade that stands in the plane of its way both are the same turn,
 //! but only the former is timed like that of a line. Where a chain goes on, the zone is as large as the blend: within it of the
 //! joint the robot goes from the one piece to the next, and never farther from both. Waypoints on a chain are passed likewise, and an
-//! arc that has some is told as several, each by the point in its middle.
+//! arc that has some is read as several, each by the point in its middle.
 //!
 //! # Long programs
 //!

@@ -180,11 +180,11 @@ const OF_KIND: &str = "blade NAME = disc { ... }";
 
 fn blade<'a>(at: Span, rest: &[(&'a HeadPart, Span)]) -> Result<Kind<'a>, Box<Diagnostic>> {
     let form = form_of("blade");
-    let (name, behind) = match rest {
-        [(HeadPart::Word(name), span), behind @ ..] => (Spanned::new(name.as_str(), *span), behind),
+    let (name, after) = match rest {
+        [(HeadPart::Word(name), span), after @ ..] => (Spanned::new(name.as_str(), *span), after),
         _ => return Err(incomplete("blade", "a name", at, &form)),
     };
-    let kind = match behind {
+    let kind = match after {
         [] => BladeKind::Straight,
         [(HeadPart::Equals, _), (HeadPart::Word(kind), span)] => blade_kind(kind, *span)?,
         [(HeadPart::Equals, _), (HeadPart::Word(_), _), (_, span), ..] => {
@@ -248,13 +248,13 @@ fn operation<'a>(
 }
 
 fn machine<'a>(at: Span, rest: &[(&'a HeadPart, Span)]) -> Result<Kind<'a>, Box<Diagnostic>> {
-    let (name, behind) = match rest {
-        [(HeadPart::Word(name), span), behind @ ..] => (Spanned::new(name.as_str(), *span), behind),
+    let (name, after) = match rest {
+        [(HeadPart::Word(name), span), after @ ..] => (Spanned::new(name.as_str(), *span), after),
         _ => return Err(incomplete("machine", "a name", at, &form_of("machine"))),
     };
-    let (kind, behind) = match behind {
-        [(HeadPart::Equals, _), (HeadPart::Word(kind), span), behind @ ..] => {
-            (Spanned::new(machine_kind(kind, *span)?, *span), behind)
+    let (kind, after) = match after {
+        [(HeadPart::Equals, _), (HeadPart::Word(kind), span), after @ ..] => {
+            (Spanned::new(machine_kind(kind, *span)?, *span), after)
         }
         _ => {
             return Err(incomplete(
@@ -265,7 +265,7 @@ fn machine<'a>(at: Span, rest: &[(&'a HeadPart, Span)]) -> Result<Kind<'a>, Box<
             ));
         }
     };
-    match behind {
+    match after {
         [(HeadPart::Text(model), span)] => {
             let model = Spanned::new(model.as_str(), *span);
             Ok(Kind::Machine(Head { name, kind, model }))

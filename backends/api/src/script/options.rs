@@ -132,7 +132,7 @@ mod tests {
         assert_eq!(common.lines_per_part.map(NonZeroU32::get), Some(2500));
     }
 
-    /// Distances of chains are told apart from those of corners in the air, and never above the blend.
+    /// Distances of chains differ from those of corners in the air, and are never above the blend.
     #[test]
     fn joints_of_chains_are_not_corners_in_the_air() {
         let mut options = Options::defaults(SPECS);

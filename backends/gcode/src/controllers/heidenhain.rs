@@ -262,7 +262,7 @@ fn line<'t>(cursor: &mut Cursor<'_>, mut order: Order<'t>, scope: Scope<'_>) -> 
     Ok(order)
 }
 
-/// The sign behind `DR`.
+/// The sign after `DR`.
 fn direction(cursor: &mut Cursor<'_>) -> Parsed<Motion> {
     if cursor.skip(b'+') {
         Ok(Motion::Round(Sense::Counterclockwise))
@@ -414,7 +414,7 @@ fn cycle<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
     }
 }
 
-/// `T0.1` behind `CYCL DEF 32.1`, or nothing.
+/// `T0.1` after `CYCL DEF 32.1`, or nothing.
 fn tolerance<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
     if cursor.peek().is_none() {
         return Ok(Order::act(Act::CycleTolerance(None)));

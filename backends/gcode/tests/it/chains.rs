@@ -18,7 +18,7 @@ use vcutc_backend_gcode::Gcode;
 /// Those that state how far the tip may leave a chain.
 const CHAINING: [&str; 3] = ["linuxcnc", "sinumerik", "heidenhain"];
 
-/// A chain behind one cut: a line, an arc to the right, one to the left, a line.
+/// A chain after one cut: a line, an arc to the right, one to the left, a line.
 pub(crate) fn chain() -> Program {
     let one_cut = Recipe {
         layers: 1,
@@ -261,13 +261,13 @@ fn what_cannot_be_said_is_refused() {
     assert_eq!(found, ["arcs that the decimals of the program cannot hold"]);
 }
 
-/// One more piece behind the chain, an arc of this radius and as long. To the control one of some units of the last decimal may be
+/// One more piece after the chain, an arc of this radius and as long. To the control one of some units of the last decimal may be
 /// a circle or none, whichever its ends are rounded to.
 fn with_small_arc(radius: f64) -> Program {
     with_arc(radius, radius, 0.5 * radius)
 }
 
-/// One more piece behind the chain: an arc of a radius and length, known by the point so far along it.
+/// One more piece after the chain: an arc of a radius and length, known by the point so far along it.
 fn with_arc(radius: f64, length: f64, via_at: f64) -> Program {
     let mut program = stopping(chain());
     let is_piece = |op: &Op| matches!(op.action, Action::Follow { .. });
@@ -448,7 +448,7 @@ fn edits_of_a_chain_are_named() {
         // Higher at its end it is a helix.
         let helix = departs(&program, dialect, ("Z45.000 I9", "Z45.010 I9"));
         assert_eq!(helix, DivergenceKind::NotUnderstood, "{dialect}");
-        // Another plane has another centre; one that was not said, or a centre across it, is no arc.
+        // Another plane has another centre; without a centre, or with one across it, no arc is read.
         let plane = departs(&program, dialect, ("G2 X", "G18 G2 X"));
         assert_eq!(plane, DivergenceKind::NotUnderstood, "{dialect}");
         let line = departs(&program, dialect, ("G2 X", "G1 X"));

@@ -39,7 +39,7 @@ enum Left {
     Before,
 }
 
-/// Where a motion may be left, by the words behind its target.
+/// Where a motion may be left, by the words after its target.
 fn is_left(planner: Planner, tail: &Tail<'_>) -> Result<Left, MotionError> {
     if tail.second.is_some() || tail.directions.is_some() || !tail.with.is_empty() {
         return Err(MotionError::Unknown);

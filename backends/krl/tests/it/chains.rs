@@ -263,7 +263,7 @@ fn words_and_modes_of_other_chains_are_not_understood() {
     }
 }
 
-/// Arcs that a controller takes otherwise than the program means are not told as arcs.
+/// Arcs that a controller takes otherwise than the program means are not read as arcs.
 #[test]
 fn other_arcs_are_unknown() {
     let program = reachable(program(&recipe()));

@@ -226,7 +226,7 @@ fn without_a_zone_a_robot_stops() {
     assert_eq!(refused(none), ["blend of a chain"]);
 }
 
-/// The pretend arm needs waypoints on arcs of a quarter turn; where the axes are told of in none, the points are the program's own.
+/// The pretend arm needs waypoints on arcs of a quarter turn; where none states the axes, the points are the program's own.
 #[test]
 fn points_of_arcs_that_are_too_near_are_refused() {
     let mut recipe = one_cut();
