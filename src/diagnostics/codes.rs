@@ -164,8 +164,8 @@ codes! {
     HomeOutsideLimits = "VC0503", Error, "home outside the axis limits";
     /// An orientation that is none.
     NotARotation = "VC0504", Error, "orientation that is not a rotation";
-    /// A blade that the machine has no tool for.
-    BladeWithoutTool = "VC0505", Error, "blade without a tool";
+    /// A blade that the machine has no tool for, or nothing that spins it.
+    BladeWithoutTool = "VC0505", Error, "blade that the machine cannot hold or spin";
     /// Several blades, and no word of how they are changed.
     NoChange = "VC0506", Error, "blades that cannot be changed";
     /// Two tools of the same place or number.

@@ -8,7 +8,7 @@
 
 use vcutc_backend_api::ir::{AIR_ENDING, Action, FeedId, Op, Program, Purpose, RateId, Switch};
 use vcutc_backend_api::units::{AngularSpeed, Length, Speed};
-use vcutc_backend_api::verify::half_thickness;
+use vcutc_backend_api::verify::hang;
 
 /// The tip moves no faster. Below the 250 mm/s of manual reduced speed (ISO 10218-1), and slow enough for a hand on the
 /// stop button: 0.3 s of reaction are 30 mm.
@@ -59,7 +59,7 @@ pub fn least_lift(program: &Program, clearance: Length) -> Length {
     let Some(lowest) = lowest_tip(program) else {
         return Length::mm(WHOLE);
     };
-    let above = clearance.max(half_thickness(program));
+    let above = clearance.max(hang(program));
     let lift = program.stock.height.to_mm() + above.to_mm() - lowest;
     // A millionth less than a whole number is that number: tips are on a grid, and their sums are rounded.
     Length::mm((lift - 1e-6).ceil().max(WHOLE))
@@ -104,7 +104,7 @@ fn raised(
             (*feed, *rate) = (feed_of(*feed), rate_of(*rate));
         }
         Action::Turn { rate, .. } => *rate = rate_of(*rate),
-        Action::Ultrasonic { state } => *state = Switch::Off,
+        Action::Ultrasonic { state } | Action::Spin { state } => *state = Switch::Off,
         Action::AwaitReady => return None,
         Action::Home | Action::ChangePlace | Action::Dwell { .. } | Action::ToolChange { .. } => {}
     }

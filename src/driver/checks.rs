@@ -114,8 +114,8 @@ impl Bodies {
     /// Of the blades of a job.
     #[must_use]
     pub fn of(job: &CheckedJob) -> Self {
-        let mut blades = job.operations.iter().map(|operation| &operation.setup().blade);
-        match blades.all(|blade| blade.body.is_some()) {
+        let mut blades = job.operations.iter().flat_map(|operation| operation.blades());
+        match blades.all(|blade| blade.body().is_some()) {
             true => Self::Stated,
             false => Self::Lacking,
         }

@@ -9,7 +9,7 @@ use vcutc_backend_api::ir::Site;
 use vcutc_backend_api::script::duration_words;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::number::show;
-use vcutc_job::{Order, PlannedJob};
+use vcutc_job::{BladeRef, Order, PlannedJob};
 use vcutc_motion::pace::Basis;
 use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 use vcutc_simulation::body::Passage;
@@ -119,13 +119,18 @@ fn headline(plan: &PlannedJob, report: &Report, basis: Basis, reach: Option<&Rea
     format!("{}: {}", plan.name, parts.join(", "))
 }
 
-/// The longest edge that a blade of the job has.
+/// The longest edge that a straight blade of the job has.
 #[must_use]
 pub fn longest_blade(plan: &PlannedJob) -> Length {
-    let operations = plan.operations.iter();
-    operations
-        .map(|planned| planned.asked().setup().blade.cutting_length.value)
-        .fold(Length::ZERO, Length::max)
+    let blades = plan
+        .operations
+        .iter()
+        .flat_map(|planned| planned.asked().blades());
+    let edges = blades.filter_map(|blade| match blade {
+        BladeRef::Straight(blade) => Some(blade.cutting_length.value),
+        BladeRef::Disc(_) | BladeRef::Crusher(_) => None,
+    });
+    edges.fold(Length::ZERO, Length::max)
 }
 
 /// What of the blade no proof can see.

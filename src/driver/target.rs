@@ -299,6 +299,7 @@ fn needing(program: &VerifiedProgram, capability: Capability) -> OpId {
             ops.find(|(_, op)| op.site.operation().is_some())
         }
         Capability::Chain => ops.find(|(_, op)| matches!(op.action, Action::Follow { .. })),
+        Capability::Spindle => ops.find(|(_, op)| matches!(op.action, Action::Spin { .. })),
         Capability::LinearMove
         | Capability::JointMove
         | Capability::StillTipTurn

@@ -3,7 +3,7 @@
 //! An operation takes the kind that it cuts with, such as [`StraightBlade`], so nothing after the check asks which kind it has.
 
 use super::Sourced;
-use vcutc_backend_api::ir::{self, Edges};
+use vcutc_backend_api::ir::{self, Edges, Shape, Straight};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length};
 use vcutc_diagnostics::source::Span;
 
@@ -13,6 +13,23 @@ pub enum Blade {
     Straight(StraightBlade),
     Disc(Disc),
     Crusher(Crusher),
+}
+
+/// One of the blades of an operation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BladeRef<'b> {
+    Straight(&'b StraightBlade),
+    Disc(&'b Disc),
+    Crusher(&'b Crusher),
+}
+
+/// A blade of a known kind.
+pub trait OfKind: Clone {
+    /// Which.
+    const KIND: BladeKind;
+
+    /// The blade, if it is of this kind.
+    fn of(blade: &Blade) -> Option<&Self>;
 }
 
 /// The kinds of blades.
@@ -38,6 +55,26 @@ impl BladeKind {
             Self::Straight => "a straight blade",
             Self::Disc => "a disc",
             Self::Crusher => "a crusher",
+        }
+    }
+
+    /// As the end of "which is".
+    #[must_use]
+    pub const fn said_of(self) -> &'static str {
+        match self {
+            Self::Straight => "straight",
+            Self::Disc => "a disc",
+            Self::Crusher => "a crusher",
+        }
+    }
+
+    /// Of several.
+    #[must_use]
+    pub const fn plural(self) -> &'static str {
+        match self {
+            Self::Straight => "straight blades",
+            Self::Disc => "discs",
+            Self::Crusher => "crushers",
         }
     }
 }
@@ -130,12 +167,32 @@ impl Body {
             })
             .collect()
     }
+
+    fn forget_places(&mut self, place: Span) {
+        self.span = place;
+        for stage in &mut self.stages {
+            stage.from.forget_place(place);
+            stage.radius.forget_place(place);
+        }
+    }
 }
 
 impl Blade {
+    /// Itself, for those to whom its kind matters little.
+    #[must_use]
+    pub const fn by_ref(&self) -> BladeRef<'_> {
+        match self {
+            Self::Straight(blade) => BladeRef::Straight(blade),
+            Self::Disc(disc) => BladeRef::Disc(disc),
+            Self::Crusher(crusher) => BladeRef::Crusher(crusher),
+        }
+    }
+}
+
+impl<'b> BladeRef<'b> {
     /// Its name.
     #[must_use]
-    pub fn name(&self) -> &str {
+    pub fn name(self) -> &'b str {
         match self {
             Self::Straight(blade) => &blade.name,
             Self::Disc(disc) => &disc.name,
@@ -145,7 +202,7 @@ impl Blade {
 
     /// Where it is defined.
     #[must_use]
-    pub const fn span(&self) -> Span {
+    pub const fn span(self) -> Span {
         match self {
             Self::Straight(blade) => blade.span,
             Self::Disc(disc) => disc.span,
@@ -155,11 +212,140 @@ impl Blade {
 
     /// Its kind.
     #[must_use]
-    pub const fn kind(&self) -> BladeKind {
+    pub const fn kind(self) -> BladeKind {
         match self {
             Self::Straight(_) => BladeKind::Straight,
             Self::Disc(_) => BladeKind::Disc,
             Self::Crusher(_) => BladeKind::Crusher,
+        }
+    }
+
+    /// Its body; none if the job does not state it.
+    #[must_use]
+    pub const fn body(self) -> Option<&'b Body> {
+        match self {
+            Self::Straight(blade) => blade.body.as_ref(),
+            Self::Disc(disc) => Some(&disc.body),
+            Self::Crusher(crusher) => crusher.body.as_ref(),
+        }
+    }
+
+    /// How fast it turns about its axis, if it does.
+    #[must_use]
+    pub const fn spin(self) -> Option<Sourced<AngularSpeed>> {
+        match self {
+            Self::Straight(_) => None,
+            Self::Disc(disc) => Some(disc.spin),
+            Self::Crusher(crusher) => Some(crusher.spin),
+        }
+    }
+
+    /// How far what it cuts with reaches from its tip.
+    #[must_use]
+    pub fn reach(self) -> Length {
+        match self {
+            Self::Straight(blade) => blade.cutting_length.value,
+            Self::Disc(disc) => disc.radius.value,
+            Self::Crusher(crusher) => crusher.height.value.max(crusher.radius.value),
+        }
+    }
+
+    /// The blade as programs have it.
+    #[must_use]
+    pub fn in_program(self) -> ir::Blade {
+        match self {
+            Self::Straight(blade) => blade.in_program(),
+            Self::Disc(disc) => disc.in_program(),
+            Self::Crusher(crusher) => crusher.in_program(),
+        }
+    }
+}
+
+impl OfKind for StraightBlade {
+    const KIND: BladeKind = BladeKind::Straight;
+
+    fn of(blade: &Blade) -> Option<&Self> {
+        match blade {
+            Blade::Straight(blade) => Some(blade),
+            Blade::Disc(_) | Blade::Crusher(_) => None,
+        }
+    }
+}
+
+impl OfKind for Disc {
+    const KIND: BladeKind = BladeKind::Disc;
+
+    fn of(blade: &Blade) -> Option<&Self> {
+        match blade {
+            Blade::Disc(disc) => Some(disc),
+            Blade::Straight(_) | Blade::Crusher(_) => None,
+        }
+    }
+}
+
+impl OfKind for Crusher {
+    const KIND: BladeKind = BladeKind::Crusher;
+
+    fn of(blade: &Blade) -> Option<&Self> {
+        match blade {
+            Blade::Crusher(crusher) => Some(crusher),
+            Blade::Straight(_) | Blade::Disc(_) => None,
+        }
+    }
+}
+
+impl Disc {
+    /// The disc as programs have it.
+    #[must_use]
+    pub fn in_program(&self) -> ir::Blade {
+        ir::Blade {
+            name: self.name.clone(),
+            shape: Shape::Disc(ir::Disc {
+                radius: self.radius.value,
+                thickness: self.thickness.value,
+                spin: self.spin.value,
+            }),
+            body: Some(self.body.in_program()),
+        }
+    }
+
+    /// Replaces the places where it is written by this one.
+    pub fn forget_places(&mut self, place: Span) {
+        self.span = place;
+        self.radius.forget_place(place);
+        self.thickness.forget_place(place);
+        self.depth.forget_place(place);
+        self.width.forget_place(place);
+        self.spin.forget_place(place);
+        self.body.forget_places(place);
+    }
+}
+
+impl Crusher {
+    /// The crusher as programs have it.
+    #[must_use]
+    pub fn in_program(&self) -> ir::Blade {
+        ir::Blade {
+            name: self.name.clone(),
+            shape: Shape::Crusher(ir::Crusher {
+                radius: self.radius.value,
+                height: self.height.value,
+                spin: self.spin.value,
+                ramp: self.ramp.value,
+            }),
+            body: self.body.as_ref().map(Body::in_program),
+        }
+    }
+
+    /// Replaces the places where it is written by this one.
+    pub fn forget_places(&mut self, place: Span) {
+        self.span = place;
+        self.radius.forget_place(place);
+        self.height.forget_place(place);
+        self.spin.forget_place(place);
+        self.ramp.forget_place(place);
+        if let Some(body) = &mut self.body {
+            body.forget_places(place);
         }
     }
 }
@@ -170,11 +356,24 @@ impl StraightBlade {
     pub fn in_program(&self) -> ir::Blade {
         ir::Blade {
             name: self.name.clone(),
-            cutting_length: self.cutting_length.value,
-            half_apex: self.half_apex.value,
-            thickness: self.thickness.value,
-            edges: self.edges,
+            shape: Shape::Straight(Straight {
+                cutting_length: self.cutting_length.value,
+                half_apex: self.half_apex.value,
+                thickness: self.thickness.value,
+                edges: self.edges,
+            }),
             body: self.body.as_ref().map(Body::in_program),
+        }
+    }
+
+    /// Replaces the places where it is written by this one.
+    pub fn forget_places(&mut self, place: Span) {
+        self.span = place;
+        self.cutting_length.forget_place(place);
+        self.half_apex.forget_place(place);
+        self.thickness.forget_place(place);
+        if let Some(body) = &mut self.body {
+            body.forget_places(place);
         }
     }
 }

@@ -11,7 +11,7 @@ pub mod sema;
 pub mod setup;
 mod tools;
 
-pub use blades::{Blade, BladeKind, Body, BodyStage, Crusher, Disc, StraightBlade};
+pub use blades::{Blade, BladeKind, BladeRef, Body, BodyStage, Crusher, Disc, StraightBlade};
 pub use operation::planned::{self, PlannedJob, PlannedOperation};
 pub use operation::planning::PlanningJob;
 pub use operation::{Operation, search};
@@ -20,7 +20,7 @@ pub use setup::Setup;
 pub use tools::{HeldChange, HeldTool, HeldTools};
 
 use std::sync::Arc;
-use vcutc_backend_api::ir::{AxisValues, PlacedFrame, Ready, Stock};
+use vcutc_backend_api::ir::{AxisValues, MachineKind, PlacedFrame, Ready, Spindle, Stock};
 use vcutc_backend_api::profile::Profile as Habits;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
@@ -138,10 +138,25 @@ pub struct Machine {
     pub change: Option<HeldChange>,
     /// Output that runs the generator.
     pub ultrasonic: Option<Sourced<u32>>,
+    /// Output that runs the drive of blades that spin. Without it a five-axis machine has its control's own spindle, and a robot
+    /// none.
+    pub spindle: Option<Sourced<u32>>,
     /// How readiness is known. Default: 0.5 s after switching on.
     pub ready: Sourced<Ready>,
     /// Options for targets: one for each nested block such as `krl { ... }`.
     pub targets: Vec<TargetOptions>,
+}
+
+impl Machine {
+    /// What spins a blade.
+    #[must_use]
+    pub fn spindle(&self) -> Option<Spindle> {
+        match (self.spindle, self.model.kind()) {
+            (Some(output), _) => Some(Spindle::Output(output.value)),
+            (None, MachineKind::FiveAxis) => Some(Spindle::Own),
+            (None, MachineKind::Robot) => None,
+        }
+    }
 }
 
 /// Options of one target, evaluated but not yet compared with what the target takes.

@@ -9,7 +9,7 @@ pub mod planned;
 pub mod planning;
 pub mod search;
 
-use super::{Setup, Sourced};
+use super::{BladeRef, Setup, Sourced};
 use core::any::Any;
 use core::fmt::Debug;
 use planned::PlannedOperation;
@@ -26,10 +26,13 @@ pub trait Operation: OperationValue + Any + Debug + Send + Sync {
     /// What all operations state.
     fn setup(&self) -> &Setup;
 
+    /// Its blades, at least one, in the order in which it takes them.
+    fn blades(&self) -> Vec<BladeRef<'_>>;
+
     /// The same, to be changed.
     fn setup_mut(&mut self) -> &mut Setup;
 
-    /// Replaces every place of its own in the job's text by this one; the set-up's are not its own.
+    /// Replaces every place of its own in the job's text by this one, those of its blades among them; the set-up's are not its own.
     fn forget_places(&mut self, place: Span);
 
     /// The most material that may stay on the part, if it is limited.

@@ -3,7 +3,7 @@
 //! All places become one; which values were given and which are defaults stays. Tips keep their places: there are as many of
 //! them as cuts.
 
-use super::{Bounds, CheckedJob, GivenOption, Machine, Setup, Sourced, StraightBlade, TargetOptions};
+use super::{Bounds, CheckedJob, GivenOption, Machine, Setup, Sourced, TargetOptions};
 use vcutc_diagnostics::source::{SourceMap, Span};
 
 impl CheckedJob {
@@ -50,7 +50,6 @@ fn optional<T>(value: &mut Option<Sourced<T>>, place: Span) {
 
 fn setup(setup: &mut Setup, place: Span) {
     setup.head_span = place;
-    blade(&mut setup.blade, place);
     setup.rake.forget_place(place);
     setup.direction.forget_place(place);
     setup.cut_feed.forget_place(place);
@@ -59,20 +58,6 @@ fn setup(setup: &mut Setup, place: Span) {
     setup.clearance.forget_place(place);
     setup.extension.forget_place(place);
     setup.run_out.forget_place(place);
-}
-
-fn blade(blade: &mut StraightBlade, place: Span) {
-    blade.span = place;
-    blade.cutting_length.forget_place(place);
-    blade.half_apex.forget_place(place);
-    blade.thickness.forget_place(place);
-    if let Some(body) = &mut blade.body {
-        body.span = place;
-        for stage in &mut body.stages {
-            stage.from.forget_place(place);
-            stage.radius.forget_place(place);
-        }
-    }
 }
 
 fn machine(machine: &mut Machine, place: Span) {
@@ -86,6 +71,7 @@ fn machine(machine: &mut Machine, place: Span) {
     machine.base.forget_place(place);
     optional(&mut machine.home, place);
     optional(&mut machine.ultrasonic, place);
+    optional(&mut machine.spindle, place);
     machine.ready.forget_place(place);
     for target in &mut machine.targets {
         options(target, place);

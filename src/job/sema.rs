@@ -45,7 +45,7 @@ pub mod units;
 pub mod vocabulary;
 pub mod written;
 
-use crate::{Blade, CheckedJob, Machine, Operation, StraightBlade};
+use crate::{Blade, BladeRef, CheckedJob, Machine, Operation};
 use eval::Scope;
 use files::{File, Files};
 use gather::Definitions;
@@ -245,9 +245,9 @@ fn whole(
     });
     let machine = match (machine, &operations) {
         (Ok(Some(machine)), Ok(operations)) => {
-            let blades: Vec<&StraightBlade> = operations
+            let blades: Vec<BladeRef<'_>> = operations
                 .iter()
-                .map(|operation| &operation.setup().blade)
+                .flat_map(|operation| operation.blades())
                 .collect();
             tools::used(machine, &blades)
                 .map(Some)

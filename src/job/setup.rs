@@ -1,6 +1,6 @@
-//! What all operations state: the blade, its rake and its speeds, and how far it keeps from the stock.
+//! What all operations state: the rake and the speeds of their blades, and how far these keep from the stock.
 
-use super::{Auto, Direction, Sourced, StraightBlade};
+use super::{Auto, Direction, Sourced};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
 use vcutc_diagnostics::source::Span;
 
@@ -9,8 +9,6 @@ use vcutc_diagnostics::source::Span;
 pub struct Setup {
     /// Where its head (such as `rough vcut`) is written: the place for messages about the operation as a whole.
     pub head_span: Span,
-    /// The blade, of the kind that the operation cuts with.
-    pub blade: StraightBlade,
     /// Angle between tool axis and feed; above 0 to 90 degrees.
     pub rake: Sourced<Angle>,
     /// Direction of the cuts. Default `alternate`.

@@ -49,9 +49,15 @@ impl<'m> Rigs<'m> {
     /// With the blade that an op has at hand when it begins.
     #[must_use]
     pub fn during(&self, op: OpId) -> &Rig<'m> {
+        self.with(self.tool_during(op))
+    }
+
+    /// The blade that an op has at hand when it begins.
+    #[must_use]
+    pub fn tool_during(&self, op: OpId) -> ToolId {
         let begun = self.turns.partition_point(|(from, _)| *from <= op);
         let turn = begun.checked_sub(1).and_then(|turn| self.turns.get(turn));
-        turn.map_or(&self.first, |(_, tool)| self.with(*tool))
+        turn.map_or(ToolId::FIRST, |(_, tool)| *tool)
     }
 }
 

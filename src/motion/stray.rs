@@ -76,9 +76,10 @@ impl<'t, 'm> Turn<'t, 'm> {
     fn of(program: &Program, rig: &'t Rig<'m>, ends: &[Joints], segment: &Segment<'_>) -> Option<Self> {
         let line = segment.line().filter(|line| line.turns())?;
         let index = segment.id.0 as usize;
-        let blade = program.blade_of(segment.op.site.operation()?)?;
-        let half_width = blade.cutting_length.to_mm() * libm::sin(blade.half_apex.to_rad());
-        let height = blade.cutting_length.to_mm().max(-rig.flange_in_blade.position.z);
+        let hull = program.blade(segment.before.tool)?.hull();
+        let farthest = |number: usize| hull.iter().map(|point| point[number].abs()).fold(0.0, f64::max);
+        let half_width = libm::hypot(farthest(0), farthest(1));
+        let height = farthest(2).max(-rig.flange_in_blade.position.z);
         Some(Self {
             rig,
             held: [

@@ -7,7 +7,7 @@
 //! that the axes hold the blade on them as the program does.
 //!
 //! **The blade** is a triangle between its tip and the ends of both edges, and above it a strip as wide as the edges are apart, up
-//! to the spindle. **The work** is the stock as far along y as it is deep, below the surface that the cuts before have left.
+//! to the spindle; a round one its two rims, and above them two such strips square to each other. **The work** is the stock as far along y as it is deep, below the surface that the cuts before have left.
 //! Both lie in planes or are prisms, so at one place of the motion they are compared exactly: the blade is clipped to the
 //! prism's sides, and what remains has to lie above the corners of the surface and above the surface with its own corners.
 //!
@@ -22,7 +22,7 @@ use super::moves::{numbered, paths};
 use super::rig::Rig;
 use super::rigs::Rigs;
 use glam::{DMat3, DVec3};
-use vcutc_backend_api::ir::{Action, Blade, OpId, Program, Stock};
+use vcutc_backend_api::ir::{Action, Blade, OpId, Program, Shape, Stock};
 use vcutc_backend_api::segments::{LinearSegment, Path};
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
@@ -86,7 +86,10 @@ pub enum Cure {
 pub(super) fn clear(program: &VerifiedProgram, rigs: &Rigs<'_>, ends: &[Joints]) -> Result<(), Sweep> {
     let paths = paths(program.program());
     let mut turns = numbered(&paths)
-        .filter_map(|(op, path)| Turn::of(program.program(), rigs.during(op), ends, op, path))
+        .filter_map(|(op, path)| {
+            let blade = program.program().blade(rigs.tool_during(op))?;
+            Turn::of(program.program(), (rigs.during(op), blade), ends, op, path)
+        })
         .peekable();
     let mut found: Option<Sweep> = None;
     prove::accompanied(program, &mut |op, surface| {
@@ -158,9 +161,13 @@ struct Turn<'t, 'm> {
     blade: Outline,
 }
 
-/// The blade in its frame: half the distance of the ends of its edges, their height above the tip, and that of the spindle.
-#[derive(Clone, Copy, Debug)]
+/// The blade in its frame: plane pieces of its edge, how far they lie from its axis at most, their height above the tip, and that of
+/// the spindle.
+#[derive(Clone, Debug)]
 struct Outline {
+    edges: Vec<Vec<DVec3>>,
+    /// To one side, for each plane in which the body above is looked at.
+    sides: Vec<DVec3>,
     half_width: f64,
     edge_height: f64,
     spindle_height: f64,
@@ -168,42 +175,63 @@ struct Outline {
 
 impl Outline {
     fn of(blade: &Blade, rig: &Rig<'_>) -> Self {
-        let (sin, cos) = libm::sincos(blade.half_apex.to_rad());
-        let length = blade.cutting_length.to_mm();
-        Self {
-            half_width: length * sin,
-            edge_height: length * cos,
-            spindle_height: -rig.flange_in_blade.position.z,
-        }
-    }
-
-    fn edges(&self) -> Piece {
-        let [left, right] = self.across(self.edge_height);
-        Piece {
-            part: BladePart::Edge,
-            corners: vec![DVec3::ZERO, left, right],
-        }
-    }
-
-    /// What is above the edges, up to a height.
-    fn body(&self, height: f64) -> Option<Piece> {
-        let top = height.min(self.spindle_height);
-        (top > self.edge_height).then(|| {
-            let ([left, right], [left_above, right_above]) =
-                (self.across(self.edge_height), self.across(top));
-            Piece {
-                part: BladePart::Body,
-                corners: vec![left, right, right_above, left_above],
+        let spindle_height = -rig.flange_in_blade.position.z;
+        match blade.shape {
+            Shape::Straight(straight) => {
+                let [[half_width, _, low], _] = straight.edge_ends();
+                Self::straight(half_width, -low, spindle_height)
             }
+            Shape::Disc(_) | Shape::Crusher(_) => Self::round(blade, spindle_height),
+        }
+    }
+
+    fn straight(half_width: f64, edge_height: f64, spindle_height: f64) -> Self {
+        let side = DVec3::X * half_width;
+        let up = DVec3::Z * -edge_height;
+        Self {
+            edges: vec![vec![DVec3::ZERO, up - side, up + side]],
+            sides: vec![side],
+            half_width,
+            edge_height,
+            spindle_height,
+        }
+    }
+
+    /// The rims of its edge and of what lies above it.
+    fn round(blade: &Blade, spindle_height: f64) -> Self {
+        let hull: Vec<DVec3> = blade.hull().into_iter().map(DVec3::from_array).collect();
+        let half_width = hull.iter().map(|point| libm::hypot(point.x, point.y));
+        let half_width = half_width.fold(0.0, f64::max);
+        let edge_height = hull.iter().map(|point| -point.z).fold(0.0, f64::max);
+        let (lower, upper) = hull.split_at(hull.len() / 2);
+        Self {
+            edges: vec![lower.to_vec(), upper.to_vec()],
+            sides: [DVec3::X, DVec3::Y].map(|side| side * half_width).to_vec(),
+            half_width,
+            edge_height,
+            spindle_height,
+        }
+    }
+
+    fn edges(&self) -> impl Iterator<Item = Piece> {
+        self.edges.iter().map(|corners| Piece {
+            part: BladePart::Edge,
+            corners: corners.clone(),
         })
     }
 
-    /// Both sides of the blade at a height above its tip, in T, whose z points down the blade.
-    const fn across(&self, height: f64) -> [DVec3; 2] {
-        [
-            DVec3::new(-self.half_width, 0.0, -height),
-            DVec3::new(self.half_width, 0.0, -height),
-        ]
+    /// What is above the edges, up to a height.
+    fn body(&self, height: f64) -> impl Iterator<Item = Piece> {
+        let top = height.min(self.spindle_height);
+        let is_above = top > self.edge_height;
+        let up = [-self.edge_height, -top].map(|z| DVec3::new(0.0, 0.0, z));
+        self.sides
+            .iter()
+            .filter(move |_| is_above)
+            .map(move |&side| Piece {
+                part: BladePart::Body,
+                corners: vec![up[0] - side, up[0] + side, up[1] + side, up[1] - side],
+            })
     }
 }
 
@@ -232,7 +260,13 @@ struct Hit {
 
 impl<'t, 'm> Turn<'t, 'm> {
     /// The motion of an op, if it changes how the blade is held.
-    fn of(program: &Program, rig: &'t Rig<'m>, ends: &[Joints], op: OpId, path: &Path) -> Option<Self> {
+    fn of(
+        program: &Program,
+        (rig, blade): (&'t Rig<'m>, &Blade),
+        ends: &[Joints],
+        op: OpId,
+        path: &Path,
+    ) -> Option<Self> {
         let LinearSegment { from, to, .. } = path.line().filter(|line| line.turns())?;
         let index = op.0 as usize;
         let axes = [*ends.get(index.checked_sub(1)?)?, *ends.get(index)?];
@@ -240,7 +274,6 @@ impl<'t, 'm> Turn<'t, 'm> {
         if matches!(found.action, Action::Follow { .. }) {
             return None;
         }
-        let blade = program.blade_of(found.site.operation()?)?;
         Some(Self {
             op,
             rig,
@@ -295,7 +328,7 @@ impl<'t, 'm> Turn<'t, 'm> {
     fn prove(&self, work: &Work, moved: DVec3) -> Result<(), Hit> {
         let lowest = self.tip[0].z.min(self.tip[1].z) + moved.z;
         let body = self.blade.body(self.above(work.highest() - lowest));
-        for piece in core::iter::once(self.blade.edges()).chain(body) {
+        for piece in self.blade.edges().chain(body) {
             self.prove_piece(&piece, work, moved)?;
         }
         Ok(())

@@ -42,21 +42,9 @@ fn stock(program: &Program) -> Block {
     }
 }
 
-/// Points of the blade frame T between which blade and tool lie: the tip, the ends of both edges of the blade at hand, and the
-/// flange. The arm behind the flange is farther away from the work than these.
+/// Points of the blade frame T between which blade and tool lie: those of the blade at hand, and the flange. The arm behind the flange is farther away from the work than these.
 fn outline(survey: &Survey<'_>) -> Vec<DVec3> {
-    let ends = survey.program.blade(survey.tool).into_iter().flat_map(|blade| {
-        let Blade {
-            cutting_length,
-            half_apex,
-            ..
-        } = blade;
-        let (sin, cos) = libm::sincos(half_apex.to_rad());
-        let (aside, up) = (cutting_length.to_mm() * sin, -cutting_length.to_mm() * cos);
-        [DVec3::new(aside, 0.0, up), DVec3::new(-aside, 0.0, up)]
-    });
-    [DVec3::ZERO, survey.rig.flange_in_blade.position]
-        .into_iter()
-        .chain(ends)
-        .collect()
+    let blade = survey.program.blade(survey.tool);
+    let hull = blade.into_iter().flat_map(Blade::hull).map(DVec3::from_array);
+    hull.chain([survey.rig.flange_in_blade.position]).collect()
 }

@@ -3,7 +3,7 @@
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::ir::{Action, Cell, Program, Site, SourceRef, Stock};
 use vcutc_diagnostics::source::{SourceMap, Span};
-use vcutc_job::{CheckedJob, Machine, PlannedJob, PlannedOperation};
+use vcutc_job::{BladeRef, CheckedJob, Machine, PlannedJob, PlannedOperation};
 
 /// Writes the plan down as a program.
 #[must_use]
@@ -33,7 +33,8 @@ fn written<'p>(
     operations: impl IntoIterator<Item = (&'p dyn PlannedOperation, SourceRef)>,
 ) -> Program {
     let operations: Vec<(&dyn PlannedOperation, SourceRef)> = operations.into_iter().collect();
-    let cell = machine.map(|machine| cell(machine, &blades(&operations)));
+    let blades = blades(&operations);
+    let cell = machine.map(|machine| cell(machine, &blades));
     let mut builder = ProgramBuilder::new(name, stock, cell);
     builder.op(Site::Program, Action::Home);
     for (planned, source) in operations {
@@ -43,30 +44,34 @@ fn written<'p>(
     builder.finish()
 }
 
-/// The names of the blades, each once, in the order in which they are first used.
-fn blades<'p>(operations: &[(&'p dyn PlannedOperation, SourceRef)]) -> Vec<&'p str> {
-    let mut names: Vec<&str> = Vec::new();
-    for (planned, _) in operations {
-        let name = planned.asked().setup().blade.name.as_str();
-        if !names.contains(&name) {
-            names.push(name);
+/// The blades, each once, in the order in which they are first used.
+fn blades<'p>(operations: &[(&'p dyn PlannedOperation, SourceRef)]) -> Vec<BladeRef<'p>> {
+    let mut used: Vec<BladeRef<'_>> = Vec::new();
+    for blade in operations
+        .iter()
+        .flat_map(|(planned, _)| planned.asked().blades())
+    {
+        if used.iter().all(|known| known.name() != blade.name()) {
+            used.push(blade);
         }
     }
-    names
+    used
 }
 
-fn cell(machine: &Machine, blades: &[&str]) -> Cell {
+fn cell(machine: &Machine, blades: &[BladeRef<'_>]) -> Cell {
+    let spins = blades.iter().any(|blade| blade.spin().is_some());
     Cell {
         name: machine.name.clone(),
         kind: machine.model.kind(),
         maker: machine.model.maker,
         model: machine.model.name.clone(),
         axes: machine.model.axes.to_vec(),
-        tools: machine.tools.in_program(blades.iter().copied()),
+        tools: machine.tools.in_program(blades.iter().map(|blade| blade.name())),
         base: machine.base.value,
         home: machine.home.map(|home| home.value),
         change: machine.change.map(|held| held.change),
         ultrasonic: machine.ultrasonic.map(|output| output.value),
+        spindle: machine.spindle().filter(|_| spins),
         ready: machine.ready.value,
     }
 }

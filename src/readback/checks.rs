@@ -9,7 +9,7 @@ use super::rebuild::{Obstacle, Rebuilt};
 use super::wording::op_words;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, Flank, OpId, Program, Purpose, Site};
+use vcutc_backend_api::ir::{Action, Flank, OpId, Program, Purpose, Site, ToolId};
 use vcutc_backend_api::readback::{Comparator, Mismatch, Moment, Reader};
 use vcutc_backend_api::segments::{LinearSegment, Path};
 use vcutc_backend_api::verify::{Fault, Rule, VerifiedProgram, verify};
@@ -167,6 +167,8 @@ struct CutAt {
     op: OpId,
     site: Site,
     flank: Flank,
+    /// The blade at hand.
+    tool: ToolId,
     line: LinearSegment,
 }
 
@@ -195,6 +197,7 @@ impl Read<'_> {
                 op: segment.id,
                 site: segment.op.site,
                 flank,
+                tool: segment.before.tool,
                 line: segment.line()?,
             })
         })
@@ -250,9 +253,9 @@ impl Read<'_> {
             .operation()
             .map_or(0, |operation| usize::from(operation.0));
         let bound = bounds.get(operation)?;
-        let blade = program.blade(program.operations.get(operation)?.tool)?;
         let LinearSegment { from, to, .. } = cut.line;
         let held = program.orientation(to.orientation)?;
+        let blade = program.blade(cut.tool)?.straight()?;
         deepest(bound, edge(blade, held), from.tip, to.tip)
     }
 
@@ -370,7 +373,7 @@ impl Read<'_> {
     fn bodies(&self, verified: &VerifiedProgram) -> Option<Diagnostic> {
         let (count, contact) = verdict::bodies(self.checker.plan, verified).contact?;
         let passage = contact.passage;
-        let blade = self.program().blade_of(passage.operation)?;
+        let blade = self.program().blade(passage.tool)?;
         let label = format!(
             "deepest at x {} mm, z {} mm",
             show(passage.at.x),
@@ -482,12 +485,17 @@ const fn rule_words(rule: Rule) -> &'static str {
         Rule::CutAcrossStock => "the cut does not run along y through the whole stock",
         Rule::CutPosture => "the blade is held so that it does not make this flank",
         Rule::SilentCut => "the blade cuts without vibrating",
-        Rule::ReadyNotAwaited => "the blade cuts before the generator is known to run",
-        Rule::Ending => "the program does not end at home with the generator off",
+        Rule::StillCut => "the blade cuts while its spindle stands still",
+        Rule::ReadyNotAwaited => "the blade cuts before generator and spindle are known to run",
+        Rule::NoSpindle => "the machine has no spindle for a blade that spins",
+        Rule::IdleSpindle => "the spindle starts with a blade that does not spin",
+        Rule::Ending => "the program does not end at home with generator and spindle off",
         Rule::CutFlanks => "a cut has a flank twice",
-        Rule::AirCut => "an air cut comes down to the stock, or starts the generator",
+        Rule::AirCut => "an air cut comes down to the stock, or starts generator or spindle",
         Rule::Tools => "the machine has not one tool and one place for each blade",
-        Rule::ChangeAway => "the blade is changed away from the change place, or with the generator on",
+        Rule::ChangeAway => {
+            "the blade is changed away from the change place, or while generator or spindle run"
+        }
         Rule::OtherBlade => "the blade at hand is not that of the operation",
         Rule::Arc => "the three points of a circular motion do not make an arc",
         Rule::ChainJoint => "the path changes its direction without a stop, or does not end in one",
@@ -500,6 +508,7 @@ const fn rule_label(rule: Rule) -> &'static str {
     match rule {
         Rule::AirMoveThroughStock | Rule::TurnInStock => "through the stock",
         Rule::SilentCut | Rule::ReadyNotAwaited => "without vibration, or too early",
+        Rule::StillCut => "with a blade that stands still",
         Rule::Ending => "the program ends here",
         Rule::ChangeAway => "changed here",
         Rule::Version
@@ -514,6 +523,8 @@ const fn rule_label(rule: Rule) -> &'static str {
         | Rule::CutFlanks
         | Rule::AirCut
         | Rule::Tools
+        | Rule::NoSpindle
+        | Rule::IdleSpindle
         | Rule::OtherBlade
         | Rule::Arc
         | Rule::ChainJoint

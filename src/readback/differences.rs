@@ -576,9 +576,12 @@ impl Reporter<'_> {
             (Some(Mismatch::Feed { .. }), Action::Cut { .. }) => setup.and_then(|setup| setup.cut_feed.span),
             (Some(Mismatch::Feed { .. }), _) => setup.and_then(|setup| setup.travel_feed.span),
             (Some(Mismatch::Rate { .. }), _) => setup.and_then(|setup| setup.reorient_rate.span),
-            (Some(Mismatch::Output { .. }), _) => machine
+            (Some(Mismatch::Output { .. }), Action::Ultrasonic { .. }) => machine
                 .and_then(|machine| machine.ultrasonic)
                 .and_then(|output| output.span),
+            (_, Action::Spin { .. }) => machine
+                .and_then(|machine| machine.spindle)
+                .and_then(|spindle| spindle.span),
             (Some(Mismatch::Input { .. }), _) | (_, Action::AwaitReady) => {
                 machine.and_then(|machine| machine.ready.span)
             }

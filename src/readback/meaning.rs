@@ -12,6 +12,7 @@ pub(super) fn meaning(command: &Command) -> String {
         }
         Command::Axes(_)
         | Command::Switch { .. }
+        | Command::Spin(_)
         | Command::AwaitInput(_)
         | Command::Wait(_)
         | Command::ChangeTool(_) => format!("{command:?}"),

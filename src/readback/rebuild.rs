@@ -12,12 +12,12 @@ use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::{
     Action, AxisKind, AxisValues, Cell, FeedId, Flank, Joint, Op, OpId, OrientationId, Program, RateId,
-    Ready, Site, Switch, ToolId, ViaId,
+    Ready, Site, Spindle, Switch, ToolId, ViaId,
 };
 use vcutc_backend_api::readback::{
     Circle, Command, Effect, End, FrameRole, Held, Mismatch, Moment, Pace, Target, rotary_way,
 };
-use vcutc_backend_api::state::{Generator, State, TipPose};
+use vcutc_backend_api::state::{Drive, State, TipPose};
 use vcutc_backend_api::swivel::Apart;
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Speed};
 use vcutc_motion::rigs::Rigs;
@@ -234,6 +234,7 @@ impl Builder<'_> {
                 Some(self.piece(pose, Some(via), speeds, (*end, given))?)
             }
             Command::Switch { output, state } => self.switch(*output, *state),
+            Command::Spin(speed) => self.spin(*speed, partner.as_ref()),
             Command::AwaitInput(input) => self.await_input(*input),
             Command::Wait(time) => self.wait(*time, partner.as_ref()),
             Command::ChangeTool(place) => {
@@ -577,19 +578,25 @@ impl Builder<'_> {
         if leans_left { Flank::Left } else { Flank::Right }
     }
 
-    /// A switch of the generator; other outputs do nothing to the blade.
+    /// A switch of generator or spindle; other outputs do nothing to the blade, and neither does what is so already.
     fn switch(&self, output: u32, state: Switch) -> Option<Action> {
         let cell = self.program.cell.as_ref()?;
-        if cell.ultrasonic != Some(output) {
-            return None;
+        if cell.ultrasonic == Some(output) {
+            return (self.state.generator.is_on() != state).then_some(Action::Ultrasonic { state });
         }
-        match (state, self.state.generator) {
-            (Switch::On, Generator::Off) | (Switch::Off, Generator::Starting | Generator::Running) => {
-                Some(Action::Ultrasonic { state })
-            }
-            // It is so already.
-            (Switch::On, Generator::Starting | Generator::Running) | (Switch::Off, Generator::Off) => None,
-        }
+        let is_spindle = cell.spindle == Some(Spindle::Output(output));
+        (is_spindle && self.state.spindle.is_on() != state).then_some(Action::Spin { state })
+    }
+
+    /// The control's own spindle at a speed. The speed is the blade's: at another one it stands still, as the proof sees it.
+    fn spin(&self, speed: Option<AngularSpeed>, partner: Option<&Partner>) -> Option<Action> {
+        let is_off =
+            partner.is_some_and(|partner| partner.differs_in(|found| matches!(found, Mismatch::Spin { .. })));
+        let state = match speed {
+            Some(_) if !is_off => Switch::On,
+            Some(_) | None => Switch::Off,
+        };
+        (self.state.spindle.is_on() != state).then_some(Action::Spin { state })
     }
 
     fn await_input(&self, input: u32) -> Option<Action> {
@@ -608,7 +615,7 @@ impl Builder<'_> {
         }
         match partner {
             Some(Partner { op, differs, .. }) if differs.is_empty() => match op.action {
-                // A wait that stands where no generator starts up.
+                // A wait that stands where nothing starts up.
                 Action::AwaitReady => Some(Action::Dwell { time }),
                 action => Some(action),
             },
@@ -617,7 +624,7 @@ impl Builder<'_> {
     }
 
     fn is_starting(&self) -> bool {
-        self.state.generator == Generator::Starting
+        [self.state.generator, self.state.spindle].contains(&Drive::Starting)
     }
 }
 

@@ -5,6 +5,7 @@ use vcutc_backend_api::ir::{Action, Cell, Flank, OpId, Program, Site, Switch};
 use vcutc_backend_api::readback::{
     Command, Configuration, DivergenceKind, Effect, FrameRole, Mismatch, Pace,
 };
+use vcutc_backend_api::units::AngularSpeed;
 use vcutc_diagnostics::number::show;
 use vcutc_motion::describe::{site_words, value_words};
 
@@ -30,6 +31,8 @@ pub(super) fn op_words(program: &Program, op: OpId) -> String {
         Action::Turn { .. } => format!("the turn at {site}"),
         Action::Ultrasonic { state: Switch::On } => format!("switching the generator on for {site}"),
         Action::Ultrasonic { state: Switch::Off } => format!("switching the generator off after {site}"),
+        Action::Spin { state: Switch::On } => format!("starting the spindle for {site}"),
+        Action::Spin { state: Switch::Off } => format!("stopping the spindle after {site}"),
         Action::AwaitReady => format!("waiting for the generator before {site}"),
         Action::Dwell { .. } => format!("a wait in {site}"),
         Action::ChangePlace => "the move to where the blade is changed".to_owned(),
@@ -50,6 +53,7 @@ pub(super) fn command_words(command: &Command) -> String {
         Command::Straight { to, .. } => format!("a straight move of the tip to {}", point(to.tip)),
         Command::Round { to, .. } => format!("a circular move of the tip to {}", point(to.tip)),
         Command::Switch { output, state } => format!("output {output} is switched {}", switch(*state)),
+        Command::Spin(speed) => format!("the spindle {}", turns(*speed)),
         Command::AwaitInput(input) => format!("the program waits for input {input}"),
         Command::Wait(time) => format!("the program waits for {} s", show(time.to_s())),
         Command::ChangeTool(Some(place)) => format!("the blade of place {place} is put in"),
@@ -151,6 +155,13 @@ pub(super) fn mismatch_words(mismatch: &Mismatch, cell: Option<&Cell>) -> String
                 switch(should.1)
             )
         }
+        Mismatch::Spin { is, should } => {
+            format!(
+                "the spindle {}, the job says that it {}",
+                turns(is),
+                turns(should)
+            )
+        }
         Mismatch::ToolPlace { is, should } => {
             format!(
                 "the blade comes {}, the job says {}",
@@ -162,6 +173,13 @@ pub(super) fn mismatch_words(mismatch: &Mismatch, cell: Option<&Cell>) -> String
             format!("the program waits for input {is}, the job says input {should}")
         }
     }
+}
+
+/// What a spindle does at a speed; none where it stops.
+fn turns(speed: Option<AngularSpeed>) -> String {
+    speed.map_or("stops".to_owned(), |speed| {
+        format!("turns at {} rev/min", show(speed.to_rev_per_min()))
+    })
 }
 
 fn from_place(place: Option<u32>) -> String {

@@ -4,7 +4,7 @@ use super::Material;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{AxisKind, Change, Changer, Edges, Load, Ready, Registered};
 use vcutc_diagnostics::number::show;
-use vcutc_job::{Body, CheckedJob, HeldTool, Machine, Setup, StraightBlade};
+use vcutc_job::{BladeRef, Body, CheckedJob, HeldTool, Machine, Setup, StraightBlade};
 
 /// A name and a value, as plain text.
 pub(super) type Fact = (&'static str, String);
@@ -33,19 +33,23 @@ fn frame(frame: &Frame) -> String {
 }
 
 /// The blades of a job, each once.
-pub(super) fn blades<'a>(material: &Material<'a>) -> Vec<&'a StraightBlade> {
-    let mut named: Vec<&StraightBlade> = Vec::new();
-    for planned in &material.plan.operations {
-        let blade = &planned.asked().setup().blade;
-        if named.iter().all(|other| other.name != blade.name) {
+pub(super) fn blades<'a>(material: &Material<'a>) -> Vec<BladeRef<'a>> {
+    let mut named: Vec<BladeRef<'_>> = Vec::new();
+    for blade in material
+        .plan
+        .operations
+        .iter()
+        .flat_map(|planned| planned.asked().blades())
+    {
+        if named.iter().all(|other| other.name() != blade.name()) {
             named.push(blade);
         }
     }
     named
 }
 
-pub(super) fn of_blades(blades: &[&StraightBlade]) -> Vec<Fact> {
-    blades.iter().map(|blade| ("blade", words(blade))).collect()
+pub(super) fn of_blades(blades: &[BladeRef<'_>]) -> Vec<Fact> {
+    blades.iter().map(|blade| ("blade", words(*blade))).collect()
 }
 
 /// How the blade is mounted.
@@ -88,15 +92,33 @@ fn changed(change: Change) -> String {
     format!("changed {by} in {} s", show(change.time.to_s()))
 }
 
-fn words(blade: &StraightBlade) -> String {
+fn words(blade: BladeRef<'_>) -> String {
+    let measures = match blade {
+        BladeRef::Straight(blade) => straight(blade),
+        BladeRef::Disc(disc) => format!(
+            "disc of radius {} mm, {} mm thick, {} rev/min",
+            show(disc.radius.value.to_mm()),
+            show(disc.thickness.value.to_mm()),
+            show(disc.spin.value.to_rev_per_min())
+        ),
+        BladeRef::Crusher(crusher) => format!(
+            "crusher of radius {} mm, {} mm high, {} rev/min",
+            show(crusher.radius.value.to_mm()),
+            show(crusher.height.value.to_mm()),
+            show(crusher.spin.value.to_rev_per_min())
+        ),
+    };
+    let body = blade.body().map_or_else(String::new, body);
+    format!("{}: {measures}{body}", blade.name())
+}
+
+fn straight(blade: &StraightBlade) -> String {
     let edges = match blade.edges {
         Edges::Single => "single",
         Edges::Double => "double",
     };
-    let body = blade.body.as_ref().map_or_else(String::new, body);
     format!(
-        "{}: {edges} edge {} mm long, half apex {} deg, {} mm thick{body}",
-        blade.name,
+        "{edges} edge {} mm long, half apex {} deg, {} mm thick",
         show(blade.cutting_length.value.to_mm()),
         show(blade.half_apex.value.to_deg()),
         show(blade.thickness.value.to_mm())
@@ -150,6 +172,11 @@ pub(super) fn control(machine: Option<&Machine>) -> Vec<Fact> {
         Ready::After(time) => format!("ready {} s after switching on", show(time.to_s())),
     };
     let mut list = vec![("generator", format!("{output}, {ready}"))];
+    list.extend(
+        machine
+            .spindle
+            .map(|output| ("spindle", format!("output {}", output.value))),
+    );
     for tool in machine.tools.iter() {
         let of = (tool.blade.as_ref()).map_or_else(String::new, |blade| format!("{}: ", blade.node));
         list.extend(

@@ -71,7 +71,7 @@ impl<'a> Playback<'a> {
             stock: program.stock,
             part: plan.profile.points(),
             blades: (program.operations.iter())
-                .filter_map(|operation| program.blade(operation.tool))
+                .filter_map(|operation| program.blade(*operation.tools.first()?))
                 .collect(),
             orientations: &program.orientations,
             timeline: Timeline::of(program, &compiled.op_times),
@@ -92,7 +92,10 @@ fn cell<'a>(plan: &'a PlannedJob, reached: &'a Reached) -> Option<Cell<'a>> {
         axes: &model.axes,
         linkage,
         blades_in_flange: (program.operations.iter())
-            .map(|operation| rigs.with(operation.tool).flange_in_blade.inverse())
+            .filter_map(|operation| {
+                let tool = operation.tools.first()?;
+                Some(rigs.with(*tool).flange_in_blade.inverse())
+            })
             .collect(),
         work_in_mount: rig.work_in_root,
         bodies,

@@ -13,6 +13,7 @@ use vcutc_backend_api::units::Duration;
 use vcutc_driver::Outcome;
 use vcutc_driver::checks::ReadBack;
 use vcutc_driver::summary::time;
+use vcutc_job::BladeRef;
 use vcutc_picture::{Prefix, setup};
 
 const STYLE: &str = include_str!("assets/sheet.css");
@@ -85,7 +86,11 @@ fn stock(material: &Material<'_>) -> Html {
 /// The blades, with the way they are held.
 fn blades(material: &Material<'_>) -> Html {
     let named = facts::blades(material);
-    let sketch = named.first().map_or_else(String::new, |blade| {
+    let straight = named.iter().find_map(|blade| match blade {
+        BladeRef::Straight(blade) => Some(*blade),
+        BladeRef::Disc(_) | BladeRef::Crusher(_) => None,
+    });
+    let sketch = straight.map_or_else(String::new, |blade| {
         let (edge, half_apex) = (blade.cutting_length.value, blade.half_apex.value);
         setup::blade(
             Prefix::new("blade-"),

@@ -22,7 +22,7 @@ use super::prove::{Bound, accompanied};
 use super::surface::Surface;
 use section::{Ceiling, Near, Section};
 use stage::{Axis, Cylinder};
-use vcutc_backend_api::ir::{Action, OpId, OperationId, Program, Site};
+use vcutc_backend_api::ir::{Action, OpId, OperationId, Program, Site, ToolId};
 use vcutc_backend_api::segments::Segment;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
@@ -48,6 +48,8 @@ pub struct Passage {
     /// What of the job it serves.
     pub site: Site,
     pub operation: OperationId,
+    /// The blade.
+    pub tool: ToolId,
     /// The stage, counted from the edge.
     pub stage: usize,
     /// Where on the body.
@@ -106,7 +108,7 @@ pub fn watched(verified: &VerifiedProgram, bounds: &[Bound<'_>], watch: &mut dyn
 struct Watcher<'p> {
     program: &'p Program,
     bounds: &'p [Bound<'p>],
-    /// Of each operation.
+    /// Of each blade.
     stages: Vec<Vec<Cylinder>>,
     ceiling: Ceiling,
     found: Bodies,
@@ -115,11 +117,8 @@ struct Watcher<'p> {
 
 impl<'p> Watcher<'p> {
     fn new(program: &'p Program, bounds: &'p [Bound<'p>], watch: &'p mut dyn FnMut(Contact)) -> Self {
-        let stages = program.operations.iter().map(|operation| {
-            let blade = program.blade(operation.tool);
-            let stages = blade.and_then(|blade| blade.body.as_deref()).unwrap_or_default();
-            Cylinder::all(stages)
-        });
+        let blades = program.blades.iter();
+        let stages = blades.map(|blade| Cylinder::all(blade.body.as_deref().unwrap_or_default()));
         Self {
             program,
             bounds,
@@ -145,19 +144,20 @@ impl<'p> Watcher<'p> {
             surface,
             ceiling: &self.ceiling,
         };
-        let Some(near) = self.nearest(&course, operation, during, &mut section) else {
+        let Some(near) = self.nearest(&course, segment.before.tool, during, &mut section) else {
             return;
         };
         let passage = Passage {
             op: segment.id,
             site: segment.op.site,
             operation,
+            tool: segment.before.tool,
             stage: near.stage,
             at: near.at,
             clearance: Length::mm(near.gap),
         };
         if near.gap < -TOUCH {
-            let in_part = self.in_part(operation, near);
+            let in_part = self.in_part((operation, segment.before.tool), near);
             self.note(Contact {
                 passage,
                 during,
@@ -173,11 +173,11 @@ impl<'p> Watcher<'p> {
     fn nearest(
         &self,
         course: &Course,
-        operation: OperationId,
+        tool: ToolId,
         during: During,
         section: &mut Section<'_>,
     ) -> Option<Near> {
-        let stages = self.stages.get(usize::from(operation.0))?;
+        let stages = self.stages.get(usize::from(tool.0))?;
         let Some((way, held)) = course.straight() else {
             return turn::entry(course, stages, section);
         };
@@ -193,8 +193,8 @@ impl<'p> Watcher<'p> {
     }
 
     /// How deep in the part a body comes that enters the stock.
-    fn in_part(&self, operation: OperationId, near: Near) -> Option<Length> {
-        let cylinder = self.stages.get(usize::from(operation.0))?.get(near.stage)?;
+    fn in_part(&self, (operation, tool): (OperationId, ToolId), near: Near) -> Option<Length> {
+        let cylinder = self.stages.get(usize::from(tool.0))?.get(near.stage)?;
         let part = self.bounds.get(usize::from(operation.0))?.part;
         let shadow = cylinder.shadow(near.axis, near.way, self.program.stock)?;
         let (_, gap) = shadow.nearest_above(part.points())?;

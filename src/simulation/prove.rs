@@ -14,6 +14,7 @@
 //!
 //! On a piece of a chain the blade itself is followed, with its thickness and the chain's blend ([`piece`]).
 
+mod flank;
 mod piece;
 #[cfg(test)]
 mod tests;
@@ -21,16 +22,16 @@ mod tests;
 use super::course::Course;
 use super::surface::{Side, Single, Surface, Vee};
 use core::num::NonZeroU32;
+use flank::{FlankGeometry, flanks};
 use piece::Piece;
 use std::collections::BTreeMap;
-use vcutc_backend_api::geometry::Orientation;
 use vcutc_backend_api::ir::{
-    Action, Blade, Flank, Joint, Op, OpId, OperationId, OrientationId, Program, Site,
+    Action, Flank, Joint, Op, OpId, OperationId, OrientationId, Program, Site, ToolId,
 };
 use vcutc_backend_api::segments::Segment;
 use vcutc_backend_api::state::{State, TipPose};
-use vcutc_backend_api::units::{Angle, Length};
-use vcutc_backend_api::verify::{UPRIGHT, VerifiedProgram};
+use vcutc_backend_api::units::Length;
+use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 
@@ -193,15 +194,6 @@ pub struct Release {
 /// Depth below which an overcut is rounding: a nanometre.
 const OVERCUT: f64 = 1e-6;
 
-/// How a posture's flank lies in the x-z plane.
-#[derive(Clone, Copy)]
-struct FlankGeometry {
-    /// Rise over x; infinite for a wall.
-    slope: f64,
-    /// Edge length per millimetre of height.
-    edge_per_height: f64,
-}
-
 /// A cut of one flank, as the program states it.
 struct Cut {
     operation: OperationId,
@@ -211,6 +203,7 @@ struct Cut {
     /// Where the tip runs.
     tip: Point2,
     held: OrientationId,
+    tool: ToolId,
 }
 
 impl Cut {
@@ -248,6 +241,7 @@ impl Cut {
             flank,
             tip: Point2 { x: tip.x, z: tip.z },
             held: orientation,
+            tool: after.tool,
         })
     }
 
@@ -268,9 +262,10 @@ struct Player<'p> {
     surface: Surface,
     /// What each operation's cuts alone leave, on the blade's side towards the part; in step with `bounds`.
     guards: Vec<Surface>,
-    /// Geometry of each orientation with the blade of the operation at hand.
+    /// Geometry of each orientation with the blade at hand.
     flanks: Vec<FlankGeometry>,
-    operation: Option<OperationId>,
+    /// The operation and the blade at hand.
+    at_work: Option<(OperationId, ToolId)>,
     half_done: HalfDone,
     findings: Findings,
     /// The deepest entry into the part of what leaves no trace in a surface, slits and chains, and how deep that is.
@@ -316,7 +311,7 @@ impl<'p> Player<'p> {
             guards: vec![untouched; bounds.len()],
             surface,
             flanks: Vec::new(),
-            operation: None,
+            at_work: None,
             half_done: HalfDone::default(),
             findings: Findings::default(),
             traceless: None,
@@ -328,7 +323,7 @@ impl<'p> Player<'p> {
 
     /// `is_single` says that the cut has no other flank.
     fn cut(&mut self, cut: &Cut, is_single: bool, watch: &mut dyn FnMut(&mut Surface, Release)) {
-        self.enter(cut.operation);
+        self.enter(cut.operation, cut.tool);
         let Some(&geometry) = self.flanks.get(cut.held.0 as usize) else {
             return;
         };
@@ -414,8 +409,8 @@ impl<'p> Player<'p> {
 
     /// The blade's edge, or what of it may be used.
     fn usable_edge(&self) -> Option<f64> {
-        let operation = self.operation?;
-        let blade = self.program.blade_of(operation)?.cutting_length;
+        let (operation, tool) = self.at_work?;
+        let blade = self.program.blade(tool)?.straight()?.cutting_length;
         let limit = self.bounds.get(usize::from(operation.0));
         let limit = limit.and_then(|bound| bound.edge);
         Some(limit.map_or(blade, |limit| limit.min(blade)).to_mm())
@@ -484,8 +479,8 @@ impl<'p> Player<'p> {
         else {
             return;
         };
-        self.enter(operation);
-        let blade = self.program.blade_of(operation);
+        self.enter(operation, segment.before.tool);
+        let blade = self.program.blade(segment.before.tool);
         let (Some(course), Some(blade)) = (Course::of(self.program, segment), blade) else {
             return;
         };
@@ -516,10 +511,12 @@ impl<'p> Player<'p> {
         }
     }
 
-    fn enter(&mut self, operation: OperationId) {
-        if self.operation != Some(operation) {
-            self.operation = Some(operation);
-            self.flanks = flanks(self.program, operation);
+    fn enter(&mut self, operation: OperationId, tool: ToolId) {
+        let before = self.at_work.replace((operation, tool));
+        if before != self.at_work {
+            self.flanks = flanks(self.program, tool);
+        }
+        if before.is_none_or(|(before, _)| before != operation) {
             self.half_done = HalfDone::default();
         }
     }
@@ -563,11 +560,13 @@ impl<'p> Player<'p> {
 
     /// The cut of an operation whose V passes lowest through a point's x.
     fn cut_through(&self, operation: OperationId, at: Point2, fault: CutFault) -> Option<Finding> {
-        let flanks = flanks(self.program, operation);
+        let tools = (0..).map(ToolId).take(self.program.blades.len());
+        let flanks: Vec<_> = tools.map(|tool| flanks(self.program, tool)).collect();
         let mut lowest: Option<(f64, Cut)> = None;
         let cuts = Cut::all(self.program).map(|(_, cut)| cut);
         for cut in cuts.filter(|cut| cut.operation == operation) {
-            let Some(geometry) = flanks.get(cut.held.0 as usize) else {
+            let of_blade = flanks.get(usize::from(cut.tool.0));
+            let Some(geometry) = of_blade.and_then(|flanks| flanks.get(cut.held.0 as usize)) else {
                 continue;
             };
             let height = Vee::one(cut.tip, cut.side(), geometry.slope).height(at.x);
@@ -576,32 +575,6 @@ impl<'p> Player<'p> {
             }
         }
         lowest.map(|(_, cut)| cut.finding(fault))
-    }
-}
-
-/// How flanks lie in each of a program's orientations, cut with an operation's blade.
-fn flanks(program: &Program, operation: OperationId) -> Vec<FlankGeometry> {
-    let Some(blade) = program.blade_of(operation) else {
-        return Vec::new();
-    };
-    let orientations = program.orientations.iter();
-    orientations.map(|held| flank(blade, *held)).collect()
-}
-
-fn flank(blade: &Blade, held: Orientation) -> FlankGeometry {
-    let m = held.matrix();
-    // Tip to shank is -z_t: its slope in the x-z plane is the flank's, its angle to y the rake.
-    let (x, y, z) = (-m[0][2], -m[1][2], -m[2][2]);
-    let rake = Angle::rad(libm::acos(y.abs().min(1.0)));
-    let cos_swing = z / libm::hypot(x, z);
-    FlankGeometry {
-        // Over a metre of height such a flank leans by a nanometre.
-        slope: if x.abs() <= UPRIGHT {
-            f64::INFINITY
-        } else {
-            z / x.abs()
-        },
-        edge_per_height: 1.0 / (cos_swing * (rake - blade.half_apex).sin()),
     }
 }
 

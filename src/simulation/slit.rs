@@ -6,7 +6,7 @@
 
 use super::prove::Bound;
 use vcutc_backend_api::geometry::{Orientation, Point3};
-use vcutc_backend_api::ir::Blade;
+use vcutc_backend_api::ir::Straight;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 
@@ -26,20 +26,16 @@ const ROUNDING: f64 = 1e-6;
 
 /// Where the edge of a blade lies in the x-z plane, seen from the tip to its end.
 #[must_use]
-pub fn edge(blade: &Blade, held: Orientation) -> Point2 {
+pub fn edge(blade: Straight, held: Orientation) -> Point2 {
     let m = held.matrix();
-    // From the tip along the shank; the two edges lie half the apex angle off it in the blade's plane, whose other
-    // direction is x_t. Of the two ends the one that is farther along the flank counts.
-    let (sine, cosine) = libm::sincos(blade.half_apex.to_rad());
-    let end = |side: f64| {
+    // Of the two edges the one that is farther along the flank counts.
+    let [one, other] = blade.edge_ends().map(|[aside, _, up]| {
         let along = |row: usize| {
-            let row = m.get(row).copied().unwrap_or_default();
-            let [x, _, z] = row;
-            blade.cutting_length.to_mm() * (side * sine * x - cosine * z)
+            let [x, _, z] = m.get(row).copied().unwrap_or_default();
+            aside * x + up * z
         };
         Point2::new(along(0), along(2))
-    };
-    let (one, other) = (end(1.0), end(-1.0));
+    });
     if one.z >= other.z { one } else { other }
 }
 

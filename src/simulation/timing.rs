@@ -57,7 +57,7 @@ impl Kind {
             Action::Travel { .. } | Action::Approach { .. } | Action::Retract { .. } => Self::Travel,
             Action::AwaitReady | Action::Dwell { .. } | Action::ToolChange { .. } => Self::Waiting,
             Action::Home | Action::ChangePlace | Action::AxisTravel { .. } => Self::Axes,
-            Action::Ultrasonic { .. } => return None,
+            Action::Ultrasonic { .. } | Action::Spin { .. } => return None,
         })
     }
 }

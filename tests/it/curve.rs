@@ -22,7 +22,7 @@ use vcutc::job::sema::report::Checked;
 use vcutc::job::sema::session::Session;
 use vcutc::job::sema::setup;
 use vcutc::job::sema::written::Written;
-use vcutc::job::{PlannedOperation, Setup, Sourced};
+use vcutc::job::{BladeRef, PlannedOperation, Setup, Sourced, StraightBlade};
 use vcutc::process::posture::{Feed, Holder};
 use vcutc::process::verdict::explained;
 use vcutc::readback::{Fresh, Reference};
@@ -71,10 +71,12 @@ impl Kind for Curve {
     fn check(&self, written: Written<'_>, session: &mut Session<'_>) -> Checked<Box<dyn Operation>> {
         let fields = Fields::sort(&SPEC, written.place, &written.block.entries, session);
         let setup = setup::check(&fields, written, session);
+        let blade = setup::blade("blade", &fields, written, session);
         let mut reader = Reader::new(written.scope, &mut session.reports);
         let [at, depth, radius] = ["at", "depth", "radius"].map(|name| reader.required(&fields, name));
         Ok(Box::new(Mark {
             setup: setup?,
+            blade: blade?,
             at: at?,
             depth: depth?,
             radius: radius?,
@@ -85,6 +87,7 @@ impl Kind for Curve {
 #[derive(Clone, Debug, PartialEq)]
 struct Mark {
     setup: Setup,
+    blade: StraightBlade,
     at: Sourced<Length>,
     depth: Sourced<Length>,
     radius: Sourced<Length>,
@@ -96,7 +99,7 @@ impl Mark {
         let holder = Holder {
             swing: Angle::ZERO,
             rake: self.setup.rake.value,
-            edges: self.setup.blade.edges,
+            edges: self.blade.edges,
         };
         holder.cutting(Flank::Right, Feed::Forward)
     }
@@ -107,11 +110,16 @@ impl Operation for Mark {
         &self.setup
     }
 
+    fn blades(&self) -> Vec<BladeRef<'_>> {
+        vec![BladeRef::Straight(&self.blade)]
+    }
+
     fn setup_mut(&mut self) -> &mut Setup {
         &mut self.setup
     }
 
     fn forget_places(&mut self, place: Span) {
+        self.blade.forget_places(place);
         self.at.forget_place(place);
         self.depth.forget_place(place);
         self.radius.forget_place(place);
@@ -187,7 +195,7 @@ impl PlannedOperation for Marked {
 
     fn lower(&self, source: SourceRef, builder: &mut ProgramBuilder) {
         let setup = &self.asked.setup;
-        let operation = builder.operation(KIND, setup.blade.in_program(), source);
+        let operation = builder.operation(KIND, self.asked.blade.in_program(), source);
         let one = NonZeroU32::MIN;
         let site = Site::Cut {
             operation,

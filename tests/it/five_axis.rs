@@ -149,6 +149,7 @@ fn no_turn_takes_an_edge_over_the_work() {
         let rigs = Rigs::of(model, &cell, program);
         let rig = rigs.first();
         let blade = &program.blades[0];
+        let blade = blade.straight().unwrap();
         let (sin, cos) = libm::sincos(blade.half_apex.to_rad());
         let length = blade.cutting_length.to_mm();
         let stock = program.stock;

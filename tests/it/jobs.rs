@@ -225,7 +225,7 @@ fn subjects(outcome: &Outcome) -> BTreeSet<String> {
     let auto = |name: &str, is_auto: bool| format!("{name} {}", if is_auto { "auto" } else { "given" });
     for asked in job.operations.iter().filter_map(|asked| RoughVcut::of(&**asked)) {
         subjects.extend([
-            format!("{:?} {:?}", asked.setup.blade.edges, asked.setup.direction.value),
+            format!("{:?} {:?}", asked.blade.edges, asked.setup.direction.value),
             auto("lattice", asked.lattice.value == Auto::Auto),
             auto("order", asked.order.value == Auto::Auto),
             auto("sequence", asked.sequence.value == Auto::Auto),

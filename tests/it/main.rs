@@ -77,6 +77,7 @@ mod segments;
 mod serial_arm;
 #[cfg(feature = "krl")]
 mod shop;
+mod skim;
 #[cfg(feature = "krl")]
 mod status;
 mod syntax;

@@ -103,6 +103,7 @@ fn name(action: &Action) -> &'static str {
         Action::Follow { .. } => "follow",
         Action::Turn { .. } => "turn",
         Action::Ultrasonic { .. } => "ultrasonic",
+        Action::Spin { .. } => "spin",
         Action::AwaitReady => "await_ready",
         Action::Dwell { .. } => "dwell",
         Action::ChangePlace => "change_place",

@@ -25,7 +25,7 @@ use vcutc::job::sema::report::Checked;
 use vcutc::job::sema::session::Session;
 use vcutc::job::sema::setup;
 use vcutc::job::sema::written::Written;
-use vcutc::job::{PlannedOperation, Setup, Sourced};
+use vcutc::job::{BladeRef, PlannedOperation, Setup, Sourced, StraightBlade};
 use vcutc::picture::Prefix;
 use vcutc::process::posture::{Feed, Holder};
 use vcutc::process::verdict::explained;
@@ -73,11 +73,13 @@ impl Kind for Line {
     fn check(&self, written: Written<'_>, session: &mut Session<'_>) -> Checked<Box<dyn Operation>> {
         let fields = Fields::sort(&SPEC, written.place, &written.block.entries, session);
         let setup = setup::check(&fields, written, session);
+        let blade = setup::blade("blade", &fields, written, session);
         let mut reader = Reader::new(written.scope, &mut session.reports);
         let (swing, at) = (reader.required(&fields, "swing"), reader.required(&fields, "at"));
         let depth = reader.required(&fields, "depth");
         Ok(Box::new(Mark {
             setup: setup?,
+            blade: blade?,
             swing: swing?,
             at: at?,
             depth: depth?,
@@ -88,6 +90,7 @@ impl Kind for Line {
 #[derive(Clone, Debug, PartialEq)]
 struct Mark {
     setup: Setup,
+    blade: StraightBlade,
     swing: Sourced<Angle>,
     at: Sourced<Length>,
     depth: Sourced<Length>,
@@ -107,7 +110,7 @@ impl Mark {
         Holder {
             swing: self.swing.value,
             rake: self.setup.rake.value,
-            edges: self.setup.blade.edges,
+            edges: self.blade.edges,
         }
     }
 
@@ -134,11 +137,16 @@ impl Operation for Mark {
         &self.setup
     }
 
+    fn blades(&self) -> Vec<BladeRef<'_>> {
+        vec![BladeRef::Straight(&self.blade)]
+    }
+
     fn setup_mut(&mut self) -> &mut Setup {
         &mut self.setup
     }
 
     fn forget_places(&mut self, place: Span) {
+        self.blade.forget_places(place);
         self.swing.forget_place(place);
         self.at.forget_place(place);
         self.depth.forget_place(place);
@@ -148,7 +156,7 @@ impl Operation for Mark {
         if let Some(diagnostic) = self.refused(&ground) {
             return Err(Box::new(diagnostic));
         }
-        let blade = &self.setup.blade;
+        let blade = &self.blade;
         let overhang = self
             .holder()
             .turning_overhang(blade.cutting_length.value, blade.half_apex.value);
@@ -220,7 +228,7 @@ impl PlannedOperation for Marked {
 
     fn lower(&self, source: SourceRef, builder: &mut ProgramBuilder) {
         let setup = &self.asked.setup;
-        let operation = builder.operation(KIND, setup.blade.in_program(), source);
+        let operation = builder.operation(KIND, self.asked.blade.in_program(), source);
         let (layer, cut) = (NonZeroU32::MIN, NonZeroU32::MIN);
         let (site, way) = (
             Site::Cut {

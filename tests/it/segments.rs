@@ -9,7 +9,7 @@ use vcutc_backend_api::exchange::Exchange;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{Action, Op, OpId, OrientationId, Program, Switch};
 use vcutc_backend_api::segments::{LimitedBy, LinearSegment, Path, Segment};
-use vcutc_backend_api::state::{Generator, Place, TipPose};
+use vcutc_backend_api::state::{Drive, Place, TipPose};
 
 static PROGRAMS: LazyLock<Vec<Program>> = LazyLock::new(|| {
     let folders = fs::read_dir(root().join("tests/jobs")).unwrap();
@@ -77,14 +77,14 @@ fn place_after(ops: &[Op]) -> Place {
     })
 }
 
-fn generator_after(ops: &[Op]) -> Generator {
+fn generator_after(ops: &[Op]) -> Drive {
     let last = ops.iter().rev().find_map(|op| match op.action {
-        Action::Ultrasonic { state: Switch::On } => Some(Generator::Starting),
-        Action::Ultrasonic { state: Switch::Off } => Some(Generator::Off),
-        Action::AwaitReady => Some(Generator::Running),
+        Action::Ultrasonic { state: Switch::On } => Some(Drive::Starting),
+        Action::Ultrasonic { state: Switch::Off } => Some(Drive::Off),
+        Action::AwaitReady => Some(Drive::Running),
         _ => None,
     });
-    last.unwrap_or(Generator::Off)
+    last.unwrap_or(Drive::Off)
 }
 
 /// The angle of a rotation by the trace of its matrix, in rad.
@@ -181,7 +181,11 @@ fn is_as_walked(program: &Program, index: usize, segment: &Segment<'_>) {
             Path::Still,
         )
         | (
-            Action::Ultrasonic { .. } | Action::AwaitReady | Action::Dwell { .. } | Action::ToolChange { .. },
+            Action::Ultrasonic { .. }
+            | Action::Spin { .. }
+            | Action::AwaitReady
+            | Action::Dwell { .. }
+            | Action::ToolChange { .. },
             _,
             Path::Still,
         ) => {}

@@ -73,6 +73,7 @@ fn cell(model: &Model) -> Cell {
         home: Some(AxisValues(home)),
         change: None,
         ultrasonic: Some(1),
+        spindle: None,
         ready: Ready::After(Duration::s(1.0)),
     }
 }

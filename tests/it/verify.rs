@@ -237,7 +237,7 @@ fn no_slit_of_a_proven_program_enters_the_part() {
             let op = segment.op;
             if let (Action::Cut { .. }, Some(line)) = (op.action, segment.line()) {
                 let operation = usize::from(op.site.operation().unwrap().0);
-                let blade = program.blade(program.operations[operation].tool).unwrap();
+                let blade = program.blade(segment.before.tool).unwrap().straight().unwrap();
                 let edge = edge(blade, program.orientation(line.to.orientation).unwrap());
                 assert_eq!(
                     deepest(&bounds[operation], edge, line.from.tip, line.to.tip),
@@ -336,7 +336,7 @@ fn every_op_has_its_place_in_the_text() {
             Action::Cut { .. } | Action::Follow { .. } | Action::Turn { .. } => "LIN {",
             Action::Ultrasonic { .. } => "$OUT[12]=",
             Action::AwaitReady | Action::Dwell { .. } => "WAIT SEC ",
-            Action::ToolChange { .. } => "none",
+            Action::Spin { .. } | Action::ToolChange { .. } => "none",
         };
         assert!(text.starts_with(word), "{op:?} at {text}");
     }

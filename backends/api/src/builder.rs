@@ -5,7 +5,7 @@ use crate::ir::{
     Action, Blade, Cell, FeedId, IR_VERSION, Op, Operation, OperationId, OperationKind, OrientationId,
     Program, Purpose, RateId, Site, SourceRef, Stock, ToolId, ViaId,
 };
-use crate::state::State;
+use crate::state::{Drive, State};
 use crate::units::{AngularSpeed, Length, Speed};
 use core::num::NonZeroU32;
 
@@ -63,16 +63,16 @@ impl ProgramBuilder {
         self.program.orientations.get(index as usize).copied()
     }
 
-    /// Appends an op; leaves out what the cell does not have (home angles, a place for changes, a generator).
+    /// Appends an op; leaves out what the cell does not have (home angles, a place for changes, a generator, a spindle).
     #[inline]
     pub fn op(&mut self, site: Site, action: Action) {
         let cell = self.program.cell.as_ref();
         let exists = match &action {
             Action::Home => cell.is_some_and(|cell| cell.home.is_some()),
             Action::ChangePlace => cell.is_some_and(|cell| cell.change.is_some()),
-            Action::Ultrasonic { .. } | Action::AwaitReady => {
-                cell.is_some_and(|cell| cell.ultrasonic.is_some())
-            }
+            Action::Ultrasonic { .. } => cell.is_some_and(|cell| cell.ultrasonic.is_some()),
+            Action::Spin { .. } => cell.is_some_and(|cell| cell.spindle.is_some()) && self.spins(),
+            Action::AwaitReady => [self.state.generator, self.state.spindle].contains(&Drive::Starting),
             _ => true,
         };
         if exists {
@@ -81,15 +81,37 @@ impl ProgramBuilder {
         }
     }
 
-    /// Adds an operation, and says what ops refer to it by. Its blade is put in where another one is at hand.
+    /// Whether the blade at hand is one that spins.
+    fn spins(&self) -> bool {
+        let blade = self.program.blade(self.state.tool);
+        blade.is_some_and(|blade| blade.spin().is_some())
+    }
+
+    /// Adds an operation, and says what ops refer to it by. Its first blade is put in where another one is at hand.
     pub fn operation(&mut self, kind: OperationKind, blade: Blade, source: SourceRef) -> OperationId {
+        let tool = self.put_in(blade);
+        let tools = vec![tool];
+        self.program.operations.push(Operation { kind, tools, source });
+        OperationId(id(self.program.operations.len() - 1))
+    }
+
+    /// Goes on with the latest operation with another of its blades, which is put in where it is not at hand.
+    pub fn change(&mut self, blade: Blade) {
+        let tool = self.put_in(blade);
+        if let Some(operation) = self.program.operations.last_mut()
+            && !operation.tools.contains(&tool)
+        {
+            operation.tools.push(tool);
+        }
+    }
+
+    fn put_in(&mut self, blade: Blade) -> ToolId {
         let tool = ToolId(id(find_or_push(&mut self.program.blades, blade)));
         if self.state.tool != tool {
             self.op(Site::Program, Action::ChangePlace);
             self.op(Site::Program, Action::ToolChange { tool });
         }
-        self.program.operations.push(Operation { kind, tool, source });
-        OperationId(id(self.program.operations.len() - 1))
+        tool
     }
 
     /// An orientation of the table, added where it is new.

@@ -73,7 +73,7 @@ mod tests {
         assert!(error.to_string().contains("at least one tool"), "{error}");
         for number in [-1, 65_536] {
             let mut wrong = form.clone();
-            wrong["operations"][0]["tool"] = number.into();
+            wrong["operations"][0]["tools"] = serde_json::json!([number]);
             assert!(serde_json::from_value::<Exchange<'_>>(wrong).is_err());
         }
     }

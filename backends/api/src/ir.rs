@@ -3,14 +3,16 @@
 //! The serde form is the exchange format (`--emit ir`); its schema is committed as `docs/schema/ir.json`. A change
 //! that old readers would misread raises [`IR_VERSION`].
 
+mod blade;
 mod op;
 mod tools;
 
+pub use blade::{Blade, BodyStage, Crusher, Disc, Edges, Extent, Shape, Spindle, Straight};
 pub use op::{Action, ActionKind, Flank, Joint, Op, Site, Switch};
 pub use tools::{Change, Changer, NoTools, Tool, ToolId, Tools};
 
 use crate::geometry::{Frame, Orientation, Point3};
-use crate::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
+use crate::units::{AngularSpeed, Duration, Length, Mass, Speed};
 use core::num::NonZeroU32;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -95,10 +97,13 @@ impl Program {
         self.blades.get(usize::from(id.0))
     }
 
-    /// The blade that an operation cuts with.
-    #[must_use]
-    pub fn blade_of(&self, operation: OperationId) -> Option<&Blade> {
-        self.blade(self.operation(operation)?.tool)
+    /// The blades that an operation cuts with.
+    pub fn blades_of(&self, operation: OperationId) -> impl Iterator<Item = &Blade> {
+        let tools = self
+            .operation(operation)
+            .into_iter()
+            .flat_map(|operation| &operation.tools);
+        tools.filter_map(|&tool| self.blade(tool))
     }
 
     /// An orientation by its number.
@@ -189,7 +194,10 @@ pub struct Cell {
     pub change: Option<Change>,
     /// Digital output that runs the ultrasonic generator.
     pub ultrasonic: Option<u32>,
-    /// How the program knows that the blade vibrates.
+    /// What spins the blades that spin, when the job states it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spindle: Option<Spindle>,
+    /// How the program knows that the blade vibrates and spins.
     pub ready: Ready,
 }
 
@@ -291,7 +299,7 @@ pub struct Load {
     pub centre: Point3,
 }
 
-/// How a program knows that the generator is up before the blade enters.
+/// How a program knows that generator and spindle are up before the blade enters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -308,8 +316,8 @@ pub enum Ready {
 pub struct Operation {
     /// What is done.
     pub kind: OperationKind,
-    /// The blade that does it: its place in [`Program::blades`].
-    pub tool: ToolId,
+    /// The blades that do it, by their places in [`Program::blades`]: at least one, in the order in which it takes them.
+    pub tools: Vec<ToolId>,
     /// Where the job says so.
     pub source: SourceRef,
 }
@@ -383,46 +391,6 @@ const fn is_name_of_kind(name: &[u8]) -> bool {
         index += 1;
     }
     is_in_word && name.len() <= 40
-}
-
-/// A straight blade.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Blade {
-    /// Its name in the job.
-    pub name: String,
-    /// Usable edge length from the tip.
-    pub cutting_length: Length,
-    /// Half the apex angle, between edge and tool axis.
-    pub half_apex: Angle,
-    /// Thickness square to the blade plane.
-    pub thickness: Length,
-    /// Which sides cut.
-    pub edges: Edges,
-    /// The body above the edge, where the job states it: round stages about the tool axis, from the tip up.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub body: Option<Vec<BodyStage>>,
-}
-
-/// A round part of a blade's body about the tool axis. It goes on up to the next one, the last one without end.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct BodyStage {
-    /// Height above the tip at which it begins, along the tool axis.
-    pub from: Length,
-    /// Its radius.
-    pub radius: Length,
-}
-
-/// Which sides of a blade cut.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum Edges {
-    /// Only the side towards `+x_t`: the blade must be turned half round to cut the other way.
-    Single,
-    /// Both sides.
-    Double,
 }
 
 /// A place in the job's source text, in bytes.

@@ -15,6 +15,7 @@ mod comparator;
 mod normalize;
 mod replay;
 mod resolution;
+mod signals;
 #[cfg(test)]
 #[cfg(feature = "testkit")]
 mod tests;
@@ -223,6 +224,8 @@ pub enum Command {
         /// To what.
         state: Switch,
     },
+    /// The control's own spindle turns at this speed, or stands where there is none.
+    Spin(Option<AngularSpeed>),
     /// Waits until a digital input is high.
     AwaitInput(u32),
     /// Waits.
@@ -237,7 +240,11 @@ impl Command {
     pub const fn is_motion(&self) -> bool {
         match self {
             Self::Axes(_) | Self::AxesToPose(_) | Self::Straight { .. } | Self::Round { .. } => true,
-            Self::Switch { .. } | Self::AwaitInput(_) | Self::Wait(_) | Self::ChangeTool(_) => false,
+            Self::Switch { .. }
+            | Self::Spin(_)
+            | Self::AwaitInput(_)
+            | Self::Wait(_)
+            | Self::ChangeTool(_) => false,
         }
     }
 }

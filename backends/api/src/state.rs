@@ -1,4 +1,4 @@
-//! What the machine is doing between two ops: where it is, and whether the blade vibrates.
+//! What the machine is doing between two ops: where it is, and whether the blade vibrates and spins.
 
 use crate::geometry::Point3;
 use crate::ir::{Action, OrientationId, Switch, ToolId};
@@ -25,9 +25,9 @@ pub enum Place {
     Pose(TipPose),
 }
 
-/// How far the ultrasonic generator is.
+/// How far a drive is: the ultrasonic generator, or the spindle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Generator {
+pub enum Drive {
     /// Off.
     Off,
     /// Switched on.
@@ -36,13 +36,42 @@ pub enum Generator {
     Running,
 }
 
+impl Drive {
+    /// After it is switched.
+    const fn switched(state: Switch) -> Self {
+        match state {
+            Switch::On => Self::Starting,
+            Switch::Off => Self::Off,
+        }
+    }
+
+    /// Whether it is switched on.
+    #[must_use]
+    pub const fn is_on(self) -> Switch {
+        match self {
+            Self::Off => Switch::Off,
+            Self::Starting | Self::Running => Switch::On,
+        }
+    }
+
+    /// After its readiness is awaited.
+    const fn awaited(self) -> Self {
+        match self {
+            Self::Off => Self::Off,
+            Self::Starting | Self::Running => Self::Running,
+        }
+    }
+}
+
 /// The state between two ops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
     /// Where the machine is.
     pub place: Place,
     /// Whether the blade vibrates.
-    pub generator: Generator,
+    pub generator: Drive,
+    /// Whether it spins.
+    pub spindle: Drive,
     /// The blade at hand.
     pub tool: ToolId,
 }
@@ -51,7 +80,8 @@ impl State {
     /// Before the first op.
     pub const START: Self = Self {
         place: Place::Unknown,
-        generator: Generator::Off,
+        generator: Drive::Off,
+        spindle: Drive::Off,
         tool: ToolId::FIRST,
     };
 
@@ -76,9 +106,12 @@ impl State {
                     Place::Unknown | Place::Pose(_) => Place::Unknown,
                 };
             }
-            Action::Ultrasonic { state: Switch::On } => self.generator = Generator::Starting,
-            Action::Ultrasonic { state: Switch::Off } => self.generator = Generator::Off,
-            Action::AwaitReady => self.generator = Generator::Running,
+            Action::Ultrasonic { state } => self.generator = Drive::switched(*state),
+            Action::Spin { state } => self.spindle = Drive::switched(*state),
+            Action::AwaitReady => {
+                self.generator = self.generator.awaited();
+                self.spindle = self.spindle.awaited();
+            }
             _ => {
                 if let Some(pose) = to {
                     self.place = Place::Pose(pose);

@@ -6,6 +6,7 @@
 
 mod chain;
 mod conformance;
+mod disc;
 mod pretend;
 mod pretend_five_axis;
 mod recipe;
@@ -13,6 +14,7 @@ mod two_blades;
 
 pub use chain::chained;
 pub use conformance::{conformance, conformance_with};
+pub use disc::with_disc;
 pub use pretend::{axes, axes_at, blade_in_work, reachable};
 pub use pretend_five_axis::five_axes;
 pub use recipe::{CellRecipe, Crossing, Passes, Recipe};

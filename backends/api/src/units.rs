@@ -142,12 +142,14 @@ quantity! {
     m_per_s / to_m_per_s = 1000.0;
 }
 quantity! {
-    /// A rate of reorientation; held in rad/s.
+    /// A rate of turning; held in rad/s.
     AngularSpeed,
     /// Radians a second.
     rad_per_s / to_rad_per_s = 1.0;
     /// Degrees a second.
     deg_per_s / to_deg_per_s = core::f64::consts::PI / 180.0;
+    /// Turns a minute.
+    rev_per_min / to_rev_per_min = core::f64::consts::TAU / 60.0;
 }
 quantity! {
     /// A time span; held in seconds.

@@ -6,6 +6,7 @@
 //! there is a home and the next one a move of all axes, no rotation is ambiguous, the blade only meets the stock in cuts,
 //! and every cut has one flank on either side at most.
 
+mod air;
 mod capability;
 mod chain;
 #[cfg(test)]
@@ -14,28 +15,34 @@ mod chain_tests;
 #[cfg(test)]
 #[cfg(feature = "testkit")]
 mod change_tests;
+mod drives;
 mod posture;
 mod sound;
 #[cfg(test)]
 #[cfg(feature = "testkit")]
+mod spin_tests;
+#[cfg(test)]
+#[cfg(feature = "testkit")]
 mod tests;
 
+pub use air::hang;
 pub use capability::{Capabilities, Capability};
 pub use chain::{LARGEST_KINK, LARGEST_SLIP, LARGEST_SWEEP};
 pub use posture::UPRIGHT;
 
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{
-    Action, Flank, Head, IR_VERSION, Op, OpId, OperationId, OrientationId, Program, Purpose, Ready, Site,
-    Switch, ToolId,
+    Action, Extent, Flank, Head, IR_VERSION, Op, OpId, Operation, OperationId, OrientationId, Program,
+    Purpose, Site, Switch, ToolId,
 };
 use crate::segments::Segment;
-use crate::state::{Generator, Place, State};
+use crate::state::{Place, State};
 use crate::units::{Angle, Length};
+use air::Extents;
 use chain::OpenChain;
 use core::fmt;
 use core::num::NonZeroU32;
-use posture::{Overhangs, posture_fits};
+use posture::posture_fits;
 
 /// A program that has passed [`verify`].
 #[derive(Clone, Debug, PartialEq)]
@@ -117,31 +124,37 @@ pub enum Rule {
     TurnInStock,
     /// A cut runs along y through the whole depth of the stock.
     CutAcrossStock,
-    /// In a cut the shank leans along the feed, and to the side of its flank or to none, and a cutting edge leads.
+    /// In a cut a straight blade's shank leans along the feed, and to the side of its flank or to none, and a cutting edge leads.
     CutPosture,
     /// The blade vibrates while it cuts.
     SilentCut,
-    /// The generator's readiness is awaited between switching it on and cutting.
+    /// A blade that spins does so while it cuts.
+    StillCut,
+    /// Where generator or spindle are switched on, their readiness is awaited before the cut.
     ReadyNotAwaited,
-    /// The generator is off at the end, and the machine at home where there is one.
+    /// A machine has a spindle where a blade of the program spins.
+    NoSpindle,
+    /// The spindle runs with a blade only that spins.
+    IdleSpindle,
+    /// Generator and spindle are off at the end, and the machine at home where there is one.
     Ending,
     /// A cut is a cut of an operation, a chain too, and has no flank twice: one left and one right flank, or one of them.
     CutFlanks,
-    /// In an air cut the blade stays above the stock, all along and by half its thickness at least, and the generator off.
+    /// In an air cut the blade stays above the stock, all along and by half its thickness at least, and generator and spindle off.
     AirCut,
     /// The machine has a tool for every blade, and a changer that goes by places has one of its own for each.
     Tools,
-    /// Blades are changed at the change place, with the generator off.
+    /// Blades are changed at the change place, with generator and spindle off.
     ChangeAway,
-    /// A motion of the blade serves an operation of the blade at hand.
+    /// A motion of the blade serves an operation that cuts with the blade at hand.
     OtherBlade,
     /// Three points make the arc of a piece of a chain, which goes round by less than [`LARGEST_SWEEP`].
     Arc,
     /// Where a piece of a chain is not to end in a stop the next one of the same cut follows at once, in the same direction but for
     /// [`LARGEST_KINK`].
     ChainJoint,
-    /// All along a piece of a chain the blade stands in the plane of its way but for [`LARGEST_SLIP`], its shank leaning
-    /// along the way, and a cutting edge leads.
+    /// All along a piece of a chain a straight blade stands in the plane of its way but for [`LARGEST_SLIP`], and a cutting edge
+    /// leads. The shank of any blade leans along the way or square to it; a crusher may go down as steeply as its ramp.
     ChainPosture,
     /// Operations come in order, and the cuts of each layer are numbered from 1 without gaps. In which order an operation
     /// visits them is for the proof to judge.
@@ -163,12 +176,15 @@ impl fmt::Display for Rule {
             Self::CutAcrossStock => "a cut does not run along y through the whole stock",
             Self::CutPosture => "a cut holds the blade wrongly",
             Self::SilentCut => "a cut without vibration",
-            Self::ReadyNotAwaited => "the generator is not awaited before a cut",
-            Self::Ending => "the program does not end at home with the generator off",
+            Self::StillCut => "a cut with a spindle that stands still",
+            Self::ReadyNotAwaited => "generator or spindle are not awaited before a cut",
+            Self::NoSpindle => "the machine has no spindle for a blade that spins",
+            Self::IdleSpindle => "the spindle is switched on with a blade that does not spin",
+            Self::Ending => "the program does not end at home with generator and spindle off",
             Self::CutFlanks => "a cut that is of no operation, or has a flank twice",
-            Self::AirCut => "an air cut lets the blade down to the stock, or starts the generator",
+            Self::AirCut => "an air cut lets the blade down to the stock, or starts a drive",
             Self::Tools => "the machine has not one tool and one place for each blade",
-            Self::ChangeAway => "the blade is changed away from the change place, or with the generator on",
+            Self::ChangeAway => "the blade is changed away from the change place, or with a drive on",
             Self::OtherBlade => "an operation has another blade at hand than its own",
             Self::Arc => "three points do not make the arc of a piece of a chain",
             Self::ChainJoint => "a chain does not go on in the same direction, or does not end",
@@ -236,16 +252,16 @@ struct Walk<'p> {
     current: OpId,
     /// The chain that has not come to a stop.
     chain: Option<OpenChain>,
-    overhangs: Overhangs,
-    /// Half the thickness of the thickest blade, in mm.
-    half_thickness: f64,
+    extents: Extents,
+    /// How far below its tip a blade hangs at most, in mm.
+    hang: f64,
 }
 
 impl<'p> Walk<'p> {
     fn new(program: &'p Program) -> Self {
         Self {
             program,
-            half_thickness: half_thickness(program).to_mm(),
+            hang: hang(program).to_mm(),
             faults: Vec::new(),
             needs: Capabilities::NONE,
             operation: None,
@@ -253,7 +269,7 @@ impl<'p> Walk<'p> {
             singles: Vec::new(),
             current: OpId(0),
             chain: None,
-            overhangs: Overhangs::NONE_YET,
+            extents: Extents::NONE_YET,
         }
     }
 
@@ -280,14 +296,7 @@ impl<'p> Walk<'p> {
             broken.push(Rule::Version);
         }
         let stock = positive(p.stock.width) && positive(p.stock.depth) && positive(p.stock.height);
-        let blades = p.blades.iter().all(|blade| {
-            let apex = (Angle::ZERO..Angle::deg(90.0)).contains(&blade.half_apex);
-            positive(blade.cutting_length)
-                && apex
-                && blade.thickness.is_finite()
-                && blade.thickness >= Length::ZERO
-                && blade.body.as_deref().is_none_or(sound::has_sound_stages)
-        });
+        let blades = p.blades.iter().all(sound::is_sound_blade);
         let speeds = p.feeds.iter().all(|f| f.is_finite() && f.to_mm_per_s() > 0.0)
             && p.rates.iter().all(|r| r.is_finite() && r.to_rad_per_s() > 0.0);
         let blend = p.blend.is_finite() && p.blend >= Length::ZERO;
@@ -302,11 +311,14 @@ impl<'p> Walk<'p> {
         if !cell.is_none_or(|cell| sound::has_a_tool_for_each(cell, p.blades.len())) {
             broken.push(Rule::Tools);
         }
-        if !p
-            .operations
-            .iter()
-            .all(|operation| p.blade(operation.tool).is_some())
-        {
+        if !self.can_spin() {
+            broken.push(Rule::NoSpindle);
+        }
+        let has_blades = |operation: &Operation| {
+            let mut tools = operation.tools.iter();
+            !operation.tools.is_empty() && tools.all(|&tool| p.blade(tool).is_some())
+        };
+        if !p.operations.iter().all(has_blades) {
             broken.push(Rule::TableReference);
         }
         self.faults
@@ -325,23 +337,21 @@ impl<'p> Walk<'p> {
         self.tables_have(segment);
         self.chain_goes_on(op);
         match op.action {
-            Action::Home => self.home(before.place),
+            Action::Home => self.home(before),
             Action::Travel { to, .. } => self.travel(segment, to),
-            Action::AxisTravel { to, .. } => self.axis_travel(before.place, to),
-            Action::Approach { to, .. } | Action::Retract { to, .. } => self.straight(before.place, to),
+            Action::AxisTravel { to, .. } => self.axis_travel(segment, to),
+            Action::Approach { to, .. } | Action::Retract { to, .. } => self.straight(segment, to),
             Action::Cut { flank, to, .. } => self.cut(segment, flank, to),
             Action::Follow { to, joint, .. } => self.follow(segment, to, joint),
             Action::Turn { to, .. } => self.turn(segment, to),
-            Action::Ultrasonic { .. } => {
-                self.needs = self.needs.with(Capability::Output);
-                self.require(self.is_wired(), Rule::TableReference);
-            }
-            Action::AwaitReady => self.await_ready(before.generator),
+            Action::Ultrasonic { .. } => self.ultrasonic(),
+            Action::Spin { state } => self.spin(before, state),
+            Action::AwaitReady => self.await_ready(before),
             Action::Dwell { time } => {
                 self.needs = self.needs.with(Capability::Dwell);
                 self.require(time.is_finite() && time.to_s() >= 0.0, Rule::Number);
             }
-            Action::ChangePlace => self.change_place(before.place),
+            Action::ChangePlace => self.change_place(before),
             Action::ToolChange { tool } => self.tool_change(before, tool),
         }
     }
@@ -354,19 +364,22 @@ impl<'p> Walk<'p> {
             .operation()
             .and_then(|id| self.program.operation(id));
         let at_hand = segment.before.tool;
-        let is_its_own = operation.is_none_or(|operation| operation.tool == at_hand);
+        let is_its_own = operation.is_none_or(|operation| operation.tools.contains(&at_hand));
         self.require(is_its_own || segment.target().is_none(), Rule::OtherBlade);
     }
 
-    fn change_place(&mut self, from: Place) {
+    fn change_place(&mut self, before: State) {
         self.needs = self
             .needs
             .with(Capability::JointMove)
             .with(Capability::ToolChange);
         let cell = self.program.cell.as_ref();
         self.require(cell.is_some_and(|cell| cell.change.is_some()), Rule::ChangeAway);
-        self.require(from != Place::Unknown || !self.has_home(), Rule::KnownStart);
-        self.leaves_for_axis_values(from);
+        self.require(
+            before.place != Place::Unknown || !self.has_home(),
+            Rule::KnownStart,
+        );
+        self.leaves_for_axis_values(before.place, before.tool);
     }
 
     fn tool_change(&mut self, before: State, tool: ToolId) {
@@ -374,7 +387,7 @@ impl<'p> Walk<'p> {
         self.require(self.program.blade(tool).is_some(), Rule::TableReference);
         // Without a machine no place for changes is known.
         let is_there = self.program.cell.is_none() || before.place == Place::Change;
-        self.require(is_there && before.generator == Generator::Off, Rule::ChangeAway);
+        self.require(is_there && drives::is_still(before), Rule::ChangeAway);
     }
 
     /// Every id refers to an entry of its table.
@@ -426,56 +439,10 @@ impl<'p> Walk<'p> {
         }
     }
 
-    fn home(&mut self, from: Place) {
+    fn home(&mut self, before: State) {
         self.needs = self.needs.with(Capability::JointMove);
         self.require(self.has_home(), Rule::HomeAngles);
-        self.leaves_for_axis_values(from);
-    }
-
-    /// A move to axis values begins outside of the stock.
-    fn leaves_for_axis_values(&mut self, from: Place) {
-        let retracted = from.pose().is_none_or(|pose| self.is_outside(pose.tip));
-        self.require(retracted, Rule::AirMoveThroughStock);
-    }
-
-    fn travel(&mut self, segment: &Segment<'_>, to: Point3) {
-        self.rotation(segment);
-        self.straight(segment.before.place, to);
-        if let (Some(from), Some(there)) = (segment.start(), segment.end())
-            && from.orientation != there.orientation
-        {
-            let postures = [from.orientation, there.orientation];
-            self.turns_clear(segment.op.site, from.tip, postures);
-            self.turns_clear(segment.op.site, to, postures);
-        }
-    }
-
-    /// The way of the tip is not a line, so both ends must lie above the stock; that the way between them does too is for
-    /// reach to prove, which knows the machine.
-    fn axis_travel(&mut self, from: Place, to: Point3) {
-        self.needs = self.needs.with(Capability::JointMove);
-        self.require(to.is_finite(), Rule::Number);
-        let top = self.program.stock.height.to_mm();
-        let above = |tip: Point3| tip.z >= top - SAME;
-        let from_above = match from {
-            Place::Pose(from) => above(from.tip),
-            Place::Home | Place::Change => true,
-            Place::Unknown => {
-                self.require(!self.has_home(), Rule::KnownStart);
-                true
-            }
-        };
-        self.require(from_above && above(to), Rule::AirMoveThroughStock);
-    }
-
-    /// Through the air on a straight line.
-    fn straight(&mut self, from: Place, to: Point3) {
-        self.needs = self.needs.with(Capability::LinearMove);
-        self.require(to.is_finite(), Rule::Number);
-        match from.pose() {
-            Some(from) => self.air(from.tip, to),
-            None => self.fault(Rule::KnownStart),
-        }
+        self.leaves_for_axis_values(before.place, before.tool);
     }
 
     fn cut(&mut self, segment: &Segment<'_>, flank: Flank, to: Point3) {
@@ -486,21 +453,18 @@ impl<'p> Walk<'p> {
             return;
         };
         self.require(self.crosses_stock(from.tip, to), Rule::CutAcrossStock);
-        self.vibrates(segment.before.generator);
-        let Site::Cut {
-            operation,
-            layer,
-            cut,
-        } = segment.op.site
-        else {
+        self.is_driven(segment.before);
+        let Site::Cut { layer, cut, .. } = segment.op.site else {
             self.fault(Rule::CutFlanks);
             return;
         };
         let program = self.program;
-        if let (Some(blade), Some(held)) =
-            (program.blade_of(operation), program.orientation(from.orientation))
-        {
-            let good = posture_fits(blade, held, flank, to.y - from.tip.y);
+        if let (Some(blade), Some(held)) = (
+            program.blade(segment.before.tool),
+            program.orientation(from.orientation),
+        ) {
+            let good = (blade.straight())
+                .is_some_and(|straight| posture_fits(straight, held, flank, to.y - from.tip.y));
             self.require(good, Rule::CutPosture);
         }
         self.passes.push(Pass {
@@ -511,17 +475,6 @@ impl<'p> Walk<'p> {
         });
     }
 
-    /// The blade vibrates, where the machine has a generator and the program cuts.
-    fn vibrates(&mut self, generator: Generator) {
-        if self.is_wired() && self.program.purpose.is_work() {
-            match generator {
-                Generator::Off => self.fault(Rule::SilentCut),
-                Generator::Starting => self.fault(Rule::ReadyNotAwaited),
-                Generator::Running => {}
-            }
-        }
-    }
-
     fn turn(&mut self, segment: &Segment<'_>, to: OrientationId) {
         self.needs = self.needs.with(Capability::StillTipTurn);
         let Some(from) = segment.start() else {
@@ -529,35 +482,7 @@ impl<'p> Walk<'p> {
             return;
         };
         self.rotation(segment);
-        self.turns_clear(segment.op.site, from.tip, [from.orientation, to]);
-    }
-
-    /// The blade is clear of the stock in all of the postures with its tip at that point.
-    fn turns_clear(&mut self, site: Site, tip: Point3, postures: [OrientationId; 2]) {
-        let program = self.program;
-        let blade = site.operation().and_then(|id| {
-            let tool = program.operation(id)?.tool;
-            Some((tool, program.blade(tool)?))
-        });
-        let clear = postures
-            .into_iter()
-            .all(|id| match (blade, program.orientation(id)) {
-                (Some((tool, blade)), Some(held)) => {
-                    let overhangs = self.overhangs.of((tool, id), blade, held);
-                    self.is_clear(tip, overhangs)
-                }
-                _ => true,
-            });
-        self.require(clear, Rule::TurnInStock);
-    }
-
-    fn await_ready(&mut self, generator: Generator) {
-        self.require(generator == Generator::Starting, Rule::ReadyNotAwaited);
-        let capability = match self.program.cell.as_ref().map(|cell| cell.ready) {
-            Some(Ready::Input(_)) => Capability::AwaitInput,
-            Some(Ready::After(_)) | None => Capability::Dwell,
-        };
-        self.needs = self.needs.with(capability);
+        self.turns_clear(segment.before.tool, from.tip, [from.orientation, to]);
     }
 
     fn ending(&mut self, end: State) {
@@ -567,18 +492,20 @@ impl<'p> Walk<'p> {
             Place::Unknown => true,
             Place::Home => self.has_home(),
             Place::Change => false,
-            Place::Pose(pose) => !self.has_home() && self.is_outside(pose.tip),
+            Place::Pose(pose) => !self.has_home() && self.is_outside(pose.tip, Extent::TIP),
         };
-        self.require(rests && end.generator == Generator::Off, Rule::Ending);
+        self.require(rests && drives::is_still(end), Rule::Ending);
     }
 
     /// Whether an op of an air cut meets nothing: its tip ends above the stock, and with all tips the straight ways between
     /// them do. The tip is the lowest line of the blade in all postures that may be turned to above the stock, and as long as
     /// the blade is thick, so half of that hangs lower at most.
     fn is_of_an_air_cut(&self, segment: &Segment<'_>) -> bool {
-        let lowest = self.program.stock.height.to_mm() + self.half_thickness - SAME;
+        let lowest = self.program.stock.height.to_mm() + self.hang - SAME;
         match segment.op.action {
-            Action::Ultrasonic { state: Switch::On } | Action::AwaitReady => false,
+            Action::Ultrasonic { state: Switch::On }
+            | Action::Spin { state: Switch::On }
+            | Action::AwaitReady => false,
             // The tip stays where the op before has led it.
             Action::Turn { .. } => true,
             _ => {
@@ -593,34 +520,11 @@ impl<'p> Walk<'p> {
         self.program.cell.as_ref().is_some_and(|cell| cell.home.is_some())
     }
 
-    /// Whether the machine has an output for the generator.
-    fn is_wired(&self) -> bool {
-        let cell = self.program.cell.as_ref();
-        cell.is_some_and(|cell| cell.ultrasonic.is_some())
-    }
-
     fn rotation(&mut self, segment: &Segment<'_>) {
         self.require(
             segment.turn().is_none_or(|turn| turn < LARGEST_TURN),
             Rule::AmbiguousTurn,
         );
-    }
-
-    /// The tip's way through the air stays on one outer side of the stock (which is convex, so both ends tell).
-    fn air(&mut self, from: Point3, to: Point3) {
-        let (depth, height) = (
-            self.program.stock.depth.to_mm(),
-            self.program.stock.height.to_mm(),
-        );
-        let in_front = from.y <= SAME && to.y <= SAME;
-        let behind = from.y >= depth - SAME && to.y >= depth - SAME;
-        let above = from.z >= height - SAME && to.z >= height - SAME;
-        self.require(in_front || behind || above, Rule::AirMoveThroughStock);
-    }
-
-    fn is_outside(&self, tip: Point3) -> bool {
-        let stock = self.program.stock;
-        tip.y <= SAME || tip.y >= stock.depth.to_mm() - SAME || tip.z >= stock.height.to_mm() - SAME
     }
 
     fn crosses_stock(&self, from: Point3, to: Point3) -> bool {
@@ -629,28 +533,4 @@ impl<'p> Walk<'p> {
         let (low, high) = (from.y.min(to.y), from.y.max(to.y));
         straight && low <= SAME && high >= depth - SAME
     }
-
-    /// Whether the blade, its edges lying that far along y, is clear of the stock with its tip at `tip` [Cui 5].
-    fn is_clear(&self, tip: Point3, overhangs: [Length; 2]) -> bool {
-        let stock = self.program.stock;
-        if tip.z >= stock.height.to_mm() - SAME {
-            return true;
-        }
-        let (gap, towards_work) = if tip.y < 0.0 {
-            (-tip.y, 1.0)
-        } else {
-            (tip.y - stock.depth.to_mm(), -1.0)
-        };
-        gap >= -SAME
-            && overhangs
-                .into_iter()
-                .all(|along_y| along_y.to_mm() * towards_work <= gap + SAME)
-    }
-}
-
-/// Half the thickness of a program's thickest blade: how far below its tip a blade hangs at most, held as it cuts or upright.
-#[must_use]
-pub fn half_thickness(program: &Program) -> Length {
-    let blades = program.blades.iter().map(|blade| blade.thickness * 0.5);
-    blades.fold(Length::ZERO, Length::max)
 }

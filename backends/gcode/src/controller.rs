@@ -332,6 +332,14 @@ pub(crate) trait Controller: Sync {
         }
     }
 
+    /// What turns the spindle at a speed, in 1/min, or stops it.
+    fn spin(&self, speed: Option<u32>) -> Vec<String> {
+        vec![match speed {
+            Some(speed) => format!("S{speed} M3"),
+            None => "M5".to_owned(),
+        }]
+    }
+
     /// What sets the meaning of F.
     fn feed_mode(&self, mode: FeedMode) -> &'static str {
         match mode {

@@ -7,7 +7,7 @@ use crate::options::{DEFAULT_HOME_SPEED, HOME_SPEED, PERCENT, Settings};
 use crate::profile::objection;
 use crate::statement::Style;
 use vcutc_backend_api::backend::BackendIssue;
-use vcutc_backend_api::ir::{Cell, Ready, Switch};
+use vcutc_backend_api::ir::{Cell, Ready, Spindle, Switch};
 use vcutc_backend_api::script::{APPROXIMATION, DECIMALS};
 
 /// Everything that is wrong with the options of a job on a machine.
@@ -83,6 +83,15 @@ fn tcp(settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
     }
 }
 
+/// Whether a block starts or stops the spindle.
+fn turns_spindle(block: &str) -> bool {
+    let words = block.split(|c: char| !c.is_ascii_alphanumeric());
+    words.into_iter().any(|word| {
+        let code = word.trim_start_matches(['M', 'm']);
+        code.len() < word.len() && code.parse().is_ok_and(|code: u32| (3..=5).contains(&code))
+    })
+}
+
 fn generator(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
     let (controller, codes) = (settings.controller, settings.codes);
     let name = controller.facts().name;
@@ -96,6 +105,12 @@ fn generator(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue
         let (key, example) = (role.key(), role.example(settings.facts()));
         // A machine without an output is refused as such.
         let Some(output) = cell.ultrasonic else { break };
+        if cell.spindle == Some(Spindle::Own) && given.iter().any(|line| turns_spindle(line)) {
+            let why = format!(
+                "M3, M4 and M5 turn the blade; switch the generator by another code, such as `{key} = \"{example}\"`"
+            );
+            issues.push(conflict(key, why));
+        }
         if !given.is_empty() {
             continue;
         }

@@ -15,7 +15,7 @@ use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{AxisKind, AxisValues, OpId, RateId, Switch, ToolId};
 use vcutc_backend_api::readback::End;
 use vcutc_backend_api::script::{Dialect, JointMove, LinearMove, Part, ToolChange, Written};
-use vcutc_backend_api::units::{Duration, Length};
+use vcutc_backend_api::units::{AngularSpeed, Duration, Length};
 
 /// G-code, as far as a program is written.
 pub(crate) struct GcodeDialect<'a, 't, 's> {
@@ -181,11 +181,19 @@ impl Dialect for GcodeDialect<'_, '_, '_> {
         self.blocks.block(&block)
     }
 
+    fn spin(&mut self, speed: Option<AngularSpeed>) -> Written {
+        let controller = self.job.settings.controller;
+        let whole = speed.map(|speed| speed.to_rev_per_min().round() as u32);
+        self.blocks.all(&controller.spin(whole))
+    }
+
     fn switch(&mut self, output: u32, state: Switch) -> Written {
         let settings = self.job.settings;
+        let is_generator = self.job.source.cell.ultrasonic == Some(output);
         let given = match state {
-            Switch::On => settings.codes.on,
-            Switch::Off => settings.codes.off,
+            Switch::On if is_generator => settings.codes.on,
+            Switch::Off if is_generator => settings.codes.off,
+            Switch::On | Switch::Off => &[],
         };
         self.given_or(given, settings.controller.switch(output, state))
     }

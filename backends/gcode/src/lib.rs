@@ -31,6 +31,7 @@
 //! | `Follow` | the same, or an arc (the module `arcs`); what makes it go on is said before the first (the module `chains`) |
 //! | `Turn` | the same with the tip of the block before, and `F` as inverse time |
 //! | `Ultrasonic`, `AwaitReady`, `Dwell` | as in the table above |
+//! | `Spin` | `S n M3`, `M5`; Heidenhain `TOOL CALL S n` and `M3`; or the spindle's output |
 //! | `ToolChange` | `T n M6` with the place of the tool, or `M0`; Heidenhain `TOOL CALL n Z`; the axes are then taken to be anywhere |
 //!
 //! Every block of a motion is complete, so that it means the same wherever a program is entered, and modes stand on lines of
@@ -111,7 +112,10 @@ impl Backend for Gcode {
     }
 
     fn capabilities(&self) -> Capabilities {
-        CAPABILITIES.with(Capability::ToolChange).with(Capability::Chain)
+        CAPABILITIES
+            .with(Capability::ToolChange)
+            .with(Capability::Chain)
+            .with(Capability::Spindle)
     }
 
     fn options(&self) -> &'static [OptionSpec] {

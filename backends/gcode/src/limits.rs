@@ -6,7 +6,7 @@
 use crate::arcs::{self, WrittenArc};
 use crate::axes::{NoWord, Word, printed, words};
 use crate::chains;
-use crate::controller::{Arcs, AxisPace, LARGEST_FEED};
+use crate::controller::{Arcs, AxisPace, Controller, LARGEST_FEED};
 use crate::demands;
 use crate::job::Job;
 use crate::options::{HOME_SPEED, PROGRAM_NUMBER, SPINDLE_AXIS, Settings};
@@ -17,7 +17,7 @@ use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
 use vcutc_backend_api::findings::{Findings, Number, driven_cell};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{
-    Action, AxisKind, AxisValues, Cell, MachineKind, OpId, PlacedFrame, Ready, ToolId,
+    Action, AxisKind, AxisValues, Cell, MachineKind, OpId, PlacedFrame, Ready, Spindle, Switch, ToolId,
 };
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::script::{Part, Source};
@@ -116,6 +116,10 @@ fn machine(cell: &Cell, settings: &Settings<'_>, found: &mut Findings) {
         Some(_) | None => {}
     }
     found.generator(cell);
+    match cell.spindle {
+        Some(Spindle::Output(output)) => spindle(output, controller, found),
+        Some(Spindle::Own) | None => {}
+    }
     match cell.ready {
         Ready::Input(input) if settings.codes.ready.is_empty() => {
             found.number("input number", input, controller.facts().signals.clone());
@@ -131,6 +135,20 @@ fn machine(cell: &Cell, settings: &Settings<'_>, found: &mut Findings) {
                 .to_owned(),
         };
         found.tell("rates", issue);
+    }
+}
+
+/// The output that runs a spindle has to be switched by a word of the control: `on_code` and `off_code` are the generator's.
+fn spindle(output: u32, controller: &dyn Controller, found: &mut Findings) {
+    if controller.switch(output, Switch::On).is_some() {
+        found.number("output number", output, controller.facts().signals.clone());
+    } else {
+        let why = format!(
+            "{} has no word of its own for output {output}, and `on_code` is the generator's; without `spindle` the machine turns the \
+             blade by S and M3",
+            controller.facts().name
+        );
+        found.tell("spindle", BackendIssue::OptionConflict { key: "spindle", why });
     }
 }
 

@@ -118,7 +118,7 @@ fn machine(cell: &Cell, found: &mut Findings) {
         ("base number", BASES),
         found,
     );
-    if let Some(output) = cell.ultrasonic {
+    for output in cell.outputs() {
         found.number("output number", output, 1..=SIGNALS);
     }
     found.generator(cell);

@@ -33,14 +33,14 @@ pub(crate) fn issues(profile: &Profile, cell: Option<&Cell>) -> Vec<BackendIssue
         let why = format!("the data list of every KRL program keeps its home angles as `{HOME}`");
         refuse("reserved", why);
     }
-    let output = cell.and_then(|cell| cell.ultrasonic);
+    let outputs: Vec<u32> = cell.into_iter().flat_map(Cell::outputs).collect();
     for line in &profile.header {
-        if let Some(why) = objection(line, Place::Head, output) {
+        if let Some(why) = objection(line, Place::Head, &outputs) {
             refuse("header", why);
         }
     }
     for line in &profile.footer {
-        if let Some(why) = objection(line, Place::End, output) {
+        if let Some(why) = objection(line, Place::End, &outputs) {
             refuse("footer", why);
         }
     }
@@ -55,7 +55,7 @@ enum Place {
 }
 
 /// What speaks against a line.
-fn objection(line: &str, place: Place, generator: Option<u32>) -> Option<String> {
+fn objection(line: &str, place: Place, own: &[u32]) -> Option<String> {
     if line.len() > LONGEST_LINE {
         return Some(format!(
             "`{line}` has {} characters; controllers read up to {LONGEST_LINE}",
@@ -66,9 +66,9 @@ fn objection(line: &str, place: Place, generator: Option<u32>) -> Option<String>
         return Some(format!("{line:?} is not one line of ASCII"));
     }
     let Statement { phrase, text, .. } = statements(line).next()?;
-    if names_generator(text, generator) {
+    if names_own_output(text, own) {
         return Some(format!(
-            "`{line}` may switch the ultrasonic generator, which the program does itself; outputs are named by plain numbers, as \
+            "`{line}` may switch the generator or the spindle, which the program does itself; outputs are named by plain numbers, as \
              in `$OUT[30]=TRUE`"
         ));
     }
@@ -105,17 +105,13 @@ fn objection(line: &str, place: Place, generator: Option<u32>) -> Option<String>
 
 /// Whether a statement names the output of the generator, or outputs of which nobody can tell which they are: by a
 /// calculated number, as a range, or by a number alone.
-fn names_generator(text: &str, generator: Option<u32>) -> bool {
+fn names_own_output(text: &str, own: &[u32]) -> bool {
     let text = normalized(text).to_ascii_uppercase();
     let mut outputs = text.split("$OUT").skip(1);
     let is_other = |rest: &str| {
         let rest = rest.strip_prefix("_C").unwrap_or(rest);
         let number = rest.strip_prefix('[').and_then(|rest| rest.split_once(']'));
-        number.is_some_and(|(number, _)| {
-            number
-                .parse::<u32>()
-                .is_ok_and(|number| Some(number) != generator)
-        })
+        number.is_some_and(|(number, _)| number.parse::<u32>().is_ok_and(|number| !own.contains(&number)))
     };
     outputs.any(|rest| !is_other(rest))
 }
@@ -191,7 +187,7 @@ mod tests {
             "XVC_HOME={A1 0.0}",
             "xvc_home.A1=5",
         ] {
-            assert!(objection(line, Place::Head, Some(1)).is_some(), "{line}");
+            assert!(objection(line, Place::Head, &[1]).is_some(), "{line}");
         }
         for line in [
             "; a word",
@@ -203,7 +199,7 @@ mod tests {
             "$OUT[7]=$IN[3]",
             "WAIT SEC 0.5",
         ] {
-            assert_eq!(objection(line, Place::Head, Some(1)), None, "{line}");
+            assert_eq!(objection(line, Place::Head, &[1]), None, "{line}");
         }
     }
 
@@ -222,10 +218,10 @@ mod tests {
             "LAMP=$OUT[12]",
         ] {
             for place in [Place::Head, Place::End] {
-                assert!(objection(line, place, Some(12)).is_some(), "{line}");
+                assert!(objection(line, place, &[12]).is_some(), "{line}");
             }
         }
-        assert!(objection("$OUT[2]=TRUE", Place::End, Some(12)).is_none());
-        assert!(objection("$OUT[12]=TRUE", Place::End, Some(2)).is_none());
+        assert!(objection("$OUT[2]=TRUE", Place::End, &[12]).is_none());
+        assert!(objection("$OUT[12]=TRUE", Place::End, &[2]).is_none());
     }
 }

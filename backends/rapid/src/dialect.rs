@@ -201,7 +201,8 @@ impl Dialect for RapidDialect<'_, '_, '_> {
     /// Every move before this ends in a stop point, where the controller waits for the arm [A-IO].
     fn switch(&mut self, output: u32, state: Switch) -> Written {
         self.begin(b"SetDO ");
-        self.text.put(self.settings.output(output).as_bytes());
+        self.text
+            .put(self.settings.output(self.source.cell, output).as_bytes());
         Ok(self.text.line(match state {
             Switch::On => ",1;",
             Switch::Off => ",0;",

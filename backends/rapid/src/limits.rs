@@ -8,7 +8,7 @@ use crate::names::{
     part_routine,
 };
 use crate::options::{
-    CHANGE_ROUTINE, READY_SIGNAL, Settings, TOOL_NAME, ULTRASONIC_SIGNAL, WORK_OBJECT_NAME,
+    CHANGE_ROUTINE, READY_SIGNAL, SPINDLE_SIGNAL, Settings, TOOL_NAME, ULTRASONIC_SIGNAL, WORK_OBJECT_NAME,
 };
 use crate::profile::objection;
 use vcutc_backend_api::arc::CircularArc;
@@ -18,7 +18,7 @@ use vcutc_backend_api::chains::{first_joint, has_arcs};
 use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::findings::{Findings, Number, driven_cell};
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, AxisValues, Cell, Load, Maker, OpId, Ready, Registered};
+use vcutc_backend_api::ir::{Action, AxisValues, Cell, Load, Maker, OpId, Ready, Registered, Spindle};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::wrist::{TOO_FAR, turn};
 
@@ -112,7 +112,13 @@ fn profile(settings: &Settings<'_>, cell: &Cell, findings: &mut Findings) {
 
 /// Names that the job gives must be such.
 fn names(settings: &Settings<'_>, cell: &Cell, findings: &mut Findings) {
-    for key in [TOOL_NAME, WORK_OBJECT_NAME, ULTRASONIC_SIGNAL, READY_SIGNAL] {
+    for key in [
+        TOOL_NAME,
+        WORK_OBJECT_NAME,
+        ULTRASONIC_SIGNAL,
+        SPINDLE_SIGNAL,
+        READY_SIGNAL,
+    ] {
         if let Some(name) = settings.given(key)
             && !is_name(name)
         {
@@ -144,7 +150,12 @@ fn used_names(settings: &Settings<'_>, cell: &Cell) -> Vec<(&'static str, String
     used.extend(routine.map(|name| (CHANGE_ROUTINE, name)));
     used.extend(
         cell.ultrasonic
-            .map(|number| (ULTRASONIC_SIGNAL, settings.output(number))),
+            .map(|number| (ULTRASONIC_SIGNAL, settings.output(cell, number))),
+    );
+    used.extend(
+        cell.spindle
+            .and_then(Spindle::output)
+            .map(|number| (SPINDLE_SIGNAL, settings.output(cell, number))),
     );
     match cell.ready {
         Ready::Input(number) => used.push((READY_SIGNAL, settings.input(number))),

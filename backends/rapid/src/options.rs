@@ -5,7 +5,7 @@
 
 use crate::names::{TOOL, WORK_OBJECT};
 use vcutc_backend_api::backend::{OptionSpec, Options};
-use vcutc_backend_api::ir::{Cell, PlacedFrame, ToolId};
+use vcutc_backend_api::ir::{Cell, PlacedFrame, Spindle, ToolId};
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::script::{Common, approximation, decimals, header, lines_per_part};
 use vcutc_backend_api::units::Length;
@@ -14,6 +14,7 @@ const HOME_SPEED: &str = "home_speed";
 pub(crate) const TOOL_NAME: &str = "tool_name";
 pub(crate) const WORK_OBJECT_NAME: &str = "wobj_name";
 pub(crate) const ULTRASONIC_SIGNAL: &str = "ultrasonic_signal";
+pub(crate) const SPINDLE_SIGNAL: &str = "spindle_signal";
 pub(crate) const READY_SIGNAL: &str = "ready_signal";
 pub(crate) const CHANGE_ROUTINE: &str = "change_routine";
 
@@ -43,6 +44,10 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
     OptionSpec::text(
         ULTRASONIC_SIGNAL,
         "Name of the output of the generator; do12 for output(12) when not given.",
+    ),
+    OptionSpec::text(
+        SPINDLE_SIGNAL,
+        "Name of the output of the spindle; do13 for output(13) when not given.",
     ),
     OptionSpec::text(
         READY_SIGNAL,
@@ -108,9 +113,13 @@ impl<'p> Settings<'p> {
     }
 
     /// The name of a digital output.
-    pub(crate) fn output(&self, number: u32) -> String {
+    pub(crate) fn output(&self, cell: &Cell, number: u32) -> String {
         let named = || format!("do{number}");
-        self.given(ULTRASONIC_SIGNAL).map_or_else(named, str::to_owned)
+        let key = match cell.spindle {
+            Some(Spindle::Output(spindle)) if spindle == number => SPINDLE_SIGNAL,
+            Some(_) | None => ULTRASONIC_SIGNAL,
+        };
+        self.given(key).map_or_else(named, str::to_owned)
     }
 
     /// The name of a digital input.
@@ -162,8 +171,11 @@ mod tests {
         assert_eq!(settings.common.approximation, Some(Length::mm(2.5)));
         assert_eq!(settings.home_speed, 30);
         assert_eq!(
-            (settings.output(12), settings.input(7)),
-            ("doKnife".to_owned(), "di7".to_owned())
+            (
+                settings.given(ULTRASONIC_SIGNAL).map(str::to_owned),
+                settings.input(7)
+            ),
+            (Some("doKnife".to_owned()), "di7".to_owned())
         );
     }
 }

@@ -45,13 +45,13 @@ fn is_harmless(sentence: &Sentence, settings: &Settings<'_>, cell: &Cell) -> boo
     is_plain && is_right
 }
 
-/// Whether a signal is that of the generator or of its readiness.
+/// Whether a signal is that of generator or spindle, or of their readiness.
 fn is_own(signal: &str, settings: &Settings<'_>, cell: &Cell) -> bool {
-    let output = cell.ultrasonic.map(|number| settings.output(number));
+    let outputs = cell.outputs().map(|number| settings.output(cell, number));
     let input = match cell.ready {
         Ready::Input(number) => Some(settings.input(number)),
         Ready::After(_) => None,
     };
-    let mut own = output.into_iter().chain(input);
+    let mut own = outputs.chain(input);
     own.any(|own| own.eq_ignore_ascii_case(signal))
 }

@@ -141,7 +141,7 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("number", "after `tool`, `base` and `load` of a machine"),
     ("load", "after `load` of a machine"),
     ("joints", "after `home` of a machine"),
-    ("output", "after `ultrasonic` of a machine"),
+    ("output", "after `ultrasonic` and `spindle` of a machine"),
     ("input", "after `ready` of a machine"),
     ("after", "after `ready` of a machine"),
 ];

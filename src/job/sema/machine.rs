@@ -43,6 +43,7 @@ pub(crate) const SPEC: BlockSpec = BlockSpec {
         )
         .takes(Takes::Fields(&tools::CHANGE)),
         value("ultrasonic", "output(12)").takes(Takes::Calls(OUTPUTS)),
+        value("spindle", "output(13)").takes(Takes::Calls(OUTPUTS)),
         value("ready", "after(0.5 s)").takes(Takes::Calls(READY)),
     ],
     inner: Inner::Machine {
@@ -95,7 +96,8 @@ pub(crate) fn check(
         }
         (Err(reported), _) | (_, &Err(reported)) => Err(reported),
     };
-    let ultrasonic = optional(&fields, "ultrasonic", &mut reader, ultrasonic);
+    let ultrasonic = optional(&fields, "ultrasonic", &mut reader, output);
+    let spindle = optional(&fields, "spindle", &mut reader, output);
     let ready = optional(&fields, "ready", &mut reader, ready);
     let Described { model, limits } = model?;
     Ok(Machine {
@@ -109,6 +111,7 @@ pub(crate) fn check(
         home: home?,
         change: change?,
         ultrasonic: ultrasonic?,
+        spindle: spindle?,
         ready: ready?.unwrap_or(default(Ready::After(SETTLED))),
         targets: targets?,
     })
@@ -148,7 +151,7 @@ pub(crate) fn load(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -
     }))
 }
 
-fn ultrasonic(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<u32> {
+fn output(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<u32> {
     let call = calls(field, expr, OUTPUTS, reader.reports)?;
     let number = call.single(reader.reports)?;
     reader.whole(number, SIGNAL, "the number of an output")

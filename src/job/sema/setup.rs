@@ -1,22 +1,21 @@
-//! The fields that all operations have: blade, rake, direction, speeds, and the distances kept from the stock.
+//! The fields that all operations have: rake, direction, speeds, and the distances kept from the stock.
 //!
 //! An operation names them in its own table of fields, in the order in which people write them, and reads them here.
 
+mod blade;
+
+pub use blade::{BLADE, blade};
+
 use super::field_ranges::{DISTANCE, RAKE, SIZE, SPEED, TURNING_RATE};
 use super::fields::{BlockSpec, FieldSpec, Fields, Inner, Place, Takes, block, head_span, value};
-use super::names::Thing;
-use super::read::{Reader, default, looks_like, words_of};
+use super::read::{Reader, default, words_of};
 use super::report::Checked;
 use super::session::Session;
 use super::written::Written;
-use crate::{Blade, BladeKind, Direction, Setup, Sourced, StraightBlade};
+use crate::{Direction, Setup, Sourced};
 use vcutc_backend_api::units::{AngularSpeed, Length, Speed};
-use vcutc_diagnostics::source::{Span, Spanned};
-use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_syntax::ast::{Block, Expr};
+use vcutc_syntax::ast::Block;
 
-/// `blade = NAME`.
-pub const BLADE: FieldSpec = value("blade", "dagger").required().takes(Takes::Blade);
 /// `rake = 60 deg`.
 pub const RAKE_FIELD: FieldSpec = value("rake", "60 deg").required().within(RAKE);
 /// `direction = alternate`.
@@ -58,10 +57,6 @@ pub fn check(fields: &Fields<'_>, written: Written<'_>, session: &mut Session<'_
         .required_block("feed", &mut session.reports)
         .and_then(|inner| feeds(inner, written, session));
     let mut reader = Reader::new(scope, &mut session.reports);
-    let blade = fields.required_value("blade", reader.reports).and_then(|expr| {
-        let blade = find_blade(expr, written.blades, &mut reader)?;
-        straight(blade, expr.span, (fields, written), &mut reader)
-    });
     let rake = reader.required(fields, "rake");
     let direction = reader.choice(fields, "direction", Direction::WORDS);
     let clearance = reader.required(fields, "clearance");
@@ -70,7 +65,6 @@ pub fn check(fields: &Fields<'_>, written: Written<'_>, session: &mut Session<'_
     let feeds = feeds?;
     Ok(Setup {
         head_span: written.place.head,
-        blade: blade?,
         rake: rake?,
         direction: direction?.unwrap_or(default(Direction::Alternate)),
         cut_feed: feeds.cut,
@@ -109,87 +103,4 @@ fn feeds(inner: &Block, written: Written<'_>, session: &mut Session<'_>) -> Chec
         travel: travel?,
         reorient: reorient?,
     })
-}
-
-/// The blade, as the operation needs it: straight.
-fn straight(
-    blade: &Blade,
-    at: Span,
-    of: (&Fields<'_>, Written<'_>),
-    reader: &mut Reader<'_>,
-) -> Checked<StraightBlade> {
-    match blade {
-        Blade::Straight(blade) => Ok(blade.clone()),
-        Blade::Disc(_) | Blade::Crusher(_) => {
-            let diagnostic = not_straight(blade, at, of);
-            Err(reader.reports.push(diagnostic))
-        }
-    }
-}
-
-fn not_straight(blade: &Blade, at: Span, (fields, written): (&Fields<'_>, Written<'_>)) -> Diagnostic {
-    let (name, kind) = (blade.name(), blade.kind().words());
-    let diagnostic = Diagnostic::new(
-        Code::WrongBlade,
-        format!(
-            "{} cuts with a straight blade; `{name}` is {kind}",
-            fields.title()
-        ),
-        at,
-        "needs a straight blade",
-    )
-    .and(blade.span(), format!("defined as {kind}"));
-    let straight: Vec<String> = written
-        .blades
-        .iter()
-        .flatten()
-        .filter(|blade| blade.kind() == BladeKind::Straight)
-        .map(|blade| format!("`{}`", blade.name()))
-        .collect();
-    match straight.as_slice() {
-        [] => diagnostic.help(
-            "define one, such as `blade dagger { cutting_length = 30 mm, half_apex = 8 deg, thickness = 1.5 mm, edges = double }`, \
-             and write `blade = dagger`",
-        ),
-        [one] => {
-            let name = one.trim_matches('`').to_owned();
-            diagnostic.fix(format!("use {one}, which is straight"), at, name)
-        }
-        several => diagnostic.help(format!("the straight blades defined are {}", several.join(", "))),
-    }
-}
-
-/// The blade that the operation names.
-fn find_blade<'b>(
-    expr: &Spanned<Expr>,
-    blades: &'b [Checked<Blade>],
-    reader: &mut Reader<'_>,
-) -> Checked<&'b Blade> {
-    let names = reader.scope.names;
-    let is_blade = |thing| matches!(thing, Thing::Blade(_));
-    let Expr::Name(name) = &expr.node else {
-        let diagnostic = Diagnostic::new(
-            Code::WrongKind,
-            format!(
-                "`blade` takes the name of a blade, not {}",
-                looks_like(&expr.node)
-            ),
-            expr.span,
-            "expected the name of a blade here",
-        );
-        let diagnostic = match names.list(is_blade) {
-            Some(list) => diagnostic.help(format!("the blades defined are {list}")),
-            None => diagnostic.help("define one with `blade dagger { ... }` and write `blade = dagger`"),
-        };
-        return Err(reader.reports.push(diagnostic));
-    };
-    let blade = match names.get(name).map(|definition| definition.thing) {
-        Some(Thing::Blade(index)) => blades.get(index),
-        Some(Thing::Let(_) | Thing::Machine(_)) | None => None,
-    };
-    match blade {
-        Some(Ok(blade)) => Ok(blade),
-        Some(Err(reported)) => Err(*reported),
-        None => Err(names.not_a("blade", name, expr.span, is_blade, reader.reports)),
-    }
 }

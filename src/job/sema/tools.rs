@@ -12,7 +12,7 @@ use super::read::{Reader, words_of};
 use super::report::Checked;
 use super::session::Session;
 use super::setup::inner_place;
-use crate::{HeldChange, HeldTool, HeldTools, Machine, StraightBlade};
+use crate::{BladeRef, HeldChange, HeldTool, HeldTools, Machine};
 use vcutc_backend_api::ir::{Change, Changer};
 use vcutc_backend_api::units::Duration;
 use vcutc_diagnostics::schema::faults;
@@ -216,22 +216,27 @@ pub(crate) fn change(
 }
 
 /// The machine with the tools that a job needs, in the order in which its blades are first used.
-pub(crate) fn used(mut machine: Machine, blades: &[&StraightBlade]) -> Result<Machine, Box<Diagnostic>> {
-    let mut wanted: Vec<&StraightBlade> = Vec::new();
+pub(crate) fn used(mut machine: Machine, blades: &[BladeRef<'_>]) -> Result<Machine, Box<Diagnostic>> {
+    let mut wanted: Vec<BladeRef<'_>> = Vec::new();
     for &blade in blades {
-        if !wanted.iter().any(|known| known.name == blade.name) {
+        if !wanted.iter().any(|known| known.name() == blade.name()) {
             wanted.push(blade);
         }
     }
     if let (None, [first, second, ..]) = (&machine.tools.first().blade, wanted.as_slice()) {
-        return Err(Box::new(one_tool(&machine, first, second)));
+        return Err(Box::new(one_tool(&machine, *first, *second)));
     }
     let mut held = Vec::new();
     for blade in &wanted {
-        match machine.tools.holding(&blade.name) {
+        match machine.tools.holding(blade.name()) {
             Some(tool) => held.push(tool.clone()),
-            None => return Err(Box::new(without_tool(&machine, blade))),
+            None => return Err(Box::new(without_tool(&machine, *blade))),
         }
+    }
+    if let Some(&blade) = wanted.iter().find(|blade| blade.spin().is_some())
+        && machine.spindle().is_none()
+    {
+        return Err(Box::new(without_spindle(&machine, blade)));
     }
     if let [_, second, ..] = held.as_slice() {
         match &machine.change {
@@ -254,36 +259,49 @@ pub(crate) fn used(mut machine: Machine, blades: &[&StraightBlade]) -> Result<Ma
 }
 
 /// A machine with one tool for two blades.
-fn one_tool(machine: &Machine, first: &StraightBlade, second: &StraightBlade) -> Diagnostic {
+fn one_tool(machine: &Machine, first: BladeRef<'_>, second: BladeRef<'_>) -> Diagnostic {
     Diagnostic::new(
         Code::BladeWithoutTool,
         format!(
             "the job uses blades `{}` and `{}`, but `{}` has one tool",
-            first.name, second.name, machine.name
+            first.name(), second.name(), machine.name
         ),
         machine.tools.first().frame.span.unwrap_or(machine.head_span),
         "the frame of one blade",
     )
-    .and(second.span, "the other blade")
+    .and(second.span(), "the other blade")
     .help(format!(
         "write a block for each blade, `tool {} {{ frame = ... }}` and `tool {} {{ frame = ... }}`, and how they are changed, \
          `change {{ ... }}`",
-        first.name, second.name
+        first.name(), second.name()
     ))
 }
 
-fn without_tool(machine: &Machine, blade: &StraightBlade) -> Diagnostic {
+fn without_tool(machine: &Machine, blade: BladeRef<'_>) -> Diagnostic {
     Diagnostic::new(
         Code::BladeWithoutTool,
-        format!("`{}` has no tool for blade `{}`", machine.name, blade.name),
+        format!("`{}` has no tool for blade `{}`", machine.name, blade.name()),
         machine.head_span,
         "its tools are for other blades",
     )
-    .and(blade.span, "the job uses this blade")
+    .and(blade.span(), "the job uses this blade")
     .help(format!(
         "add `tool {} {{ frame = ... }}` with its measured frame",
-        blade.name
+        blade.name()
     ))
+}
+
+/// A robot with a blade that nothing spins.
+fn without_spindle(machine: &Machine, blade: BladeRef<'_>) -> Diagnostic {
+    let (name, kind) = (blade.name(), blade.kind().word());
+    Diagnostic::new(
+        Code::BladeWithoutTool,
+        format!("`{}` does not say what spins {kind} `{name}`", machine.name),
+        machine.head_span,
+        "has no `spindle`",
+    )
+    .and(blade.span(), format!("this {kind} spins"))
+    .help("add `spindle = output(13)` with the number of the output that runs its drive")
 }
 
 fn no_change(machine: &Machine, second: &HeldTool) -> Diagnostic {

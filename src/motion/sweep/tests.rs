@@ -126,11 +126,11 @@ fn a_scene() -> impl Strategy<Value = Scene> {
                     kind,
                     axes: [joints(from), joints(to)],
                     tip: [tip, there],
-                    outline: Outline {
-                        half_width: length * libm::sin(half_apex),
-                        edge_height: length * libm::cos(half_apex),
-                        spindle_height: TOOL,
-                    },
+                    outline: Outline::straight(
+                        length * libm::sin(half_apex),
+                        length * libm::cos(half_apex),
+                        TOOL,
+                    ),
                     vees,
                 }
             },
@@ -164,7 +164,7 @@ impl Scene {
             tip: self.tip,
             axes: self.axes,
             angle,
-            blade: self.outline,
+            blade: self.outline.clone(),
         }
     }
 
@@ -183,6 +183,7 @@ impl Scene {
             half_width,
             edge_height,
             spindle_height,
+            ..
         } = self.outline;
         let across = |height: f64, half: f64| {
             (-8..=8).map(move |i| Vector3::new(half * f64::from(i) / 8.0, 0.0, -height))
@@ -209,6 +210,7 @@ impl Scene {
             half_width,
             edge_height,
             spindle_height,
+            ..
         } = self.outline;
         let half = half_width * (-on_blade.z / edge_height).min(1.0);
         on_blade.y.abs() < 1e-6
@@ -300,11 +302,7 @@ fn a_c_axis_carries_the_blade_over_the_work() {
         kind: Kind::HeadCa,
         axes: [start, end],
         tip: [DVec3::new(40.0, -out, 20.0); 2],
-        outline: Outline {
-            half_width: 0.0,
-            edge_height: 20.0,
-            spindle_height: 20.0,
-        },
+        outline: Outline::straight(0.0, 20.0, 20.0),
         vees: Vec::new(),
     };
     let overhang = 20.0 * libm::sin(tilt);

@@ -6,7 +6,7 @@ use vcutc_backend_api::ir::Op;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_job::{Auto, CheckedJob, Setup};
+use vcutc_job::{Auto, BladeRef, CheckedJob, Operation};
 
 /// How far out of the stock a tip is carried by lengths that are meant, at most, in mm.
 const MEANT: f64 = 1000.0;
@@ -21,7 +21,7 @@ pub(super) fn far_outside(job: &CheckedJob, place: &str, op: &Op, tip: Point3) -
     let (far, side, field, span) = if above >= beside {
         (above, "above", "`clearance`", asked.clearance.span)
     } else {
-        let (field, span) = run_out(asked);
+        let (field, span) = run_out(&**operation);
         (beside, "beside", field, span)
     };
     let span = span.filter(|_| far > MEANT)?;
@@ -36,11 +36,21 @@ pub(super) fn far_outside(job: &CheckedJob, place: &str, op: &Op, tip: Point3) -
 }
 
 /// The field that makes cuts run out so far, and where it stands.
-fn run_out(asked: &Setup) -> (&'static str, Option<Span>) {
-    let blade = &asked.blade;
-    match asked.extension.value {
-        Auto::Given(_) => ("`extension`", asked.extension.span),
-        Auto::Auto if asked.run_out.value > blade.cutting_length.value => ("`run_out`", asked.run_out.span),
-        Auto::Auto => ("`cutting_length`", blade.cutting_length.span),
+fn run_out(operation: &dyn Operation) -> (&'static str, Option<Span>) {
+    let setup = operation.setup();
+    let measure = |blade: &BladeRef<'_>| match blade {
+        BladeRef::Straight(blade) => ("`cutting_length`", blade.cutting_length),
+        BladeRef::Disc(disc) => ("`radius`", disc.radius),
+        BladeRef::Crusher(crusher) => ("`radius`", crusher.radius),
+    };
+    let measures = operation.blades();
+    let longest = measures
+        .iter()
+        .map(measure)
+        .max_by(|(_, one), (_, other)| one.value.total_cmp(&other.value));
+    match (setup.extension.value, longest) {
+        (Auto::Given(_), _) => ("`extension`", setup.extension.span),
+        (Auto::Auto, Some((field, longest))) if setup.run_out.value <= longest.value => (field, longest.span),
+        (Auto::Auto, _) => ("`run_out`", setup.run_out.span),
     }
 }

@@ -17,8 +17,8 @@ pub fn too_large(job: &CheckedJob) -> Option<Diagnostic> {
     let model = &machine.model;
     let tip = Pose::from(machine.tools.first().frame.value.frame).position;
     let tip_apart = model.mechanism.most_apart(&model.axes, tip)?;
-    let blades = job.operations.iter().map(|operation| &operation.setup().blade);
-    let edges = blades.map(|blade| blade.cutting_length.value.to_mm());
+    let blades = job.operations.iter().flat_map(|operation| operation.blades());
+    let edges = blades.map(|blade| blade.reach().to_mm());
     let edge = edges.fold(0.0, f64::max);
     let apart = apart(job, edge)?;
     // An edge at either end, with as much again for what may stay.

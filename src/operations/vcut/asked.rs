@@ -4,13 +4,15 @@ use std::sync::Arc;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::source::Span;
 use vcutc_geometry::curve::Point2;
-use vcutc_job::{Auto, Bounds, Order, Setup, Sourced, words};
+use vcutc_job::{Auto, Bounds, Order, Setup, Sourced, StraightBlade, words};
 
 /// V-shaped roughing. Ranges given here are checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoughVcut {
     /// What all operations state.
     pub setup: Setup,
+    /// The blade.
+    pub blade: StraightBlade,
     /// Where the tips run, in the order in which they are cut; none for a lattice. Where they are given, `lattice`, `layer`
     /// and `step` are what they come nearest to, `residual` and `sequence` have no say, and the swing is given.
     pub tips: Option<Arc<Tips>>,

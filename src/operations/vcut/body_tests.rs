@@ -121,7 +121,7 @@ proptest! {
         let asked = operation(&mut job);
         asked.swing.value = Auto::Given(Angle::deg(swing.round()));
         asked.setup.rake.value = Angle::deg(rake.round());
-        asked.setup.blade.body = Some(body(&stages));
+        asked.blade.body = Some(body(&stages));
         let Some(planned) = plan(&job).0 else {
             return Err(TestCaseError::reject("no plan"));
         };
@@ -161,7 +161,7 @@ fn a_body_that_is_not_stated_is_not_looked_at() {
 fn a_micrometre_decides() {
     let mut job = paper_job(vec![Point2::new(0.0, 13.1), Point2::new(85.0, 13.1)]);
     let mut contact = |from: f64| {
-        operation(&mut job).setup.blade.body = Some(body(&[(from, 20.0)]));
+        operation(&mut job).blade.body = Some(body(&[(from, 20.0)]));
         proven(&job).unwrap().bodies.contact
     };
     let (mut low, mut high) = (14.0, 140.0);

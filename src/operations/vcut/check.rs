@@ -99,6 +99,7 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
         .block("limits")
         .and_then(|inner| limits_block::check(inner, scope, session));
     let setup = setup::check(&fields, written, session);
+    let blade = setup::blade("blade", &fields, written, session);
     let mut reader = Reader::new(scope, &mut session.reports);
     let lattice = reader.auto_choice(&fields, "lattice", Lattice::WORDS);
     let swing = reader.auto(&fields, "swing");
@@ -114,6 +115,7 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
     let standoff = reader.auto(&fields, "standoff");
     let operation = RoughVcut {
         setup: setup?,
+        blade: blade?,
         tips: None,
         lattice: lattice?,
         swing: swing?,

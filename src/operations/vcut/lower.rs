@@ -35,7 +35,7 @@ const KIND: OperationKind = OperationKind::named("rough_vcut").unwrap();
 
 /// Appends the ops of one operation.
 pub(crate) fn lower(planned: &PlannedVcut, source: SourceRef, builder: &mut ProgramBuilder) {
-    let operation = builder.operation(KIND, planned.asked.setup.blade.in_program(), source);
+    let operation = builder.operation(KIND, planned.asked.blade.in_program(), source);
     let mut writer = Writer::new(planned, operation, builder);
     let numbers = numbers(&planned.cuts);
     for run in &planned.runs {
@@ -122,7 +122,7 @@ impl<'b> Writer<'b> {
         let holder = Holder {
             swing: planned.parameters.swing,
             rake: asked.setup.rake.value,
-            edges: asked.setup.blade.edges,
+            edges: asked.blade.edges,
         };
         let (cut_feed, travel_feed) = (
             builder.feed(asked.setup.cut_feed.value),

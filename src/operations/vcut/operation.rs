@@ -9,7 +9,7 @@ use vcutc_cancellation::Effort;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_job::operation::{Aim, Ground, Laid, Operation, Settled, Swing, Unplanned, Variant, Variation};
-use vcutc_job::{Auto, Order, PlannedOperation, Setup, Sourced};
+use vcutc_job::{Auto, BladeRef, Order, PlannedOperation, Setup, Sourced};
 
 /// By how many degrees the swing is made smaller, one after the other.
 const SMALLER: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
@@ -68,12 +68,17 @@ impl Operation for RoughVcut {
         &self.setup
     }
 
+    fn blades(&self) -> Vec<BladeRef<'_>> {
+        vec![BladeRef::Straight(&self.blade)]
+    }
+
     fn setup_mut(&mut self) -> &mut Setup {
         &mut self.setup
     }
 
     /// Tips keep their places: there are as many of them as cuts.
     fn forget_places(&mut self, place: Span) {
+        self.blade.forget_places(place);
         self.lattice.forget_place(place);
         self.swing.forget_place(place);
         self.layer.forget_place(place);

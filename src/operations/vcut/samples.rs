@@ -45,15 +45,6 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
         operations: vec![Box::new(RoughVcut {
             setup: Setup {
                 head_span: span,
-                blade: StraightBlade {
-                    name: "dagger".to_owned(),
-                    span,
-                    cutting_length: mm(10.0),
-                    half_apex: given(Angle::deg(7.13)),
-                    thickness: mm(0.0),
-                    edges: Edges::Double,
-                    body: None,
-                },
                 rake: given(Angle::deg(60.0)),
                 direction: given(Direction::Alternate),
                 cut_feed: given(Speed::mm_per_s(200.0)),
@@ -62,6 +53,15 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
                 clearance: mm(10.0),
                 extension: given(Auto::Auto),
                 run_out: mm(2.0),
+            },
+            blade: StraightBlade {
+                name: "dagger".to_owned(),
+                span,
+                cutting_length: mm(10.0),
+                half_apex: given(Angle::deg(7.13)),
+                thickness: mm(0.0),
+                edges: Edges::Double,
+                body: None,
             },
             tips: None,
             lattice: given(Auto::Given(Lattice::Orthogonal)),

@@ -37,7 +37,7 @@ pub(crate) fn tables(planned: &PlannedVcut) -> Vec<ParameterTable> {
 }
 
 fn blade(asked: &RoughVcut) -> Vec<ParameterRow> {
-    let blade = &asked.setup.blade;
+    let blade = &asked.blade;
     let edges = match blade.edges {
         Edges::Single => "single",
         Edges::Double => "double",

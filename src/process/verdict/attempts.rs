@@ -81,8 +81,8 @@ impl Trials for Attempts<'_> {
 
 /// Whether a blade of a job states its body.
 fn has_body(job: &CheckedJob) -> bool {
-    let mut setups = job.operations.iter().map(|operation| operation.setup());
-    setups.any(|setup| setup.blade.body.is_some())
+    let mut blades = job.operations.iter().flat_map(|operation| operation.blades());
+    blades.any(|blade| blade.body().is_some())
 }
 
 /// The job with a change of one operation.

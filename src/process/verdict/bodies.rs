@@ -13,7 +13,7 @@ use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::grid;
 use vcutc_job::operation::{Operation, Trials, Variant, WorksThere};
-use vcutc_job::{Body, PlannedJob, PlannedOperation};
+use vcutc_job::{BladeRef, Body, PlannedJob, PlannedOperation};
 use vcutc_simulation::body::{Contact, During};
 
 /// By how many degrees the swing is made smaller, one after the other.
@@ -37,9 +37,11 @@ pub(super) fn explained(
     works_there: &mut WorksThere<'_>,
 ) -> Option<Diagnostic> {
     let planned = plan.operation(contact.passage.operation)?;
-    let told = told(planned.asked(), count, contact)?;
+    let program = proven.program.program();
+    let blade = blade_of(planned.asked(), program, contact)?;
+    let told = told(planned.asked(), blade, count, contact)?;
     // First, because replays take the least work.
-    let higher = higher_body(plan, proven, contact, attempts);
+    let higher = higher_body(plan, proven, (blade, contact), attempts);
     let told = with_smaller_swing(told, planned, attempts, works_there);
     let told = with_steeper_rake(told, planned.asked(), attempts, works_there);
     Some(match higher {
@@ -51,14 +53,20 @@ pub(super) fn explained(
     })
 }
 
-fn told(asked: &dyn Operation, count: usize, contact: Contact) -> Option<Diagnostic> {
+/// The blade of an operation whose body enters the work.
+fn blade_of<'a>(asked: &'a dyn Operation, program: &Program, contact: Contact) -> Option<BladeRef<'a>> {
+    let name = &program.blade(contact.passage.tool)?.name;
+    asked.blades().into_iter().find(|blade| blade.name() == name)
+}
+
+fn told(asked: &dyn Operation, blade: BladeRef<'_>, count: usize, contact: Contact) -> Option<Diagnostic> {
     let setup = asked.setup();
-    let body = setup.blade.body.as_ref()?;
+    let body = blade.body()?;
     let stage = body.stages.get(contact.passage.stage)?;
     let place = stage.radius.span.unwrap_or(body.span);
     let diagnostic = Diagnostic::new(
         Code::BodyInWork,
-        headline(&setup.blade.name, contact),
+        headline(blade.name(), contact),
         stage.from.span.map_or(place, |from| from.to(place)),
         format!("this stage goes deepest at {}", point(contact.passage.at)),
     )
@@ -179,13 +187,12 @@ impl Higher {
 fn higher_body(
     plan: &PlannedJob,
     proven: &Proven,
-    contact: Contact,
+    (blade, contact): (BladeRef<'_>, Contact),
     attempts: &mut Attempts<'_>,
 ) -> Option<Higher> {
-    let operation = contact.passage.operation;
-    let body = plan.operation(operation)?.asked().setup().blade.body.as_ref()?;
+    let body = blade.body()?;
     let program = proven.program.program();
-    let tool = program.operation(operation)?.tool;
+    let tool = contact.passage.tool;
     let mut is_clear = |stages: &[BodyStage]| {
         attempts.spend(plan.cuts())
             && with_body(program, tool, stages)

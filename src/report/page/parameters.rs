@@ -130,6 +130,7 @@ fn machine_rows(machine: &Machine) -> Vec<Row> {
             .ultrasonic
             .map(|given| Row::of("ultrasonic", given, output)),
     );
+    rows.extend(machine.spindle.map(|given| Row::of("spindle", given, output)));
     rows.push(Row::of("ready", machine.ready, |ready| match ready {
         Ready::Input(number) => format!("input {number}"),
         Ready::After(time) => format!("{} s after switching on", show(time.to_s())),

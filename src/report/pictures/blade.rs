@@ -2,13 +2,18 @@
 
 use crate::Material;
 use vcutc_diagnostics::number::show;
+use vcutc_job::BladeRef;
 use vcutc_picture::{Prefix, blade};
 
-/// The blade of the first operation with the axes of its frame (`picture::blade`); none for a job that plans nothing.
+/// The blade of the first operation with the axes of its frame (`picture::blade`); none for a job that plans nothing, and for a blade that
+/// is not straight.
 #[must_use]
 pub fn blade(material: &Material<'_>, ids: Prefix) -> Option<String> {
-    let setup = material.plan.operations.first()?.asked().setup();
-    let held = &setup.blade;
+    let asked = material.plan.operations.first()?.asked();
+    let Some(BladeRef::Straight(held)) = asked.blades().into_iter().next() else {
+        return None;
+    };
+    let setup = asked.setup();
     let subtitle = format!(
         "blade `{}`, {} mm long, {} mm thick, over the work at swing 0",
         held.name,

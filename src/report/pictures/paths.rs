@@ -56,7 +56,10 @@ impl Track {
 fn blade(program: &Program, pose: TipPose) -> Option<[[f64; 3]; 2]> {
     let blades = program.blades.iter();
     let length = blades
-        .map(|blade| blade.cutting_length.to_mm())
+        .map(|blade| {
+            let heights = blade.hull().into_iter().map(|[_, _, z]| -z);
+            heights.fold(0.0, f64::max)
+        })
         .reduce(f64::max)?;
     let [[_, _, x], [_, _, y], [_, _, z]] = program.orientation(pose.orientation)?.matrix();
     let Point3 { x: tx, y: ty, z: tz } = pose.tip;

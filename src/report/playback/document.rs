@@ -7,7 +7,8 @@ use super::track::Track;
 use super::{Cell, Playback};
 use serde_json::{Value, json};
 use vcutc_backend_api::geometry::{Orientation, Point3};
-use vcutc_backend_api::ir::{ActionKind, Axis, AxisKind, Blade, Edges, Stock};
+use vcutc_backend_api::ir::{ActionKind, Axis, AxisKind, Blade, Edges, Shape as BladeShape, Stock, Straight};
+use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 use vcutc_machine::kinematics::linkage::{Joint, Linkage};
 use vcutc_machine::kinematics::pose::Pose;
@@ -39,25 +40,29 @@ fn corner(corner: &Point2) -> Value {
     json!([corner.x, corner.z])
 }
 
+/// The player shows the blade up to its shank.
 fn blade(blade: &Blade) -> Value {
-    let Blade {
-        cutting_length,
-        half_apex,
-        thickness,
-        edges,
-        // The player shows the blade up to its shank.
-        body: _,
-        name: _,
-    } = blade;
+    match blade.shape {
+        BladeShape::Straight(straight) => dagger(straight),
+        BladeShape::Disc(disc) => drum(disc.radius, disc.thickness),
+        BladeShape::Crusher(crusher) => drum(crusher.radius, crusher.height),
+    }
+}
+
+fn dagger(blade: Straight) -> Value {
     json!({
-        "length": cutting_length.to_mm(),
-        "halfApex": half_apex.to_rad(),
-        "thickness": thickness.to_mm(),
-        "edges": match edges {
+        "length": blade.cutting_length.to_mm(),
+        "halfApex": blade.half_apex.to_rad(),
+        "thickness": blade.thickness.to_mm(),
+        "edges": match blade.edges {
             Edges::Single => 1,
             Edges::Double => 2,
         },
     })
+}
+
+fn drum(radius: Length, height: Length) -> Value {
+    json!({ "radius": radius.to_mm(), "height": height.to_mm() })
 }
 
 fn quaternion(orientation: &Orientation) -> Value {

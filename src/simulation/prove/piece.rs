@@ -1,6 +1,7 @@
 //! How the blade passes the part on a piece of a chain, and how much of its edge is in the work.
 //!
-//! A straight blade is a triangle from the tip up to the end of its edges, as thick as it is. A piece of a chain is proven span
+//! A straight blade is a triangle from the tip up to the end of its edges, as thick as it is; a round one the ring of its edge and
+//! that of what lies above it. A piece of a chain is proven span
 //! by span ([`crate::course`]): seen along y, what the blade covers on a span lies above the lower edge of the convex hull of
 //! its corners at both ends of the chord, each moved as far as it may be off. A span that this edge does not clear is halved.
 //!
@@ -13,7 +14,7 @@ mod tests;
 use crate::course::{Course, Span, Stretch};
 use crate::surface::Surface;
 use vcutc_backend_api::geometry::Orientation;
-use vcutc_backend_api::ir::{Blade, Stock};
+use vcutc_backend_api::ir::{Blade, Stock, Straight};
 use vcutc_geometry::curve::Point2;
 
 /// An entry of less than this may not be found, and the edge in use is known but for this, in mm.
@@ -28,11 +29,10 @@ const LEAST_RISE: f64 = 0.05;
 /// A blade on a piece of a chain.
 pub(super) struct Piece {
     course: Course,
-    /// From the tip to the ends of both edges, seen in T, in mm.
-    edges: [[f64; 3]; 2],
-    cutting_length: f64,
-    /// Half the thickness, in mm.
-    half: f64,
+    /// The corners of the blade, seen in T, in mm.
+    corners: Vec<[f64; 3]>,
+    /// Of a straight blade; of others the edge goes all round.
+    straight: Option<Straight>,
     stock: Stock,
 }
 
@@ -51,13 +51,18 @@ struct Lower {
 
 impl Piece {
     pub(super) fn new(course: Course, blade: &Blade, stock: Stock) -> Self {
-        let (sine, cosine) = libm::sincos(blade.half_apex.to_rad());
-        let length = blade.cutting_length.to_mm();
+        let straight = blade.straight();
+        let half = straight.map_or(0.0, |straight| straight.thickness.to_mm() / 2.0);
+        let sides: &[f64] = if half > 0.0 { &[1.0, -1.0] } else { &[0.0] };
+        let hull = blade.hull();
+        let on_side = |side: &f64| {
+            let aside = side * half;
+            hull.iter().map(move |&[x, y, z]| [x, y + aside, z])
+        };
         Self {
             course,
-            edges: [1.0, -1.0].map(|side| [side * sine * length, 0.0, -cosine * length]),
-            cutting_length: length,
-            half: blade.thickness.to_mm() / 2.0,
+            corners: sides.iter().flat_map(on_side).collect(),
+            straight,
             stock,
         }
     }
@@ -96,17 +101,20 @@ impl Piece {
         Some(Entry { at, depth: -gap })
     }
 
-    /// How much edge is in the work at most, in mm; infinite where an edge does not rise out of it. The section is taken to be as
-    /// high as it is anywhere over the blade.
+    /// How much edge of a straight blade is in the work at most, in mm; infinite where an edge does not rise out of it. The section
+    /// is taken to be as high as it is anywhere over the blade.
     pub(super) fn edge_used(&self, surface: &mut Surface) -> f64 {
+        let Some(straight) = self.straight else {
+            return 0.0;
+        };
         let mut used = 0.0_f64;
         let mut open = vec![(Span::WHOLE, MOST_HALVINGS)];
         while let Some((span, halvings)) = open.pop() {
-            let bound = self.edge_on(&self.course.stretch(span), surface);
+            let bound = self.edge_on(straight, &self.course.stretch(span), surface);
             if bound <= used {
                 continue;
             }
-            let there = self.edge_on(&self.course.middle(span), surface);
+            let there = self.edge_on(straight, &self.course.middle(span), surface);
             if bound - there > RESOLUTION && halvings > 0 {
                 used = used.max(there);
                 open.extend(span.halves().map(|half| (half, halvings - 1)));
@@ -117,7 +125,7 @@ impl Piece {
         used
     }
 
-    fn edge_on(&self, stretch: &Stretch, surface: &mut Surface) -> f64 {
+    fn edge_on(&self, straight: Straight, stretch: &Stretch, surface: &mut Surface) -> f64 {
         let lower = self.lower(stretch);
         let ([Some(first), Some(last)], true) = (
             [lower.edge.first(), lower.edge.last()],
@@ -131,9 +139,9 @@ impl Piece {
         if top <= tip {
             return 0.0;
         }
-        let rises = self.edges.map(|edge| {
+        let rises = straight.edge_ends().map(|edge| {
             let end = seen_in_work(stretch.held, edge);
-            (end[2] - stretch.turned_room(end)[2]) / self.cutting_length
+            (end[2] - stretch.turned_room(end)[2]) / straight.cutting_length.to_mm()
         });
         match rises.into_iter().fold(f64::INFINITY, f64::min) {
             rise if rise > LEAST_RISE => (top - tip) / rise,
@@ -150,19 +158,16 @@ impl Piece {
     }
 
     fn lower(&self, stretch: &Stretch) -> Lower {
-        let [one, other] = self.edges;
-        let mut corners = Vec::with_capacity(24);
+        let mut corners = Vec::with_capacity(4 * self.corners.len());
         let mut reach = [f64::INFINITY, f64::NEG_INFINITY];
-        for aside in [self.half, -self.half] {
-            for [x, y, z] in [[0.0; 3], one, other] {
-                let corner = seen_in_work(stretch.held, [x, y + aside, z]);
-                let [dx, dy, dz] = stretch.room(corner);
-                for tip in [stretch.way.from, stretch.way.to] {
-                    let [x, y, z] = [tip.x + corner[0], tip.y + corner[1], tip.z + corner[2]];
-                    let [near, far] = reach;
-                    reach = [near.min(y - dy), far.max(y + dy)];
-                    corners.extend([Point2::new(x - dx, z - dz), Point2::new(x + dx, z - dz)]);
-                }
+        for &corner in &self.corners {
+            let corner = seen_in_work(stretch.held, corner);
+            let [dx, dy, dz] = stretch.room(corner);
+            for tip in [stretch.way.from, stretch.way.to] {
+                let [x, y, z] = [tip.x + corner[0], tip.y + corner[1], tip.z + corner[2]];
+                let [near, far] = reach;
+                reach = [near.min(y - dy), far.max(y + dy)];
+                corners.extend([Point2::new(x - dx, z - dz), Point2::new(x + dx, z - dz)]);
             }
         }
         Lower {

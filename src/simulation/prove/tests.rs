@@ -59,7 +59,7 @@ fn of_passes(passes: impl Iterator<Item = (u32, Point2, Flank, usize)>) -> Verif
     program.stock.width = Length::mm(100.0);
     program.stock.depth = Length::mm(50.0);
     program.stock.height = Length::mm(40.0);
-    program.blades[0].cutting_length = Length::mm(80.0);
+    program.blades[0].straight_mut().unwrap().cutting_length = Length::mm(80.0);
     program.ops.clear();
     program.orientations = Vec::new();
     for swing in SWINGS {
@@ -166,7 +166,7 @@ fn a_v_with_a_wall_comes_free_and_uses_the_edge_that_geometry_says() {
     ];
     near(replay.surface.corners(), &expected);
     let recipe = Recipe::default();
-    let half_apex = recipe.program().blades[0].half_apex;
+    let half_apex = recipe.program().blades[0].straight().unwrap().half_apex;
     // The flank that leans needs more [Cui 2].
     let edge = 30.0 / (Angle::deg(34.16).cos() * (recipe.rake - half_apex).sin());
     assert!((replay.longest_edge.to_mm() - edge).abs() < 1e-9);

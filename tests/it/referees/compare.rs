@@ -145,6 +145,7 @@ fn end(motion: &Action, next: Option<&Action>, blend: f64) -> End {
             | Action::Follow { .. }
             | Action::Turn { .. }
             | Action::Ultrasonic { .. }
+            | Action::Spin { .. }
             | Action::AwaitReady
             | Action::Dwell { .. }
             | Action::ChangePlace

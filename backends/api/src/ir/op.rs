@@ -121,7 +121,12 @@ pub enum Action {
         /// On or off.
         state: Switch,
     },
-    /// Waits until the generator is up, as `ready` of the cell states.
+    /// The spindle is switched, exactly here. It turns the blade at hand at the speed that the blade states.
+    Spin {
+        /// On or off.
+        state: Switch,
+    },
+    /// Waits until generator and spindle are up, as `ready` of the cell states.
     AwaitReady,
     /// Waits.
     Dwell {
@@ -195,6 +200,8 @@ pub enum ActionKind {
     Turn,
     /// [`Action::Ultrasonic`].
     Ultrasonic,
+    /// [`Action::Spin`].
+    Spin,
     /// [`Action::AwaitReady`].
     AwaitReady,
     /// [`Action::Dwell`].
@@ -207,7 +214,7 @@ pub enum ActionKind {
 
 impl ActionKind {
     /// The names of all of them, in their order.
-    pub const NAMES: [&'static str; 14] = [
+    pub const NAMES: [&'static str; 15] = [
         "home",
         "travel",
         "axis_travel",
@@ -218,6 +225,7 @@ impl ActionKind {
         "follow",
         "turn",
         "ultrasonic",
+        "spin",
         "await_ready",
         "dwell",
         "change_place",
@@ -247,6 +255,7 @@ impl Action {
             Self::Home
             | Self::Turn { .. }
             | Self::Ultrasonic { .. }
+            | Self::Spin { .. }
             | Self::AwaitReady
             | Self::Dwell { .. }
             | Self::ChangePlace
@@ -268,6 +277,7 @@ impl Action {
             | Self::Retract { .. }
             | Self::Cut { .. }
             | Self::Ultrasonic { .. }
+            | Self::Spin { .. }
             | Self::AwaitReady
             | Self::Dwell { .. }
             | Self::ChangePlace
@@ -289,6 +299,7 @@ impl Action {
             | Self::AxisTravel { .. }
             | Self::Turn { .. }
             | Self::Ultrasonic { .. }
+            | Self::Spin { .. }
             | Self::AwaitReady
             | Self::Dwell { .. }
             | Self::ChangePlace
@@ -308,6 +319,7 @@ impl Action {
             | Self::Retract { .. }
             | Self::Cut { .. }
             | Self::Ultrasonic { .. }
+            | Self::Spin { .. }
             | Self::AwaitReady
             | Self::Dwell { .. }
             | Self::ChangePlace
@@ -343,6 +355,7 @@ impl Action {
             Self::Follow { .. } => ActionKind::Follow,
             Self::Turn { .. } => ActionKind::Turn,
             Self::Ultrasonic { .. } => ActionKind::Ultrasonic,
+            Self::Spin { .. } => ActionKind::Spin,
             Self::AwaitReady => ActionKind::AwaitReady,
             Self::Dwell { .. } => ActionKind::Dwell,
             Self::ChangePlace => ActionKind::ChangePlace,

@@ -3,11 +3,11 @@
 use super::{Circle, Command, Configuration, End, Held, Pace, Reader, Resolution, Target};
 use crate::corners::may_round;
 use crate::geometry::{Frame, Orientation, Point3};
-use crate::ir::{Action, AxisKind, AxisValues, Joint, MOST_AXES, OpId, Program, Ready, Switch};
+use crate::ir::{Action, AxisKind, AxisValues, Joint, MOST_AXES, OpId, Program, Switch};
 use crate::motion::{ReachableProgram, Waypoint};
 use crate::number::is_within;
 use crate::segments::{LimitedBy, LinearSegment};
-use crate::state::{Generator, State, TipPose};
+use crate::state::{State, TipPose};
 use crate::swivel::Apart;
 use crate::units::{Angle, AngularSpeed, Duration, Length, Speed};
 use crate::vector::dot;
@@ -89,6 +89,13 @@ pub enum Mismatch {
         /// Which and to what it should be; no number where the machine has no output.
         should: (Option<u32>, Switch),
     },
+    /// The spindle turns at another speed, or stands.
+    Spin {
+        /// In the program; none where it stops.
+        is: Option<AngularSpeed>,
+        /// As it should be.
+        should: Option<AngularSpeed>,
+    },
     /// Another blade is put in, or it is put in another way.
     ToolPlace {
         /// From which place; none by hand.
@@ -157,7 +164,7 @@ impl<'p> Comparator<'p> {
         self.reachable
     }
 
-    fn program(&self) -> &'p Program {
+    pub(super) fn program(&self) -> &'p Program {
         self.reachable.program()
     }
 
@@ -170,7 +177,6 @@ impl<'p> Comparator<'p> {
             return vec![Mismatch::Kind];
         };
         let axes = self.reachable.axes_after(moment.op);
-        let cell = program.cell.as_ref();
         match (op.action, command, axes) {
             (
                 Action::Home | Action::ChangePlace | Action::AxisTravel { .. },
@@ -196,32 +202,7 @@ impl<'p> Comparator<'p> {
                     (_, _) => found.push(Mismatch::Kind),
                 }
             }
-            (Action::Ultrasonic { state }, Command::Switch { output, state: is }, _) => {
-                let should = cell.and_then(|cell| cell.ultrasonic);
-                if (Some(*output), *is) != (should, state) {
-                    found.push(Mismatch::Output {
-                        is: (*output, *is),
-                        should: (should, state),
-                    });
-                }
-            }
-            (Action::AwaitReady, command, _) => match (cell.map(|cell| cell.ready), command) {
-                (Some(Ready::Input(should)), &Command::AwaitInput(is)) => {
-                    if is != should {
-                        found.push(Mismatch::Input { is, should });
-                    }
-                }
-                (Some(Ready::After(should)), Command::Wait(is)) => self.wait(*is, should, &mut found),
-                (_, _) => found.push(Mismatch::Kind),
-            },
-            (Action::ToolChange { tool }, &Command::ChangeTool(is), _) => {
-                let should = cell.and_then(|cell| cell.named_place(tool));
-                if is != should {
-                    found.push(Mismatch::ToolPlace { is, should });
-                }
-            }
-            (Action::Dwell { time }, Command::Wait(is), _) => self.wait(*is, time, &mut found),
-            (_, _, _) => found.push(Mismatch::Kind),
+            (action, command, _) => self.signal(moment, action, command, &mut found),
         }
         found
     }
@@ -334,53 +315,6 @@ impl<'p> Comparator<'p> {
         )
     }
 
-    /// Whether a command leaves everything as it is before an op: the move to where the machine stands already, the state of
-    /// the generator once more.
-    #[must_use]
-    pub fn restates(&self, moment: Moment, command: &Command) -> bool {
-        let program = self.program();
-        let cell = program.cell.as_ref();
-        let before = moment.op.0.checked_sub(1).map(OpId);
-        let stands = before.and_then(|before| self.reachable.axes_after(before));
-        let generator = moment.before.generator;
-        let mut found = Vec::new();
-        match (command, before, moment.before.place.pose()) {
-            (Command::Axes(is), _, _) => match stands {
-                Some(should) => self.axes(is, &should, Which::All, &mut found),
-                None => return false,
-            },
-            (Command::AxesToPose(target), Some(before), Some(pose)) => {
-                self.target(before, target, pose, &mut found);
-            }
-            (Command::Switch { output, state }, _, _) => {
-                let running = match generator {
-                    Generator::Off => Switch::Off,
-                    Generator::Starting | Generator::Running => Switch::On,
-                };
-                return *state == running && cell.is_some_and(|cell| cell.ultrasonic == Some(*output));
-            }
-            (Command::AwaitInput(is), _, _) => {
-                return generator == Generator::Running
-                    && cell.is_some_and(|cell| cell.ready == Ready::Input(*is));
-            }
-            (Command::Wait(is), _, _) => match (generator, cell.map(|cell| cell.ready)) {
-                (Generator::Running, Some(Ready::After(should))) => self.wait(*is, should, &mut found),
-                (Generator::Running | Generator::Starting | Generator::Off, _) => return false,
-            },
-            (
-                Command::AxesToPose(_)
-                | Command::Straight { .. }
-                | Command::Round { .. }
-                | Command::ChangeTool(_),
-                _,
-                _,
-            ) => {
-                return false;
-            }
-        }
-        found.is_empty()
-    }
-
     /// Whether two frames are the same within what is printed.
     pub(super) fn is_same_frame(&self, is: &Frame, should: &Frame) -> bool {
         let mut found = Vec::new();
@@ -389,13 +323,13 @@ impl<'p> Comparator<'p> {
         found.is_empty() && is_within(by.to_rad(), 0.0, self.resolution.attitude.to_rad())
     }
 
-    fn wait(&self, is: Duration, should: Duration, found: &mut Vec<Mismatch>) {
+    pub(super) fn wait(&self, is: Duration, should: Duration, found: &mut Vec<Mismatch>) {
         if !is_within(is.to_s(), should.to_s(), self.resolution.time.to_s()) {
             found.push(Mismatch::Time { is, should });
         }
     }
 
-    fn axes(&self, is: &AxisValues, should: &AxisValues, which: Which, found: &mut Vec<Mismatch>) {
+    pub(super) fn axes(&self, is: &AxisValues, should: &AxisValues, which: Which, found: &mut Vec<Mismatch>) {
         let axes = self.program().cell.iter().flat_map(|cell| &cell.axes);
         for (axis, (known, (&is, &should))) in axes.zip(is.0.iter().zip(&should.0)).enumerate() {
             let resolution = match (known.kind, which) {
@@ -409,7 +343,7 @@ impl<'p> Comparator<'p> {
         }
     }
 
-    fn target(&self, op: OpId, is: &Target, should: TipPose, found: &mut Vec<Mismatch>) {
+    pub(super) fn target(&self, op: OpId, is: &Target, should: TipPose, found: &mut Vec<Mismatch>) {
         let tip = should.tip;
         let orientation = self.program().orientation(should.orientation);
         let axes = self.reachable.axes_after(op);
@@ -621,7 +555,7 @@ impl<'p> Comparator<'p> {
 
 /// Which axes are compared.
 #[derive(Clone, Copy)]
-enum Which {
+pub(super) enum Which {
     All,
     Rotary,
 }

@@ -5,7 +5,7 @@ use super::{
 };
 use crate::ir::{Action, OpId, PlacedFrame, Program};
 use crate::motion::Waypoint;
-use crate::state::{Generator, State};
+use crate::state::{Drive, State};
 
 /// Follows a program's statements. What is read must be its ops, one after the other, each once; in between only
 /// settings, and at the head of a part a restatement of what holds already.
@@ -203,7 +203,7 @@ impl<'p> Replay<'p> {
 
     /// Whether the ultrasonic generator runs at the place reached.
     #[must_use]
-    pub const fn generator(&self) -> Generator {
+    pub const fn generator(&self) -> Drive {
         self.state.generator
     }
 }

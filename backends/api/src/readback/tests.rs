@@ -6,6 +6,7 @@ use super::{
     Target,
 };
 use crate::geometry::{Orientation, Point3};
+use crate::ir::Spindle;
 use crate::ir::{Action, AxisValues, Joint, OpId, Program, Ready, Switch};
 use crate::motion::{Branch, Motion, ReachableProgram, Waypoint, Wrist};
 use crate::options::Options;
@@ -77,6 +78,13 @@ fn told(reachable: &ReachableProgram) -> Vec<Command> {
             Action::Ultrasonic { state } => Command::Switch {
                 output: cell.ultrasonic.unwrap(),
                 state,
+            },
+            Action::Spin { state } => match cell.spindle.unwrap() {
+                Spindle::Output(output) => Command::Switch { output, state },
+                Spindle::Own => {
+                    let spin = program.blade(segment.before.tool).unwrap().spin();
+                    Command::Spin(spin.filter(|_| state == Switch::On))
+                }
             },
             Action::AwaitReady => match cell.ready {
                 Ready::Input(input) => Command::AwaitInput(input),
@@ -426,7 +434,7 @@ fn nudged(command: Command, which: usize, by: f64) -> Option<Command> {
             Circle::Via(_) | Circle::About { .. } => tip(to).map(|to| Command::Round { on, to, pace, end }),
         },
         Command::Wait(time) => (which == 0).then(|| Command::Wait(time + RESOLUTION.time * by)),
-        Command::Switch { .. } | Command::AwaitInput(_) | Command::ChangeTool(_) => None,
+        Command::Switch { .. } | Command::Spin(_) | Command::AwaitInput(_) | Command::ChangeTool(_) => None,
     }
 }
 

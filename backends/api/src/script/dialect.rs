@@ -12,7 +12,7 @@ use crate::motion::ReachableProgram;
 use crate::readback::End;
 use crate::segments::LinearSegment;
 use crate::state::TipPose;
-use crate::units::Duration;
+use crate::units::{AngularSpeed, Duration};
 use core::num::NonZeroU32;
 
 /// What a program is written from.
@@ -195,7 +195,12 @@ pub trait Dialect: Files {
         Err(EmitError::Internal("a tool change was not refused"))
     }
 
-    /// Switches the output of the generator where it stands, not ahead of it.
+    /// Turns the control's own spindle at a speed, or stops it.
+    fn spin(&mut self, _speed: Option<AngularSpeed>) -> Written {
+        Err(EmitError::Internal("a spindle was not refused"))
+    }
+
+    /// Switches the output of generator or spindle where it stands, not ahead of it.
     fn switch(&mut self, output: u32, state: Switch) -> Written;
 
     /// Waits until an input is high.

@@ -4,8 +4,8 @@
 //! has to heed. The compiler's version is not among them: a version that writes the same motions would change every program
 //! that a shop has under version control.
 
-use crate::ir::{Action, Flank, Head, Program, Purpose};
-use crate::units::{Duration, Length};
+use crate::ir::{Action, Crusher, Disc, Flank, Head, Program, Purpose, Shape, Straight};
+use crate::units::{AngularSpeed, Duration, Length};
 
 /// A comment: words of ours, and words that people wrote behind them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,11 +50,7 @@ pub fn head_lines<'p>(program: &'p Program, machine: &'p str) -> Vec<HeadLine<'p
     );
     lines.push(with("machine ", machine));
     lines.extend(program.blades.iter().map(|blade| HeadLine {
-        ours: format!(
-            "blade {} mm long, {} mm thick: ",
-            number(blade.cutting_length),
-            number(blade.thickness)
-        ),
+        ours: measures(&blade.shape),
         theirs: &blade.name,
     }));
     if let [first, _, ..] = program.blades.as_slice() {
@@ -69,6 +65,32 @@ pub fn head_lines<'p>(program: &'p Program, machine: &'p str) -> Vec<HeadLine<'p
         None => cuts(program),
     }));
     lines
+}
+
+/// What a blade measures, before its name.
+fn measures(shape: &Shape) -> String {
+    match *shape {
+        Shape::Straight(Straight {
+            cutting_length,
+            thickness,
+            ..
+        }) => format!(
+            "blade {} mm long, {} mm thick: ",
+            number(cutting_length),
+            number(thickness)
+        ),
+        Shape::Disc(Disc { radius, spin, .. }) => round("disc", radius, spin),
+        Shape::Crusher(Crusher { radius, spin, .. }) => round("crusher", radius, spin),
+    }
+}
+
+/// A blade that spins, `disc of radius 25 mm, 3000 rev/min: `.
+fn round(kind: &str, radius: Length, spin: AngularSpeed) -> String {
+    format!(
+        "{kind} of radius {} mm, {} rev/min: ",
+        number(radius),
+        decimals(spin.to_rev_per_min())
+    )
 }
 
 fn shown(head: &Head) -> &str {
@@ -94,7 +116,11 @@ fn cuts(program: &Program) -> String {
 
 /// A length in mm with up to three decimals, and none that say nothing.
 fn number(length: Length) -> String {
-    let text = format!("{:.3}", length.to_mm());
+    decimals(length.to_mm())
+}
+
+fn decimals(value: f64) -> String {
+    let text = format!("{value:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 

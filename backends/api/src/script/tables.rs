@@ -5,8 +5,8 @@ use crate::backend::EmitError;
 use crate::ir::{FeedId, OperationId, Program, RateId};
 use crate::units::{AngularSpeed, Speed};
 
-/// The comment above the first line of an operation, `operation 1: rough vcut with blade ` and the blade's name, which is the
-/// user's text.
+/// The comment above the first line of an operation, `operation 1: rough vcut with blade ` and the name of its first blade,
+/// which is the user's text.
 ///
 /// # Errors
 /// That the program has no such operation.
@@ -17,7 +17,8 @@ pub fn operation_heading(program: &Program, id: OperationId) -> Result<(String, 
     let what = operation.kind.head();
     let ours = format!("operation {}: {what} with blade ", u32::from(id.0) + 1);
     let blade = program
-        .blade(operation.tool)
+        .blades_of(id)
+        .next()
         .ok_or(EmitError::Internal("a blade is not in its table"))?;
     Ok((ours, &blade.name))
 }

@@ -9,10 +9,10 @@ use super::tables::operation_heading;
 use super::text::{Written, digits};
 use crate::backend::EmitError;
 use crate::corners::may_round;
-use crate::ir::{Action, Changer, Joint, Op, OpId, Ready, Switch, ToolId};
+use crate::ir::{Action, Blade, Changer, Joint, Op, OpId, Ready, Spindle, Switch, ToolId};
 use crate::readback::End;
 use crate::segments::{LinearSegment, Path, Segment};
-use crate::state::{Generator, Place};
+use crate::state::{Drive, Place};
 use crate::verify::{Capabilities, Capability};
 use core::num::NonZeroU32;
 
@@ -169,7 +169,7 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
     }
 
     /// Repeats the state in which the part begins. Called from the main program this changes nothing; a part started alone is
-    /// brought to the pose, on the branch and with the blade vibrating, that its first move was checked from.
+    /// brought to the pose, on the branch and with the blade vibrating and spinning, that its first move was checked from.
     fn restate(&mut self, part: &Part) -> Written {
         let target = match part.start.place {
             Place::Unknown => None,
@@ -180,14 +180,17 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
         if let (Some(before), Some(to)) = (part.ops.start.checked_sub(1), target) {
             self.joint_move(op_id(before)?, to, None)?;
         }
-        match part.start.generator {
-            Generator::Off => Ok(()),
-            Generator::Starting => self.switch(Switch::On),
-            Generator::Running => {
-                self.switch(Switch::On)?;
-                self.await_ready()
-            }
+        let (spindle, generator) = (part.start.spindle, part.start.generator);
+        if spindle != Drive::Off {
+            self.spin(part.start.tool, Switch::On)?;
         }
+        if generator != Drive::Off {
+            self.switch(Switch::On)?;
+        }
+        if [spindle, generator].contains(&Drive::Running) {
+            self.await_ready()?;
+        }
+        Ok(())
     }
 
     /// What comes before an op: headings and speeds.
@@ -231,6 +234,7 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
             (Path::Axes(to), _) => self.joint_move(segment.id, JointTarget::Pose(to), from),
             (Path::Linear(line), _) => self.linear_move(segment, &line, next),
             (Path::Still, Action::Ultrasonic { state }) => self.switch(state),
+            (Path::Still, Action::Spin { state }) => self.spin(segment.before.tool, state),
             (Path::Still, Action::AwaitReady) => self.await_ready(),
             (Path::Still, Action::Dwell { time }) => self.dialect.wait(time),
             (Path::Still, Action::ToolChange { tool }) => self.change_tool(segment.id, tool),
@@ -292,6 +296,19 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
         let output = self.source.cell.ultrasonic;
         self.dialect
             .switch(output.ok_or(EmitError::Internal("no ultrasonic output"))?, state)
+    }
+
+    /// Switches the spindle with a blade at hand.
+    fn spin(&mut self, tool: ToolId, state: Switch) -> Written {
+        let spindle = self.source.cell.spindle;
+        match spindle.ok_or(EmitError::Internal("no spindle"))? {
+            Spindle::Output(output) => self.dialect.switch(output, state),
+            Spindle::Own => {
+                let blade = self.source.program().blade(tool);
+                let speed = blade.and_then(Blade::spin).filter(|_| state == Switch::On);
+                self.dialect.spin(speed)
+            }
+        }
     }
 
     fn await_ready(&mut self) -> Written {

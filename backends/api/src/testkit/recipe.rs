@@ -6,7 +6,7 @@ use crate::geometry::{Frame, Orientation, Point3, Zyx};
 use crate::ir::{
     Action, AxisValues, Blade, Cell, Edges, FeedId, Flank, IR_VERSION, Load, MachineKind, Maker, Op,
     Operation, OperationId, OperationKind, OrientationId, PlacedFrame, Program, Purpose, RateId, Ready,
-    Registered, Site, SourceRef, Stock, Switch, Tool, ToolId, Tools,
+    Registered, Shape, Site, SourceRef, Stock, Straight, Switch, Tool, ToolId, Tools,
 };
 use crate::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
 use core::num::NonZeroU32;
@@ -252,6 +252,7 @@ impl Recipe {
             home: Some(home),
             change: None,
             ultrasonic,
+            spindle: None,
             ready,
         }
     }
@@ -259,10 +260,12 @@ impl Recipe {
     fn blade(&self) -> Blade {
         Blade {
             name: "dagger".to_owned(),
-            cutting_length: EDGE,
-            half_apex: HALF_APEX,
-            thickness: Length::mm(1.5),
-            edges: self.edges,
+            shape: Shape::Straight(Straight {
+                cutting_length: EDGE,
+                half_apex: HALF_APEX,
+                thickness: Length::mm(1.5),
+                edges: self.edges,
+            }),
             body: None,
         }
     }
@@ -270,7 +273,7 @@ impl Recipe {
     fn operation() -> Operation {
         Operation {
             kind: ROUGH_VCUT,
-            tool: ToolId::FIRST,
+            tools: vec![ToolId::FIRST],
             source: SourceRef {
                 file: "sample.vcut".to_owned(),
                 start: 0,

@@ -2,8 +2,8 @@
 
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{
-    Action, AxisValues, Blade, Change, Changer, Load, MachineKind, Op, OperationId, PlacedFrame, Program,
-    Registered, Site, Tool, ToolId,
+    Action, AxisValues, Blade, Cell, Change, Changer, Load, MachineKind, Op, OperationId, PlacedFrame,
+    Program, Registered, Site, Tool, ToolId,
 };
 use crate::units::{Duration, Length, Mass};
 
@@ -15,39 +15,10 @@ pub fn two_blades(mut program: Program, by: Changer) -> Program {
     program.blades = program.blades.first().into_iter().cloned().collect();
     program.blades.extend(program.blades.first().map(shorter));
     if let Some(cell) = &mut program.cell {
-        let mut first = *cell.tools.first();
-        first.place = Some(1);
-        // A control of G-code knows the length of a tool alone.
-        let aside = match cell.kind {
-            MachineKind::Robot => (1.0, 2.0),
-            MachineKind::FiveAxis => (0.0, 0.0),
-        };
-        cell.tools = crate::ir::Tools::one(first).and(Tool {
-            frame: PlacedFrame {
-                frame: crate::geometry::Frame {
-                    origin: Point3::new(aside.0, aside.1, 250.0),
-                    orientation: Orientation::IDENTITY,
-                },
-                number: first.frame.number.map(|number| number + 1),
-            },
-            load: Some(Registered::Value(Load {
-                mass: Mass::kg(2.5),
-                centre: Point3::new(0.0, 0.0, 80.0),
-            })),
-            place: Some(2),
-        });
-        let mut at = [0.1, -1.0, 1.5, 0.2, 1.0, 0.3];
-        at.iter_mut()
-            .skip(cell.axes.len())
-            .for_each(|beyond| *beyond = 0.0);
-        cell.change = Some(Change {
-            at: AxisValues(at),
-            time: Duration::s(10.0),
-            by,
-        });
+        hold_two(cell, by);
     }
     for operation in program.operations.iter_mut().skip(1) {
-        operation.tool = second;
+        operation.tools = vec![second];
     }
     let is_of_second = |op: &Op| op.site.operation().is_some_and(|id| id >= OperationId(1));
     let op = |action| Op {
@@ -74,9 +45,44 @@ fn by_axes(op: &mut Op) {
 }
 
 fn shorter(blade: &Blade) -> Blade {
-    Blade {
-        name: "short".to_owned(),
-        cutting_length: blade.cutting_length - Length::mm(1.0),
-        ..blade.clone()
+    let mut shorter = blade.clone();
+    "short".clone_into(&mut shorter.name);
+    if let Some(straight) = shorter.straight_mut() {
+        straight.cutting_length = straight.cutting_length - Length::mm(1.0);
     }
+    shorter
+}
+
+/// Gives a cell a second tool, and a way to change to it.
+pub(super) fn hold_two(cell: &mut Cell, by: Changer) {
+    let mut first = *cell.tools.first();
+    first.place = Some(1);
+    // A control of G-code knows the length of a tool alone.
+    let aside = match cell.kind {
+        MachineKind::Robot => (1.0, 2.0),
+        MachineKind::FiveAxis => (0.0, 0.0),
+    };
+    cell.tools = crate::ir::Tools::one(first).and(Tool {
+        frame: PlacedFrame {
+            frame: crate::geometry::Frame {
+                origin: Point3::new(aside.0, aside.1, 250.0),
+                orientation: Orientation::IDENTITY,
+            },
+            number: first.frame.number.map(|number| number + 1),
+        },
+        load: Some(Registered::Value(Load {
+            mass: Mass::kg(2.5),
+            centre: Point3::new(0.0, 0.0, 80.0),
+        })),
+        place: Some(2),
+    });
+    let mut at = [0.1, -1.0, 1.5, 0.2, 1.0, 0.3];
+    at.iter_mut()
+        .skip(cell.axes.len())
+        .for_each(|beyond| *beyond = 0.0);
+    cell.change = Some(Change {
+        at: AxisValues(at),
+        time: Duration::s(10.0),
+        by,
+    });
 }

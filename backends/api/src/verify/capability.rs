@@ -23,11 +23,13 @@ pub enum Capability {
     ToolChange,
     /// Lines and arcs through the work without a stop between them.
     Chain,
+    /// A spindle of the control's own.
+    Spindle,
 }
 
 impl Capability {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::LinearMove,
         Self::JointMove,
         Self::StillTipTurn,
@@ -36,6 +38,7 @@ impl Capability {
         Self::Dwell,
         Self::ToolChange,
         Self::Chain,
+        Self::Spindle,
     ];
 
     /// What it is, for people.
@@ -50,6 +53,7 @@ impl Capability {
             Self::Dwell => "waiting for some time",
             Self::ToolChange => "changes of the blade",
             Self::Chain => "lines and arcs without a stop between them",
+            Self::Spindle => "a spindle of its own",
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Capability, Rule, Walk};
 use crate::geometry::{Orientation, Point3};
-use crate::ir::{Action, Blade, Edges, Joint, Op, Site};
+use crate::ir::{Action, Edges, Joint, Op, Shape, Site, Straight};
 use crate::segments::{LinearSegment, Segment};
 use crate::units::{Angle, Length};
 use crate::vector::{cross, dot, length, minus, scaled};
@@ -47,18 +47,27 @@ impl Walk<'_> {
             return;
         };
         self.rotation(segment);
-        self.vibrates(segment.before.generator);
+        self.is_driven(segment.before);
         let Some([begins, ends]) = directions(&line) else {
             self.fault(Rule::Arc);
             return;
         };
         let site = segment.op.site;
         self.require(matches!(site, Site::Cut { .. }), Rule::CutFlanks);
-        let blade = site.operation().and_then(|id| self.program.blade_of(id));
+        let blade = self.program.blade(segment.before.tool);
         self.require(blade.is_some(), Rule::OtherBlade);
         let held = [line.from, line.to].map(|pose| self.program.orientation(pose.orientation));
         if let (Some(blade), [Some(from), Some(to)]) = (blade, held) {
-            let good = stands_in_its_way(blade, &line, [from, to], [begins, ends]);
+            let course = Course {
+                line: &line,
+                held: [from, to],
+                directions: [begins, ends],
+            };
+            let good = match blade.shape {
+                Shape::Straight(straight) => course.is_in_plane_of(straight),
+                Shape::Disc(_) => course.descends_at_most(Angle::ZERO),
+                Shape::Crusher(crusher) => course.descends_at_most(crusher.ramp),
+            };
             self.require(good, Rule::ChainPosture);
         }
         let goes_on = before.is_none_or(|before| angle(before.direction, begins) <= LARGEST_KINK);
@@ -91,44 +100,71 @@ fn directions(line: &LinearSegment) -> Option<[[f64; 3]; 2]> {
     }
 }
 
-/// Whether a blade follows a piece in its own plane, an edge in front and its shank not leaning back.
-///
-/// With `y` the normal of the blade's plane, which turns by the vector `b`, and `t` the direction of the way, which turns by `a`
-/// (both in rad a piece), `(y t)' = (b - a) (y x t)`. As `y x t` is square to `y`, that is at most `|(b - a) x y|`; and `y`
-/// is off `y(0)` by `|b x y(0)|` at most. So between its ends `y t` exceeds the greater value there by no more than half of this.
-fn stands_in_its_way(
-    blade: &Blade,
-    line: &LinearSegment,
+/// A piece of a chain with how the blade is held, and where it goes, at both ends.
+struct Course<'l> {
+    line: &'l LinearSegment,
     held: [Orientation; 2],
     directions: [[f64; 3]; 2],
-) -> bool {
-    let matrices = held.map(Orientation::matrix);
-    let axis = |end: usize, column: usize| -> [f64; 3] {
-        matrices
-            .get(end)
-            .map_or([0.0; 3], |matrix| core::array::from_fn(|row| matrix[row][column]))
-    };
-    let [from, to] = held;
-    let blade_turns = from.rotation_to(to);
-    let way_turns = line
-        .arc()
-        .map_or([0.0; 3], |arc| scaled(arc.axis(), arc.sweep().to_rad()));
-    let apart = minus(blade_turns, way_turns);
-    let normal = axis(0, 1);
-    let between = length(cross(apart, normal)) + length(apart) * length(cross(blade_turns, normal));
-    let slips = (0..2)
-        .zip(directions)
-        .map(|(end, way)| dot(axis(end, 1), way).abs());
-    let slip = slips.fold(0.0, f64::max) + 0.5 * between;
-    let leads = (0..2).zip(directions).all(|(end, way)| {
-        let along = -dot(axis(end, 2), way);
-        let edge = match blade.edges {
-            Edges::Double => true,
-            Edges::Single => dot(axis(end, 0), way) > 0.0,
-        };
-        along >= -1e-6 && axis(end, 2)[2] < 0.0 && edge
-    });
-    slip <= libm::sin(LARGEST_SLIP.to_rad()) && leads
+}
+
+/// How steeply a shank may lean back by rounding, as a sine.
+const LEANS_BACK: f64 = 1e-6;
+
+impl Course<'_> {
+    /// Whether a straight blade follows the piece in its own plane, an edge in front and its shank not leaning back.
+    ///
+    /// With `y` the normal of the blade's plane, which turns by the vector `b`, and `t` the direction of the way, which turns by `a`
+    /// (both in rad a piece), `(y t)' = (b - a) (y x t)`. As `y x t` is square to `y`, that is at most `|(b - a) x y|`; and `y`
+    /// is off `y(0)` by `|b x y(0)|` at most. So between its ends `y t` exceeds the greater value there by no more than half of this.
+    fn is_in_plane_of(&self, blade: Straight) -> bool {
+        let between = self.changes_by_at_most(self.axis(0, 1));
+        let slips = self.ends().map(|(end, way)| dot(self.axis(end, 1), way).abs());
+        let slip = slips.fold(0.0, f64::max) + 0.5 * between;
+        let leads = self.ends().all(|(end, way)| {
+            let edge = match blade.edges {
+                Edges::Double => true,
+                Edges::Single => dot(self.axis(end, 0), way) > 0.0,
+            };
+            -dot(self.axis(end, 2), way) >= -LEANS_BACK && self.stands(end) && edge
+        });
+        slip <= libm::sin(LARGEST_SLIP.to_rad()) && leads
+    }
+
+    /// Whether a round blade goes down, seen along its own axis, no more steeply than this. For the axis holds what
+    /// [`Self::is_in_plane_of`] says of the normal.
+    fn descends_at_most(&self, ramp: Angle) -> bool {
+        let between = self.changes_by_at_most(self.axis(0, 2));
+        let leans = self.ends().map(|(end, way)| -dot(self.axis(end, 2), way));
+        let least = leans.fold(f64::INFINITY, f64::min) - 0.5 * between;
+        least >= -libm::sin(ramp.to_rad()) - LEANS_BACK && self.ends().all(|(end, _)| self.stands(end))
+    }
+
+    fn ends(&self) -> impl Iterator<Item = (usize, [f64; 3])> {
+        (0..2).zip(self.directions)
+    }
+
+    /// An axis of the blade frame at an end.
+    fn axis(&self, end: usize, column: usize) -> [f64; 3] {
+        self.held.get(end).map_or([0.0; 3], |held| {
+            let matrix = held.matrix();
+            core::array::from_fn(|row| matrix[row][column])
+        })
+    }
+
+    /// Whether the shank points up.
+    fn stands(&self, end: usize) -> bool {
+        self.axis(end, 2)[2] < 0.0
+    }
+
+    /// How much the cosine between the way and an axis of the blade, which lies so at the start, changes along the piece at most.
+    fn changes_by_at_most(&self, axis: [f64; 3]) -> f64 {
+        let [from, to] = self.held;
+        let blade_turns = from.rotation_to(to);
+        let arc = self.line.arc();
+        let way_turns = arc.map_or([0.0; 3], |arc| scaled(arc.axis(), arc.sweep().to_rad()));
+        let apart = minus(blade_turns, way_turns);
+        length(cross(apart, axis)) + length(apart) * length(cross(blade_turns, axis))
+    }
 }
 
 /// The angle between two directions of unit length.

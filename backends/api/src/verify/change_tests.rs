@@ -80,7 +80,7 @@ fn an_operation_with_the_blade_of_another() {
     });
     assert_eq!(wrong, [Rule::OtherBlade]);
     // A program begins with the first blade.
-    let begins = broken(|program| program.operations[0].tool = ToolId(1));
+    let begins = broken(|program| program.operations[0].tools = vec![ToolId(1)]);
     assert_eq!(begins, [Rule::OtherBlade]);
 }
 
@@ -130,7 +130,7 @@ fn tools_that_are_not_those_of_the_blades() {
 
 #[test]
 fn numbers_of_no_blade() {
-    let of_an_operation = broken(|program| program.operations[1].tool = ToolId(2));
+    let of_an_operation = broken(|program| program.operations[1].tools = vec![ToolId(2)]);
     assert!(
         of_an_operation.contains(&Rule::TableReference),
         "{of_an_operation:?}"
@@ -155,7 +155,7 @@ proptest! {
     ) {
         let mut program = program();
         for (operation, tool) in program.operations.iter_mut().zip(of_operations) {
-            operation.tool = ToolId(tool);
+            operation.tools = vec![ToolId(tool)];
         }
         let place = at.index(program.ops.len());
         program.ops[place].action = Action::ToolChange { tool: ToolId(of_change) };

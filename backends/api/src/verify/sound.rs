@@ -1,9 +1,10 @@
 //! Whether the numbers of a machine, and of the bodies of its blades, are ones that they can have.
 
 use crate::ir::{
-    Axis, AxisValues, BodyStage, Cell, Changer, MOST_AXES, PlacedFrame, Ready, Registered, Tool,
+    Axis, AxisValues, Blade, BodyStage, Cell, Changer, Crusher, Disc, MOST_AXES, PlacedFrame, Ready,
+    Registered, Shape, Spindle, Straight, Tool,
 };
-use crate::units::{Duration, Length, Mass};
+use crate::units::{Angle, AngularSpeed, Duration, Length, Mass};
 
 /// Whether all numbers of a machine but those of its axes are ones that it can have.
 pub(super) fn has_sound_numbers(cell: &Cell) -> bool {
@@ -21,6 +22,10 @@ pub(super) fn has_sound_numbers(cell: &Cell) -> bool {
         && change
         && cell.home.is_none_or(finite)
         && cell.ultrasonic.is_none_or(|output| output > 0)
+        && match cell.spindle {
+            Some(Spindle::Output(output)) => output > 0 && Some(output) != cell.ultrasonic,
+            Some(Spindle::Own) | None => true,
+        }
 }
 
 fn is_sound_tool(tool: &Tool) -> bool {
@@ -71,10 +76,45 @@ pub(super) fn has_sound_axes(axes: &[Axis]) -> bool {
         })
 }
 
+/// Whether all numbers of a blade are ones that it can have.
+pub(super) fn is_sound_blade(blade: &Blade) -> bool {
+    let acute = |angle: Angle| angle.is_finite() && angle < Angle::deg(90.0);
+    let spins = |spin: AngularSpeed| spin.is_finite() && spin.to_rad_per_s() > 0.0;
+    let shape = match blade.shape {
+        Shape::Straight(Straight {
+            cutting_length,
+            half_apex,
+            thickness,
+            edges: _,
+        }) => {
+            is_positive(cutting_length)
+                && acute(half_apex)
+                && half_apex >= Angle::ZERO
+                && thickness.is_finite()
+                && thickness >= Length::ZERO
+        }
+        Shape::Disc(Disc {
+            radius,
+            thickness,
+            spin,
+        }) => is_positive(radius) && is_positive(thickness) && spins(spin),
+        Shape::Crusher(Crusher {
+            radius,
+            height,
+            spin,
+            ramp,
+        }) => is_positive(radius) && is_positive(height) && spins(spin) && acute(ramp) && ramp > Angle::ZERO,
+    };
+    shape && blade.body.as_deref().is_none_or(has_sound_stages)
+}
+
+fn is_positive(length: Length) -> bool {
+    length.is_finite() && length > Length::ZERO
+}
+
 /// Whether the stages of a body are round, and rise.
-pub(super) fn has_sound_stages(stages: &[BodyStage]) -> bool {
-    let positive = |length: Length| length.is_finite() && length > Length::ZERO;
-    let sound = |stage: &BodyStage| positive(stage.from) && positive(stage.radius);
+fn has_sound_stages(stages: &[BodyStage]) -> bool {
+    let sound = |stage: &BodyStage| is_positive(stage.from) && is_positive(stage.radius);
     !stages.is_empty()
         && stages.iter().all(sound)
         && stages.is_sorted_by(|below, above| below.from < above.from)

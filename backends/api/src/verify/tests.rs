@@ -2,7 +2,8 @@
 
 use super::{Fault, Rule, verify};
 use crate::ir::{
-    Action, AxisValues, BodyStage, FeedId, Flank, OpId, OrientationId, Program, Purpose, RateId, Switch,
+    Action, AxisValues, BodyStage, FeedId, Flank, OpId, OrientationId, Program, Purpose, RateId, Shape,
+    Switch,
 };
 use crate::testkit::{Crossing, Passes, Recipe};
 use crate::units::{Angle, Length};
@@ -299,7 +300,7 @@ fn an_air_cut_does_not_start_the_generator() {
 #[test]
 fn an_air_cut_stays_above_the_stock_by_half_the_blade() {
     let top = program().stock.height.to_mm();
-    let thickness = program().blades[0].thickness.to_mm().max(1.0);
+    let thickness = program().blades[0].straight().unwrap().thickness.to_mm().max(1.0);
     for (gap, is_clear) in [
         (thickness / 2.0 + 0.01, true),
         (thickness / 2.0 - 0.01, false),
@@ -307,7 +308,9 @@ fn an_air_cut_stays_above_the_stock_by_half_the_blade() {
     ] {
         let mut program = air_cut();
         for blade in &mut program.blades {
-            blade.thickness = Length::mm(thickness);
+            if let Shape::Straight(straight) = &mut blade.shape {
+                straight.thickness = Length::mm(thickness);
+            }
         }
         let cut = program
             .ops

@@ -212,6 +212,8 @@ fn m<'t>(code: u32, words: &mut Block, order: &mut Order<'t>) -> Parsed<()> {
     match code {
         0 => order.does(Act::ChangeTool(None)),
         20 | 300 => order.goes(Flow::End),
+        30 => order.does(Act::Spin(Some(words.must(b'S')?.value))),
+        50 => order.does(Act::Spin(None)),
         60 => order.does(Act::ChangeTool(Some(words.whole(b'T')?))),
         980 => {
             let part = words.whole(b'P')?;

@@ -125,6 +125,13 @@ impl Controller for Heidenhain {
         format!("CALL PGM {}", part.name)
     }
 
+    fn spin(&self, speed: Option<u32>) -> Vec<String> {
+        match speed {
+            Some(speed) => vec![format!("TOOL CALL S{speed}"), "M3".to_owned()],
+            None => vec!["M5".to_owned()],
+        }
+    }
+
     fn tcp_on(&self, _: Codes<'_>, _: u32) -> Vec<String> {
         vec![F_TCP.to_owned()]
     }
@@ -249,6 +256,8 @@ fn line<'t>(cursor: &mut Cursor<'_>, mut order: Order<'t>, scope: Scope<'_>) -> 
     for code in words.m.iter() {
         match code {
             20 | 300 => order.goes(Flow::End)?,
+            30 => order.does(Act::CycleSpin)?,
+            50 => order.does(Act::Spin(None))?,
             910 => order.coordinates = Coordinates::Machine,
             1260 => order.set(Mode::Not(Convention::AsWritten))?,
             1270 => order.set(Mode::Convention(Convention::AsWritten))?,
@@ -373,9 +382,16 @@ fn stem_of_part(name: &str) -> &str {
     }
 }
 
-/// `TOOL CALL 1 Z`.
+/// `TOOL CALL 1 Z`, or `TOOL CALL S3000`, which changes the speed of the spindle alone.
 fn tool_call<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
     must(cursor, &["CALL"])?;
+    if cursor.peek().is_some_and(|byte| byte.eq_ignore_ascii_case(&b'S')) {
+        let _ = cursor.letter();
+        return match cursor.number().and_then(Number::whole) {
+            Some(speed) => Ok(Order::modes(vec![Mode::Cycle(Cycle::Speed(speed))])),
+            None => expected("a whole speed after `S`"),
+        };
+    }
     let number = cursor.number().and_then(Number::whole);
     let Some(number) = number else {
         return expected("the number of a tool");

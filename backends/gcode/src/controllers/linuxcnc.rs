@@ -259,6 +259,8 @@ fn m(code: u32, words: &mut Block, order: &mut Order<'_>) -> Parsed<()> {
     match code {
         0 => order.does(Act::ChangeTool(None)),
         20 | 300 => order.goes(Flow::End),
+        30 => order.does(Act::Spin(Some(words.must(b'S')?.value))),
+        50 => order.does(Act::Spin(None)),
         60 => order.does(Act::ChangeTool(Some(words.whole(b'T')?))),
         640 => order.does(Act::Switch(words.whole(b'P')?, Switch::On)),
         650 => order.does(Act::Switch(words.whole(b'P')?, Switch::Off)),

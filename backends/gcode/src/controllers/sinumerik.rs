@@ -411,6 +411,8 @@ fn g(
 fn m(code: u32, words: &mut Block, order: &mut Order<'_>) -> Parsed<()> {
     match code {
         0 => order.does(Act::ChangeTool(None)),
+        30 => order.does(Act::Spin(Some(words.must(b'S')?.value))),
+        50 => order.does(Act::Spin(None)),
         60 => order.does(Act::ChangeTool(Some(words.whole(b'T')?))),
         20 | 300 => order.goes(Flow::End),
         170 => order.goes(Flow::Return),

@@ -544,6 +544,11 @@ impl<'a> Control<'a> {
                 (_, _) => return Err(ReadError::Unknown),
             },
             Act::CallTool(number) => return self.call(number),
+            Act::Spin(speed) => Command::Spin(speed.map(AngularSpeed::rev_per_min)),
+            Act::CycleSpin => match cycle {
+                Some(Cycle::Speed(speed)) => Command::Spin(Some(AngularSpeed::rev_per_min(f64::from(speed)))),
+                Some(_) | None => return expected("`TOOL CALL S` with the speed before"),
+            },
             Act::CycleWait(time) => match cycle {
                 Some(Cycle::Dwell) => Command::Wait(time),
                 Some(_) | None => return expected("`CYCL DEF 9.0 DWELL TIME` before"),
@@ -590,8 +595,10 @@ const fn missing(cycle: Option<Cycle>, act: Option<Act>) -> Option<&'static str>
         | (Some(Cycle::Waited(..)), Some(Act::LoopEnds(_)))
         | (Some(Cycle::WorkOffset), Some(Act::CycleWork(_)))
         | (Some(Cycle::Tolerance), Some(Act::CycleTolerance(_)))
+        | (Some(Cycle::Speed(_)), Some(Act::CycleSpin))
         | (Some(Cycle::Dwell) | None, _) => None,
         (Some(Cycle::WorkOffset), _) => Some("`Q339=` after `CYCL DEF 247 DATUM SETTING ~`"),
+        (Some(Cycle::Speed(_)), _) => Some("`M3` after `TOOL CALL S`"),
         (Some(Cycle::Tolerance), _) => Some("`CYCL DEF 32.1` after `CYCL DEF 32.0 TOLERANCE`"),
         (Some(Cycle::Loop(_)), _) => Some("`M66` after the beginning of a loop"),
         (Some(Cycle::Waited(..)), _) => Some("the end of the loop, `o<ready1> while [#5399 LT 0]`"),

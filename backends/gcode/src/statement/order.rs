@@ -147,6 +147,8 @@ pub(crate) enum Cycle {
     WorkOffset,
     /// How far the tip may leave its way is set.
     Tolerance,
+    /// The spindle's speed, in 1/min, at which the next line starts it.
+    Speed(u32),
     /// A loop with this number begins, which waits for an input.
     Loop(u32),
     /// In the loop of this number this input has been waited for, though not for ever.
@@ -198,6 +200,10 @@ pub(crate) enum Act {
     ChangeTool(Option<u32>),
     /// The tool of this number is put in, unless it is in the spindle.
     CallTool(u32),
+    /// The spindle turns at this speed, in 1/min, or stops.
+    Spin(Option<f64>),
+    /// The spindle turns at the speed that the line before says.
+    CycleSpin,
     /// The second of the two lines of a wait.
     CycleWait(Duration),
     /// The second line of a loop that waits for an input.

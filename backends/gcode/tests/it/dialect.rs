@@ -232,6 +232,7 @@ fn compare(program: &ReachableProgram, bundle: &Bundle, dialect: &str, grain: f6
             | Action::Follow { .. }
             | Action::Turn { .. } => false,
             Action::Ultrasonic { .. }
+            | Action::Spin { .. }
             | Action::AwaitReady
             | Action::Dwell { .. }
             | Action::ToolChange { .. } => continue,

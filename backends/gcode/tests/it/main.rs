@@ -17,5 +17,6 @@ mod mutations;
 mod read_back;
 mod refusals;
 mod snapshots;
+mod spindles;
 mod support;
 mod words;

@@ -19,3 +19,4 @@ mod read_back;
 mod refusals;
 mod round_trip;
 mod snapshots;
+mod spindles;

@@ -252,12 +252,14 @@ impl Machine<'_> {
                 return None;
             }
         };
-        let output = match self.settings.given(ULTRASONIC_SIGNAL) {
-            Some(name) => self.cell.ultrasonic.filter(|_| signal.eq_ignore_ascii_case(name)),
+        let is_named = |number: &u32| signal.eq_ignore_ascii_case(&self.settings.output(self.cell, *number));
+        let own = self.cell.outputs().find(is_named);
+        let other = || match self.settings.given(ULTRASONIC_SIGNAL) {
+            Some(_) => None,
             None => numbered(signal, "DO"),
         };
         Some(Command::Switch {
-            output: output?,
+            output: own.or_else(other)?,
             state,
         })
     }

@@ -16,3 +16,4 @@ mod never;
 mod refusals;
 mod round_trip;
 mod snapshots;
+mod spindles;

@@ -155,7 +155,7 @@ impl Depths {
 
 /// What an orthogonal lattice leaves with the largest layer that the blade reaches [Cui 4, 12].
 fn coarsest(asked: &RoughVcut, swing: Angle) -> Length {
-    let blade = &asked.setup.blade;
+    let blade = &asked.blade;
     let flanks = Flanks::new(
         blade.cutting_length.value,
         blade.half_apex.value,

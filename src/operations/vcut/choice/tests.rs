@@ -197,7 +197,7 @@ fn hollows() -> CheckedJob {
     ];
     let mut job = paper_job(corners.map(|(x, z)| Point2 { x, z }).to_vec());
     let asked = operation(&mut job);
-    asked.setup.blade.cutting_length.value = Length::mm(20.0);
+    asked.blade.cutting_length.value = Length::mm(20.0);
     asked.swing.value = Auto::Given(Angle::deg(30.0));
     job
 }

@@ -27,8 +27,8 @@ fn job(order: Order, direction: Direction, edges: Edges) -> CheckedJob {
     let asked = operation(&mut job);
     asked.order.value = Auto::Given(order);
     asked.setup.direction.value = direction;
-    asked.setup.blade.edges = edges;
-    asked.setup.blade.cutting_length.value = Length::mm(20.0);
+    asked.blade.edges = edges;
+    asked.blade.cutting_length.value = Length::mm(20.0);
     asked.swing.value = Auto::Given(Angle::deg(30.0));
     job
 }

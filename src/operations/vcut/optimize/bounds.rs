@@ -130,7 +130,7 @@ fn written(bound: Bound, asked: &RoughVcut) -> Option<Span> {
 
 /// The limit of the edge, where it asks for less than the blade has; else the blade.
 fn shorter_edge(asked: &RoughVcut) -> Option<Span> {
-    let blade = asked.setup.blade.cutting_length;
+    let blade = asked.blade.cutting_length;
     match asked.limits.edge {
         Some(limit) if limit.value < blade.value => limit.span,
         Some(_) | None => blade.span,

@@ -373,14 +373,14 @@ fn as_given(asked: &RoughVcut, resolution: &Resolution, why: &Refusal) -> Option
 
 /// The length of edge that may be used.
 fn usable_edge(asked: &RoughVcut) -> Length {
-    let blade = asked.setup.blade.cutting_length.value;
+    let blade = asked.blade.cutting_length.value;
     asked.limits.edge.map_or(blade, |limit| limit.value.min(blade))
 }
 
 fn flanks_at(asked: &RoughVcut, swing: Angle) -> Flanks {
     Flanks::new(
         usable_edge(asked),
-        asked.setup.blade.half_apex.value,
+        asked.blade.half_apex.value,
         asked.setup.rake.value,
         swing,
     )
@@ -428,17 +428,14 @@ fn complete(
 /// How far the edge lies over the work while it cuts [Cui 5] and while it turns beside it; the whole cutting length, as deep
 /// cuts use it.
 fn edge_overhang(asked: &RoughVcut, swing: Angle) -> Length {
-    let (length, half_apex) = (
-        asked.setup.blade.cutting_length.value,
-        asked.setup.blade.half_apex.value,
-    );
+    let (length, half_apex) = (asked.blade.cutting_length.value, asked.blade.half_apex.value);
     let cutting = length * (asked.setup.rake.value - half_apex).cos();
     match asked.setup.direction.value {
         Direction::Alternate => {
             let holder = Holder {
                 swing,
                 rake: asked.setup.rake.value,
-                edges: asked.setup.blade.edges,
+                edges: asked.blade.edges,
             };
             cutting.max(holder.turning_overhang(length, half_apex))
         }
@@ -458,7 +455,7 @@ struct Lean {
 
 impl Lean {
     fn new(asked: &RoughVcut, swing: Angle) -> Self {
-        let (blade, rake) = (&asked.setup.blade, asked.setup.rake.value);
+        let (blade, rake) = (&asked.blade, asked.setup.rake.value);
         Self {
             half_width: blade.cutting_length.value * (blade.half_apex.value.sin() / rake.sin()),
             per_height: rake.cos().max(0.0) / (rake.sin() * swing.cos()),
@@ -479,7 +476,7 @@ impl Lean {
 
 /// Half the blade's thickness, or what is given: less would let the blade's side enter the part.
 fn resolve_standoff(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Length {
-    let least = asked.setup.blade.thickness.value / 2.0;
+    let least = asked.blade.thickness.value / 2.0;
     match asked.standoff.value {
         Auto::Auto => least,
         Auto::Given(standoff) => {

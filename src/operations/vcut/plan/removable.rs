@@ -41,7 +41,7 @@ impl Removable {
 /// The standoff that an operation comes to.
 #[must_use]
 pub fn standoff(asked: &RoughVcut) -> Length {
-    asked.standoff.value.or(asked.setup.blade.thickness.value / 2.0)
+    asked.standoff.value.or(asked.blade.thickness.value / 2.0)
 }
 
 /// The area under a contour that lies above a profile, both over the same span.

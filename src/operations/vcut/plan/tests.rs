@@ -51,12 +51,12 @@ prop_compose! {
         asked.lattice.value = Auto::Given(lattice);
         asked.order.value = Auto::Given(order);
         asked.setup.direction.value = direction;
-        asked.setup.blade.edges = edges;
+        asked.blade.edges = edges;
         asked.swing.value = swing.map_or(Auto::Auto, |swing| Auto::Given(Angle::deg(swing)));
         asked.setup.rake.value = Angle::deg(rake);
-        asked.setup.blade.cutting_length.value = Length::mm(blade.0);
-        asked.setup.blade.half_apex.value = Angle::deg(blade.1);
-        asked.setup.blade.thickness.value = Length::mm(blade.2);
+        asked.blade.cutting_length.value = Length::mm(blade.0);
+        asked.blade.half_apex.value = Angle::deg(blade.1);
+        asked.blade.thickness.value = Length::mm(blade.2);
         asked.overlap.value = Auto::Given(overlap);
         asked.allowance.value = Length::mm(allowance);
         asked.limits.scallop = scallop.map(|limit| given(Length::mm(limit)));
@@ -249,6 +249,6 @@ proptest! {
                 }
             }
         }
-        prop_assert!(standoff >= vcut.asked.setup.blade.thickness.value.to_mm() / 2.0);
+        prop_assert!(standoff >= vcut.asked.blade.thickness.value.to_mm() / 2.0);
     }
 }

@@ -78,7 +78,7 @@ fn tip_span(tips: &Tips, finding: Finding) -> Option<Span> {
 fn remedy(attempts: &mut Attempts<'_>, needed: Length) -> Option<Remedy> {
     let longer = Length::mm(grid::up(needed.to_mm()));
     let lengthen = |asked: &mut RoughVcut| {
-        asked.setup.blade.cutting_length.value = longer;
+        asked.blade.cutting_length.value = longer;
         if let Some(limit) = &mut asked.limits.edge {
             limit.value = limit.value.max(longer);
         }

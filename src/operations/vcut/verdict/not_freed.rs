@@ -125,7 +125,7 @@ pub(super) struct UsableEdge {
 
 impl UsableEdge {
     pub(super) fn of(asked: &RoughVcut, available: Length) -> Self {
-        let (blade, length) = (&asked.setup.blade, show(available.to_mm()));
+        let (blade, length) = (&asked.blade, show(available.to_mm()));
         match asked.limits.edge {
             Some(limit) if limit.value < blade.cutting_length.value => Self {
                 span: limit.span.unwrap_or(asked.setup.head_span),

@@ -4,7 +4,7 @@
  * @typedef {object} Program
  * @property {Vector} stock width, depth, height in mm
  * @property {[number, number][]} part corners of the part's contour
- * @property {{length: number, halfApex: number, thickness: number, edges: 1 | 2}[]} blades an operation each
+ * @property {Blade[]} blades the first of each operation
  * @property {number[][]} orientations quaternions
  * @property {string[]} names of the kinds of op
  * @property {number} ops how many there are

@@ -131,8 +131,42 @@ function onCircle(i) {
 }
 
 /**
+ * A straight blade, or one that spins.
+ * @typedef {{length: number, halfApex: number, thickness: number, edges: 1 | 2}} Dagger
+ * @typedef {{radius: number, height: number}} Drum
+ * @typedef {Dagger | Drum} Blade
+ */
+
+/**
+ * A blade in its own frame: tip at the origin, body towards -z.
+ * @param {Blade} blade
+ * @param {number} shank where the shank begins, as z
+ */
+function bladeMesh(blade, shank) {
+  return "radius" in blade ? drum(blade) : dagger(blade, shank);
+}
+
+/**
+ * A disc or a crusher: its edge at z = 0.
+ * @param {Drum} blade
+ */
+function drum({ radius, height }) {
+  const mesh = new Triangles();
+  const at = (/** @type {number} */ i, /** @type {number} */ z) => {
+    const [x, y] = onCircle(i);
+    return /** @type {Vector} */ ([x * radius, y * radius, z]);
+  };
+  for (let i = 0; i < ROUND; i += 1) {
+    for (const z of [0, -height]) mesh.triangle([0, 0, z], at(i, z), at(i + 1, z));
+    mesh.triangle(at(i, 0), at(i + 1, 0), at(i + 1, -height));
+    mesh.triangle(at(i, 0), at(i + 1, -height), at(i, -height));
+  }
+  return mesh.done();
+}
+
+/**
  * A dagger in its own frame: tip at the origin, body towards -z, edges along x, thin along y.
- * @param {{length: number, halfApex: number, thickness: number, edges: 1 | 2}} blade
+ * @param {Dagger} blade
  * @param {number} shank where the shank begins, as z
  */
 function dagger(blade, shank) {
@@ -157,7 +191,7 @@ function dagger(blade, shank) {
 
 /**
  * The leading edge's end, the back's x and the edge's end as z of a dagger.
- * @param {{length: number, halfApex: number, edges: 1 | 2}} blade
+ * @param {Dagger} blade
  */
 function daggerSize({ length, halfApex, edges }) {
   const half = Math.max(length * Math.sin(halfApex), length * 0.05);

@@ -45,7 +45,7 @@ class Scene {
     this.triad = canvas.mesh(triad());
     this.floor = canvas.mesh(floorOf(program));
     this.shanks = program.blades.map((blade, i) => shankOf(blade, program.cell, i));
-    this.blades = program.blades.map((blade, i) => canvas.mesh(dagger(blade, this.shanks[i].from)));
+    this.blades = program.blades.map((blade, i) => canvas.mesh(bladeMesh(blade, this.shanks[i].from)));
     this.layPath();
   }
 
@@ -218,13 +218,19 @@ function floorOf({ stock, cell }) {
 
 /**
  * The shank between blade and flange, seen from the blade; without a machine it is drawn a few blades long.
- * @param {{length: number, halfApex: number, edges: 1 | 2}} blade
+ * @param {Blade} blade
  * @param {Cell | null} cell
  * @param {number} operation
  */
 function shankOf(blade, cell, operation) {
-  const { half, top } = daggerSize(blade);
   const flange = cell === null ? null : origin(inverse(cell.bladesInFlange[operation]));
+  if ("radius" in blade) {
+    const { radius, height } = blade;
+    const to = /** @type {Vector} */ (flange !== null && flange[2] < -height ? flange : [0, 0, -height - 4 * radius]);
+    const neck = -height + (to[2] + height) * 0.3;
+    return { from: -height, neck, slim: radius * 0.3, to, radius: Math.max(radius * 0.5, -to[2] * 0.05) };
+  }
+  const { half, top } = daggerSize(blade);
   const to = /** @type {Vector} */ (flange !== null && flange[2] < top * 2.5 ? flange : [0, 0, top * 6]);
   const from = top * 1.5;
   const neck = from + (to[2] - from) * 0.3;

@@ -4,17 +4,19 @@ use super::Piece;
 use crate::course::samples::{STOCK, Sample, courses, height};
 use crate::surface::{Surface, Vee};
 use proptest::prelude::*;
-use vcutc_backend_api::ir::{Blade, Edges};
+use vcutc_backend_api::ir::{Blade, Edges, Shape, Straight};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::curve::Point2;
 
 fn blade(cutting_length: f64, thickness: f64) -> Blade {
     Blade {
         name: "dagger".to_owned(),
-        cutting_length: Length::mm(cutting_length),
-        half_apex: Angle::deg(7.0),
-        thickness: Length::mm(thickness),
-        edges: Edges::Double,
+        shape: Shape::Straight(Straight {
+            cutting_length: Length::mm(cutting_length),
+            half_apex: Angle::deg(7.0),
+            thickness: Length::mm(thickness),
+            edges: Edges::Double,
+        }),
         body: None,
     }
 }
@@ -22,6 +24,7 @@ fn blade(cutting_length: f64, thickness: f64) -> Blade {
 /// Points of both faces of the blade at a share of a course, in space.
 fn skin(sample: &Sample, blade: &Blade, share: f64) -> impl Iterator<Item = [f64; 3]> {
     let tip = sample.tip(share);
+    let blade = blade.straight().unwrap();
     let (length, half) = (blade.cutting_length.to_mm(), blade.thickness.to_mm() / 2.0);
     let (sine, cosine) = libm::sincos(blade.half_apex.to_rad());
     let sample = *sample;
@@ -76,7 +79,7 @@ proptest! {
         let blade = blade(cutting_length, 1.0);
         let used = Piece::new(sample.course(Length::ZERO), &blade, STOCK).edge_used(&mut surface);
         let corners: Vec<Point2> = surface.corners().collect();
-        let (sine, cosine) = libm::sincos(blade.half_apex.to_rad());
+        let (sine, cosine) = libm::sincos(blade.straight().unwrap().half_apex.to_rad());
         for share in (0..=300_u32).map(|i| f64::from(i) / 300.0) {
             let tip = sample.tip(share);
             for edge in [sine, -sine].map(|aside| sample.seen(share, [aside, 0.0, -cosine])) {

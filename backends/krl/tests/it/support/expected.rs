@@ -42,6 +42,10 @@ pub(crate) fn steps(program: &ReachableProgram, status: &dyn Fn(&AxisValues) -> 
             | Action::Follow { .. }
             | Action::Turn { .. } => line(program, from, at.unwrap(), speeds),
             Action::Ultrasonic { state } => Event::Output(cell.ultrasonic.unwrap(), state == Switch::On),
+            Action::Spin { state } => {
+                let output = cell.spindle.unwrap().output();
+                Event::Output(output.unwrap(), state == Switch::On)
+            }
             Action::AwaitReady => match cell.ready {
                 Ready::Input(input) => Event::Await(input),
                 Ready::After(time) => Event::Wait(time.to_s()),

@@ -10,7 +10,7 @@ use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::{Auto, Bounds, Sourced};
 
 pub(super) fn check_rake(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
-    let (rake, half_apex) = (asked.setup.rake.value, asked.setup.blade.half_apex.value);
+    let (rake, half_apex) = (asked.setup.rake.value, asked.blade.half_apex.value);
     if rake > half_apex {
         return;
     }
@@ -29,7 +29,7 @@ pub(super) fn check_rake(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
             ),
         )
         .and(
-            asked.setup.blade.half_apex.span.unwrap_or(asked.setup.blade.span),
+            asked.blade.half_apex.span.unwrap_or(asked.blade.span),
             format!("half the blade's apex angle is {} deg", show(half_apex.to_deg())),
         )
         .help(format!(
@@ -52,7 +52,7 @@ fn usual_rake(half_apex: Angle) -> Angle {
 }
 
 pub(super) fn standoff_too_small(asked: &RoughVcut, standoff: Length, least: Length) -> Diagnostic {
-    let blade = &asked.setup.blade;
+    let blade = &asked.blade;
     let span = asked.standoff.span.unwrap_or(asked.setup.head_span);
     let (standoff, least) = (show(standoff.to_mm()), show(least.to_mm()));
     let thickness = show(blade.thickness.value.to_mm());
@@ -71,7 +71,7 @@ pub(super) fn standoff_too_small(asked: &RoughVcut, standoff: Length, least: Len
 }
 
 pub(super) fn extension_too_short(asked: &RoughVcut, extension: Length, least: Length) -> Diagnostic {
-    let blade = &asked.setup.blade;
+    let blade = &asked.blade;
     let span = asked.setup.extension.span.unwrap_or(asked.setup.head_span);
     let (extension, least) = (show(extension.to_mm()), show(least.to_mm()));
     Diagnostic::new(

@@ -49,14 +49,7 @@ impl Party {
     fn span(&self, asked: &RoughVcut, bound: Bound) -> Option<Span> {
         match self.said {
             Said::Operation => place(asked, bound),
-            Said::Blade => Some(
-                asked
-                    .setup
-                    .blade
-                    .cutting_length
-                    .span
-                    .unwrap_or(asked.setup.blade.span),
-            ),
+            Said::Blade => Some(asked.blade.cutting_length.span.unwrap_or(asked.blade.span)),
             Said::Nowhere => None,
         }
     }
@@ -438,7 +431,7 @@ const fn nature(bound: Bound) -> &'static str {
 }
 
 fn edge(asked: &RoughVcut) -> Party {
-    let length = asked.setup.blade.cutting_length.value;
+    let length = asked.blade.cutting_length.value;
     match asked.limits.edge {
         Some(limit) if limit.value < length => Party {
             said: Said::Operation,
