@@ -3,7 +3,7 @@
 use super::{Machined, machined};
 use crate::Material;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{ActionKind, Program};
+use vcutc_backend_api::ir::{ActionKind, Program, Shape};
 use vcutc_backend_api::state::TipPose;
 use vcutc_picture::{Prefix, paths};
 
@@ -56,9 +56,10 @@ impl Track {
 fn blade(program: &Program, pose: TipPose) -> Option<[[f64; 3]; 2]> {
     let blades = program.blades.iter();
     let length = blades
-        .map(|blade| {
-            let heights = blade.hull().into_iter().map(|[_, _, z]| -z);
-            heights.fold(0.0, f64::max)
+        .map(|blade| match blade.shape {
+            Shape::Straight(straight) => straight.cutting_length.to_mm(),
+            Shape::Disc(disc) => disc.thickness.to_mm(),
+            Shape::Crusher(crusher) => crusher.height.to_mm(),
         })
         .reduce(f64::max)?;
     let [[_, _, x], [_, _, y], [_, _, z]] = program.orientation(pose.orientation)?.matrix();
