@@ -78,13 +78,12 @@ fn place_after(ops: &[Op]) -> Place {
 }
 
 fn generator_after(ops: &[Op]) -> Drive {
-    let last = ops.iter().rev().find_map(|op| match op.action {
-        Action::Ultrasonic { state: Switch::On } => Some(Drive::Starting),
-        Action::Ultrasonic { state: Switch::Off } => Some(Drive::Off),
-        Action::AwaitReady => Some(Drive::Running),
-        _ => None,
-    });
-    last.unwrap_or(Drive::Off)
+    ops.iter().fold(Drive::Off, |drive, op| match (op.action, drive) {
+        (Action::Ultrasonic { state: Switch::On }, _) => Drive::Starting,
+        (Action::Ultrasonic { state: Switch::Off }, _) => Drive::Off,
+        (Action::AwaitReady, Drive::Starting) => Drive::Running,
+        (_, drive) => drive,
+    })
 }
 
 /// The angle of a rotation by the trace of its matrix, in rad.
