@@ -19,6 +19,7 @@ pub use vcutc_picture as picture;
 pub use vcutc_place as place;
 pub use vcutc_process as process;
 pub use vcutc_readback as readback;
+pub use vcutc_rect as rect;
 pub use vcutc_registry as registry;
 pub use vcutc_remedy as remedy;
 pub use vcutc_report as report;

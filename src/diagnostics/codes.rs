@@ -144,6 +144,8 @@ codes! {
     NoLeastLayer = "VC0307", Error, "unbounded objective";
     /// More than a tenth of what an operation is to take away stays.
     MuchStays = "VC0308", Warning, "much material left uncut";
+    /// Strips that are wider, or layers that are deeper, than the blades take.
+    BladesTooSmall = "VC0309", Error, "strips or layers too large for the blades";
 
     /// A chip that is not cut free.
     ChipNotFreed = "VC0401", Error, "chip not cut free";
@@ -155,6 +157,8 @@ codes! {
     BladeBlocked = "VC0404", Error, "blade blocked by uncut material";
     /// The body of a blade that comes into the work.
     BodyInWork = "VC0405", Error, "body of the blade in the work";
+    /// Strips that no disc gets at.
+    NoAccess = "VC0406", Error, "strips that no disc gets at";
 
     /// A machine that is not in the catalogue.
     UnknownMachine = "VC0501", Error, "unknown machine";

@@ -31,8 +31,8 @@ const fn mirror(point: Point2) -> Point2 {
 }
 
 /// `max over x' <= x of P(x') - slope (x - x')` as a polyline, for points with increasing x.
-fn sweep(points: impl Iterator<Item = Point2>, slope: f64) -> Vec<Point2> {
-    let mut out: Vec<Point2> = Vec::new();
+fn sweep(points: impl ExactSizeIterator<Item = Point2>, slope: f64) -> Vec<Point2> {
+    let mut out: Vec<Point2> = Vec::with_capacity(points.len());
     // The corner of the profile before this one.
     let mut before: Option<Point2> = None;
     for corner in points {

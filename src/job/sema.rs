@@ -7,6 +7,7 @@
 
 mod arguments;
 mod blade;
+pub mod both;
 mod cell;
 mod decimal_comma;
 mod described;

@@ -22,6 +22,7 @@ use vcutc_job::planned::Balance;
 use vcutc_job::search::{RouteSet, SearchSpace};
 use vcutc_job::{CheckedJob, PlannedJob, PlannedOperation, Sourced};
 use vcutc_simulation::body::{self, Bodies};
+use vcutc_simulation::disc::{Hold, PassFault, Stretch};
 use vcutc_simulation::prove::{self, Bound, CutFault, Finding, Findings, Release, Replay};
 use vcutc_simulation::report::{Report, report};
 use vcutc_simulation::surface::Surface;
@@ -198,6 +199,81 @@ pub fn explained(asked: &dyn Operation, finding: Finding) -> Diagnostic {
             format!("the blade meets material at {}", point(at)),
         ),
         CutFault::Overcut { at, depth } => overcut(asked, finding, at, depth),
+        CutFault::Strip(fault) => {
+            let (what, label) = strip_words(fault);
+            let message = format!("at {}, {what}", place(&finding));
+            let code = match fault {
+                PassFault::Body { .. } => Code::BodyInWork,
+                PassFault::EntersPart { .. } => Code::Overcut,
+                _ => Code::ChipNotFreed,
+            };
+            Diagnostic::new(code, message, span, label)
+        }
+    }
+}
+
+/// What is wrong with a pass of a disc, after "at layer 2, cut 3, ", and a label for the operation.
+#[must_use]
+pub fn strip_words(fault: PassFault) -> (String, String) {
+    let mm = |length: Length| show(length.to_mm());
+    let over = |stretch: Stretch| format!("x {} mm to {} mm", show(stretch.from), show(stretch.to));
+    match fault {
+        PassFault::Attached { stretch, hold } => (
+            format!("the strip from {} stays attached", over(stretch)),
+            match hold {
+                Hold::SlitShort { x, above } => {
+                    format!(
+                        "its slit ends {} mm above the floor at x {} mm",
+                        mm(above),
+                        show(x)
+                    )
+                }
+                Hold::RimShort { x, by } => {
+                    format!(
+                        "the rim of the disc ends {} mm before its slit at x {} mm",
+                        mm(by),
+                        show(x)
+                    )
+                }
+                Hold::Closed => "no side of it is open".to_owned(),
+            },
+        ),
+        PassFault::Meets(stretch) => (
+            "the disc meets more than its strip".to_owned(),
+            format!(
+                "material up to {} mm above it from {}",
+                mm(stretch.height),
+                over(stretch)
+            ),
+        ),
+        PassFault::EntersPart { at, depth } => (
+            format!("the disc enters the part by {} mm", mm(depth)),
+            format!("deepest at {}", point(at)),
+        ),
+        PassFault::Body { at, depth, .. } => (
+            format!("the body of the disc meets the stock by {} mm", mm(depth)),
+            format!("deepest at {}", point(at)),
+        ),
+        PassFault::TooThick { stretch, limit } => (
+            format!(
+                "the strip is {} mm thick, the disc takes {} mm",
+                mm(stretch.height),
+                mm(limit)
+            ),
+            format!("from {}", over(stretch)),
+        ),
+        PassFault::TooWide {
+            stretch,
+            width,
+            limit,
+        } => (
+            format!(
+                "the strip is {} mm wide, the disc takes {} mm",
+                mm(width),
+                mm(limit)
+            ),
+            format!("from {}", over(stretch)),
+        ),
     }
 }
 

@@ -411,6 +411,10 @@ impl Read<'_> {
                 format!("above {place}, uncut material is in the way of the blade"),
                 format!("the blade meets it at x {} mm, z {} mm", show(at.x), show(at.z)),
             ),
+            CutFault::Strip(fault) => {
+                let (what, label) = verdict::strip_words(fault);
+                (format!("at {place}, {what}"), label)
+            }
             // The slits of changed cuts have been told already, and are the same.
             CutFault::Overcut { .. } if is_reported => return None,
             CutFault::Overcut { at, depth } => (

@@ -127,7 +127,15 @@ fn corners(stock: Stock, work_in_mount: &Pose) -> Vec<Point3> {
 /// and nothing of the network, and there may be one of them in a page.
 #[must_use]
 pub fn section(plan: &PlannedJob, compiled: &Compiled) -> String {
-    let ops = compiled.program.verified().program().ops.len();
+    let program = compiled.program.verified().program();
+    if program
+        .operations
+        .iter()
+        .any(|operation| operation.tools.len() > 1)
+    {
+        return "<p class=\"vcut-playback-absent\">The playback does not show operations that change the blade yet.</p>\n".to_owned();
+    }
+    let ops = program.ops.len();
     if ops > MOST_OPS {
         return format!(
             "<p class=\"vcut-playback-absent\">The program has {ops} operations, too many to be played in a page (at most \

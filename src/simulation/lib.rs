@@ -5,13 +5,16 @@
 //! linear, so it is kept exactly, by its corners ([`surface`]). [`prove`](mod@prove) reads the cuts back from the
 //! verified program (not from the plan that made it), replays them in order, and finds every chip that is not freed and
 //! every entry into the part; [`report`] gathers the figures people want to see, [`contour`] those of two contours, [`timing`] how long it all takes; [`body`] proves
-//! that the body of a blade stays out of the work.
+//! that the body of a blade stays out of the work. Slits and discs cut a section of their own ([`cross_section`]).
 
 pub mod body;
 pub mod contour;
 mod course;
+pub mod cross_section;
+pub mod disc;
 pub mod prove;
 pub mod report;
+pub mod rim;
 pub mod slit;
 pub mod surface;
 pub mod timing;

@@ -14,17 +14,25 @@
 //!
 //! On a piece of a chain the blade itself is followed, with its thickness and the chain's blend ([`piece`]).
 
+mod entry;
 mod flank;
 mod piece;
+mod strip;
 #[cfg(test)]
 mod tests;
 
 use super::course::Course;
+use super::cross_section::{CrossSection, Guard};
+use super::disc::PassFault;
 use super::surface::{Side, Single, Surface, Vee};
 use core::num::NonZeroU32;
+pub(super) use entry::merge_heights;
+use entry::{below_top, deepest_entry};
 use flank::{FlankGeometry, flanks};
 use piece::Piece;
 use std::collections::BTreeMap;
+pub use strip::Strips;
+use strip::Through;
 use vcutc_backend_api::ir::{
     Action, Flank, Joint, Op, OpId, OperationId, OrientationId, Program, Site, ToolId,
 };
@@ -44,6 +52,10 @@ pub struct Bound<'p> {
     pub drop: Length,
     /// The longest edge that a cut may use, where that is less than the blade has.
     pub edge: Option<Length>,
+    /// How far to the left and right of a slit the sides of the blade are.
+    pub aside: Length,
+    /// What discs of the operation are taken for; none where it frees no strips.
+    pub strips: Option<Strips>,
 }
 
 /// Something wrong with a cut.
@@ -58,6 +70,20 @@ pub struct Finding {
     pub tip: Point2,
     /// What is wrong.
     pub fault: CutFault,
+}
+
+impl<'p> Bound<'p> {
+    /// A part that the middle plane of the blade may touch.
+    #[must_use]
+    pub const fn of(part: &'p Profile) -> Self {
+        Self {
+            part,
+            drop: Length::ZERO,
+            edge: None,
+            aside: Length::ZERO,
+            strips: None,
+        }
+    }
 }
 
 /// What can be wrong with a cut.
@@ -80,6 +106,8 @@ pub enum CutFault {
         /// How deep, along z.
         depth: Length,
     },
+    /// A pass of a disc does not do what it is for.
+    Strip(PassFault),
 }
 
 /// All faults of one kind, of which the worst is kept.
@@ -91,12 +119,15 @@ pub struct Findings {
     pub blocked: Option<(usize, Finding)>,
     /// The deepest overcut.
     pub overcut: Option<Finding>,
+    /// How many faults passes of a disc have, and the first of them.
+    pub strips: Option<(usize, Finding)>,
 }
 
 impl Findings {
     pub fn iter(&self) -> impl Iterator<Item = (usize, Finding)> {
         let overcut = self.overcut.map(|finding| (1, finding));
-        self.not_freed.into_iter().chain(self.blocked).chain(overcut)
+        let cuts = self.not_freed.into_iter().chain(self.blocked).chain(overcut);
+        cuts.chain(self.strips)
     }
 }
 
@@ -146,17 +177,7 @@ fn played(
     let verified = program;
     let program = verified.program();
     let mut player = Player::new(surface, program, bounds);
-    // Looked at where there is one, so that programs without chains take no time for them.
-    let mut pieces = program.segments().filter(|segment| is_piece(segment.op));
-    for (id, op, after) in program.ends() {
-        if let Some(cut) = Cut::of(op, after) {
-            player.cut(&cut, verified.is_single(id), watch);
-        } else if is_piece(op)
-            && let Some(segment) = pieces.next()
-        {
-            player.piece(&segment);
-        }
-    }
+    player.play(verified, watch, &mut |_, _| {});
     player.finish()
 }
 
@@ -171,12 +192,7 @@ pub fn accompanied(program: &VerifiedProgram, show: &mut dyn FnMut(OpId, &mut Su
     let verified = program;
     let program = verified.program();
     let mut player = Player::new(Surface::untouched(program.stock), program, &[]);
-    for (id, op, after) in program.ends() {
-        show(id, &mut player.surface);
-        if let Some(cut) = Cut::of(op, after) {
-            player.cut(&cut, verified.is_single(id), &mut |_, _| {});
-        }
-    }
+    player.play(verified, &mut |_, _| {}, show);
 }
 
 /// A cut whose chip comes free: its last flank has just been cut.
@@ -259,7 +275,7 @@ impl Cut {
 struct Player<'p> {
     program: &'p Program,
     bounds: &'p [Bound<'p>],
-    surface: Surface,
+    section: CrossSection,
     /// What each operation's cuts alone leave, on the blade's side towards the part; in step with `bounds`.
     guards: Vec<Surface>,
     /// Geometry of each orientation with the blade at hand.
@@ -273,6 +289,10 @@ struct Player<'p> {
     longest_edge: f64,
     /// How many cuts each layer has.
     layers: BTreeMap<(OperationId, NonZeroU32), usize>,
+    /// Slits, and what to report of them if they free nothing.
+    slits: Vec<(f64, Finding)>,
+    /// The part of each operation that has slits or passes.
+    kept: BTreeMap<OperationId, Guard<'p>>,
     /// The part that each operation with chains must stay out of, up to the stock's top.
     parts: BTreeMap<OperationId, Vec<Point2>>,
 }
@@ -309,15 +329,38 @@ impl<'p> Player<'p> {
             program,
             bounds,
             guards: vec![untouched; bounds.len()],
-            surface,
+            section: CrossSection::new(surface),
             flanks: Vec::new(),
             at_work: None,
             half_done: HalfDone::default(),
             findings: Findings::default(),
             traceless: None,
+            slits: Vec::new(),
+            kept: BTreeMap::new(),
             parts: BTreeMap::new(),
             longest_edge: 0.0,
             layers: BTreeMap::new(),
+        }
+    }
+
+    /// Plays all cuts. `show` sees the surface before every op, `watch` before each chip of a V or a single flank is released.
+    fn play(
+        &mut self,
+        verified: &VerifiedProgram,
+        watch: &mut dyn FnMut(&mut Surface, Release),
+        show: &mut dyn FnMut(OpId, &mut Surface),
+    ) {
+        // Looked at where there is one, so that programs without chains take no time for them.
+        let mut pieces = self.program.segments().filter(|segment| is_piece(segment.op));
+        for (id, op, after) in self.program.ends() {
+            show(id, self.section.surface());
+            if let Some(cut) = Cut::of(op, after) {
+                self.cut(&cut, verified.is_single(id), watch);
+            } else if is_piece(op)
+                && let Some(segment) = pieces.next()
+            {
+                self.piece(&segment);
+            }
         }
     }
 
@@ -332,11 +375,13 @@ impl<'p> Player<'p> {
             self.single(cut, geometry, watch);
             return;
         }
-        let blocked_at = if let Some(run) = self.surface.flank_from(cut.tip, side, geometry.slope) {
+        let blocked_at = if let Some(run) = self.section.surface().flank_from(cut.tip, side, geometry.slope) {
             self.use_edge(run.reach * geometry.edge_per_height, cut);
             run.blocked_at
         } else {
-            self.surface.obstacle(Vee::one(cut.tip, side, geometry.slope))
+            self.section
+                .surface()
+                .obstacle(Vee::one(cut.tip, side, geometry.slope))
         };
         self.note_blocked(blocked_at, cut);
         let place = (cut.layer, cut.cut);
@@ -357,10 +402,14 @@ impl<'p> Player<'p> {
     fn single(&mut self, cut: &Cut, geometry: FlankGeometry, watch: &mut dyn FnMut(&mut Surface, Release)) {
         let vee = Vee::one(cut.tip, cut.side(), geometry.slope);
         self.count(cut);
-        match self.surface.single(vee) {
+        match self.section.single(vee) {
+            Single::Inside if !geometry.slope.is_finite() => {
+                self.slit(cut, geometry);
+                return;
+            }
             Single::Inside => {
                 // Its slit is cut all the same.
-                let run = self.surface.flank(vee, cut.side());
+                let run = self.section.surface().flank(vee, cut.side());
                 self.longest_edge = self.longest_edge.max(run.reach * geometry.edge_per_height);
                 self.note_blocked(run.blocked_at, cut);
                 self.note_edge(f64::INFINITY, |fault| cut.finding(fault));
@@ -424,8 +473,8 @@ impl<'p> Player<'p> {
             cut: cut.cut,
             vee,
         };
-        watch(&mut self.surface, release);
-        self.surface.release(vee);
+        watch(self.section.surface(), release);
+        self.section.release(vee);
         let index = usize::from(cut.operation.0);
         let (Some(guard), Some(bound)) = (self.guards.get_mut(index), self.bounds.get(index)) else {
             return;
@@ -448,7 +497,7 @@ impl<'p> Player<'p> {
     /// Notes a slit, which leaves no trace in a surface, where it enters the part.
     fn note_slit(&mut self, tip: Point2, bound: &Bound<'_>, cut: &Cut) {
         let (start, end) = bound.part.span();
-        let part = bound.part.height(tip.x).min(self.surface.top());
+        let part = bound.part.height(tip.x).min(self.section.surface().top());
         if (start..=end).contains(&tip.x) {
             self.note_entry(tip, part - tip.z, |fault| cut.finding(fault));
         }
@@ -491,11 +540,19 @@ impl<'p> Player<'p> {
             tip: Point2 { x: to.x, z: to.z },
             fault,
         };
-        let piece = Piece::new(course, blade, self.program.stock);
         if joint == Joint::Stop {
             *self.layers.entry((operation, layer)).or_default() += 1;
         }
-        let used = piece.edge_used(&mut self.surface);
+        let strips = self
+            .bounds
+            .get(usize::from(operation.0))
+            .and_then(|bound| bound.strips);
+        if let Some(through) = Through::of(self.program, segment, strips) {
+            self.pass(&through, operation, finding);
+            return;
+        }
+        let piece = Piece::new(course, blade, self.program.stock);
+        let used = piece.edge_used(self.section.surface());
         self.note_edge(used, finding);
         self.longest_edge = self.longest_edge.max(used);
         let Some(bound) = self.bounds.get(usize::from(operation.0)) else {
@@ -522,6 +579,7 @@ impl<'p> Player<'p> {
     }
 
     fn finish(mut self) -> Replay {
+        self.note_idle_slits();
         let (overcut, traceless) = (self.overcut(), self.traceless);
         let deepest = match (overcut, traceless) {
             (Some((_, depth)), Some((_, deeper))) if deeper > depth => traceless,
@@ -530,7 +588,7 @@ impl<'p> Player<'p> {
         };
         self.findings.overcut = deepest.map(|(finding, _)| finding);
         Replay {
-            surface: self.surface,
+            surface: self.section.into_surface(),
             findings: self.findings,
             longest_edge: Length::mm(self.longest_edge),
             layers: self
@@ -595,67 +653,7 @@ fn note(kept: &mut Option<(usize, Finding)>, finding: Finding, worse: impl Fn(&F
 fn is_longer(a: &Finding, b: &Finding) -> bool {
     let needed = |finding: &Finding| match finding.fault {
         CutFault::NotFreed { needed, .. } => needed.to_mm(),
-        CutFault::Blocked { .. } | CutFault::Overcut { .. } => 0.0,
+        CutFault::Blocked { .. } | CutFault::Overcut { .. } | CutFault::Strip(_) => 0.0,
     };
     needed(a) > needed(b) + 1e-6
-}
-
-/// A part cut off at the stock's top: where the allowance would stand above it there is nothing to keep.
-fn below_top(part: &Profile, top: f64) -> Vec<Point2> {
-    let points = part.points();
-    let mut clipped = Vec::with_capacity(points.len());
-    let mut before: Option<Point2> = None;
-    for &point in points {
-        if let Some(from) = before
-            && (from.z - top) * (point.z - top) < 0.0
-        {
-            let share = (top - from.z) / (point.z - from.z);
-            clipped.push(Point2 {
-                x: from.x + (point.x - from.x) * share,
-                z: top,
-            });
-        }
-        clipped.push(Point2 {
-            z: point.z.min(top),
-            ..point
-        });
-        before = Some(point);
-    }
-    clipped
-}
-
-/// Where a surface comes lowest relative to a part, and by how much it stays above it there (negative: within).
-/// Both are straight between their corners, so the lowest point lies over a corner of one of them.
-fn deepest_entry(corners: &[Point2], part: &[Point2]) -> (Point2, f64) {
-    let mut deepest = (Point2 { x: 0.0, z: 0.0 }, f64::INFINITY);
-    let mut look = |x: f64, surface: f64, part: f64| {
-        if surface - part < deepest.1 {
-            deepest = (Point2 { x, z: surface }, surface - part);
-        }
-    };
-    merge_heights(corners, part, &mut look);
-    deepest
-}
-
-/// Visits every x at which one of two polylines over the same span has a corner, with both heights there. A wall, two corners
-/// at one x, is visited at both of its heights, the one left of it first.
-pub(super) fn merge_heights(a: &[Point2], b: &[Point2], visit: &mut impl FnMut(f64, f64, f64)) {
-    let (mut i, mut j) = (0, 0);
-    while let (Some(&p), Some(&q)) = (a.get(i), b.get(j)) {
-        let x = p.x.min(q.x);
-        visit(x, height_before(a, i, x), height_before(b, j, x));
-        i += usize::from(p.x <= x);
-        j += usize::from(q.x <= x);
-    }
-}
-
-/// Height at x, which lies between corner `next - 1` and corner `next`.
-fn height_before(corners: &[Point2], next: usize, x: f64) -> f64 {
-    let Some(&to) = corners.get(next) else {
-        return corners.last().map_or(0.0, |last| last.z);
-    };
-    match next.checked_sub(1).and_then(|before| corners.get(before)) {
-        Some(&from) if to.x > from.x => from.z + (to.z - from.z) * ((x - from.x) / (to.x - from.x)),
-        Some(_) | None => to.z,
-    }
 }

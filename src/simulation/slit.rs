@@ -100,7 +100,7 @@ mod tests {
         ) {
             let points = (0_u32..).zip(&heights).map(|(i, &z)| Point2::new(10.0 * f64::from(i), z)).collect();
             let part = Profile::new(points).unwrap();
-            let bound = Bound { part: &part, drop: Length::ZERO, edge: None };
+            let bound = Bound::of(&part);
             let from = Point3::new(tip.0, -5.0, tip.1);
             let found = deepest(&bound, Point2::new(edge.0, edge.1), from, Point3::new(tip.0, 55.0, tip.1));
             let found = found.map_or(0.0, |entry| entry.depth.to_mm());
@@ -123,11 +123,7 @@ mod tests {
             Point2::new(60.0, 30.0),
         ])
         .unwrap();
-        let bound = Bound {
-            part: &part,
-            drop: Length::ZERO,
-            edge: None,
-        };
+        let bound = Bound::of(&part);
         for (x, z, depth) in [
             (20.0, 8.0, Some(2.0)),
             (50.0, 15.0, Some(5.0)),
@@ -145,9 +141,8 @@ mod tests {
     fn a_cut_that_runs_down_is_as_deep_as_its_end() {
         let part = Profile::new(vec![Point2::new(0.0, 10.0), Point2::new(80.0, 10.0)]).unwrap();
         let bound = Bound {
-            part: &part,
             drop: Length::mm(0.5),
-            edge: None,
+            ..Bound::of(&part)
         };
         let (from, to) = (Point3::new(40.0, -5.0, 12.0), Point3::new(40.0, 55.0, 8.0));
         let entry = deepest(&bound, Point2::new(5.0, 8.0), from, to).unwrap();

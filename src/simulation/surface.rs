@@ -33,6 +33,7 @@
 use vcutc_backend_api::ir::Stock;
 use vcutc_geometry::curve::Point2;
 
+mod lower;
 mod stack;
 #[cfg(test)]
 mod tests;
@@ -382,15 +383,10 @@ impl Surface {
         core::iter::once(first).chain(rest).filter(move |_| from <= to)
     }
 
-    /// Moves the place of work to x: corner by corner, because it is nearly always a neighbour's. Both corners of a wall at x
-    /// are left of it then.
+    /// Moves the place of work to x, which is nearly always a neighbour's. Both corners of a wall at x are left of it then.
     fn go_to(&mut self, x: f64) {
-        while let Some(corner) = self.left.pop_if(|corner| corner.x > x) {
-            self.right.push(corner);
-        }
-        while let Some(corner) = self.right.pop_if(|corner| corner.x <= x) {
-            self.left.push(corner);
-        }
+        self.left.pass_on(&mut self.right, |corner| corner.x > x);
+        self.right.pass_on(&mut self.left, |corner| corner.x <= x);
     }
 
     /// Moves the place of work to x, and at a wall between its two corners.
@@ -399,13 +395,13 @@ impl Surface {
         let stands_at = |corner: Option<Point2>| corner.is_some_and(|corner| (corner.x - x).abs() <= TOUCH);
         if stands_at(self.left.last()) {
             while stands_at(self.left.second())
-                && let Some(corner) = self.left.pop_if(|_| true)
+                && let Some(corner) = self.left.pop()
             {
                 self.right.push(corner);
             }
         } else if stands_at(self.right.last())
             && stands_at(self.right.second())
-            && let Some(corner) = self.right.pop_if(|_| true)
+            && let Some(corner) = self.right.pop()
         {
             self.left.push(corner);
         }

@@ -66,6 +66,7 @@ mod published;
 #[cfg(feature = "krl")]
 mod reach;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
+mod rect;
 mod referees;
 mod repository;
 mod scallop;

@@ -212,11 +212,7 @@ impl PlannedOperation for Marked {
     }
 
     fn bound(&self) -> Bound<'_> {
-        Bound {
-            part: &self.part,
-            drop: Length::ZERO,
-            edge: None,
-        }
+        Bound::of(&self.part)
     }
 
     fn estimate(&self) -> Estimate {

@@ -153,11 +153,7 @@ impl PlannedOperation for Skimmed {
     }
 
     fn bound(&self) -> Bound<'_> {
-        Bound {
-            part: &self.part,
-            drop: Length::ZERO,
-            edge: None,
-        }
+        Bound::of(&self.part)
     }
 
     fn estimate(&self) -> Estimate {
@@ -287,8 +283,11 @@ fn compiled(text: String, machine: &str) -> Outcome {
     driver::compile(request, &mut |_| {}).unwrap()
 }
 
+/// A text, and what takes its place.
+type Edit = (&'static str, &'static str);
+
 /// Of each machine its target, the words that start and stop its spindle, and an edit of these.
-const CELLS: [(&str, &str, [&str; 2], (&str, &str)); 3] = [
+const CELLS: [(&str, &str, [&str; 2], Edit); 3] = [
     (
         "kuka",
         "krl",

@@ -205,7 +205,7 @@ impl LinearSegment {
 
     /// How far the tip goes.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn length(&self) -> Length {
         match self.arc() {
             Some(arc) => arc.length(),
@@ -215,7 +215,8 @@ impl LinearSegment {
 
     /// The arc on which the tip moves; none on a straight line.
     #[must_use]
-    #[inline]
+    // A call would need the whole segment in memory, also on a straight line.
+    #[inline(always)]
     pub fn arc(&self) -> Option<CircularArc> {
         let via = self.via?;
         CircularArc::through([self.from.tip, via, self.to.tip].map(Point3::to_array))

@@ -35,6 +35,25 @@ pub const EXTENSION: FieldSpec = value("extension", "auto").within(DISTANCE).or_
 /// `run_out = 2 mm`.
 pub const RUN_OUT_FIELD: FieldSpec = value("run_out", "2 mm").within(DISTANCE);
 
+/// `feed { ... }` of an operation with a straight blade and a disc.
+pub const FEED_OF_TWO: FieldSpec = block(
+    "feed",
+    "{ cut = 150 mm/s, free = 100 mm/s, travel = 200 mm/s, reorient = 90 deg/s }",
+)
+.required()
+.takes(Takes::Fields(&FEEDS_OF_TWO));
+
+const FEEDS_OF_TWO: BlockSpec = BlockSpec {
+    title: "`feed`",
+    fields: &[
+        value("cut", "150 mm/s").required().within(SPEED),
+        value("free", "100 mm/s").required().within(SPEED),
+        value("travel", "200 mm/s").required().within(SPEED),
+        value("reorient", "90 deg/s").required().within(TURNING_RATE),
+    ],
+    inner: Inner::Refused,
+};
+
 const FEEDS: BlockSpec = BlockSpec {
     title: "`feed`",
     fields: &[
@@ -51,11 +70,41 @@ const RUN_OUT: Length = Length::mm(2.0);
 
 /// Reads them.
 pub fn check(fields: &Fields<'_>, written: Written<'_>, session: &mut Session<'_>) -> Checked<Setup> {
-    let scope = written.scope;
-    // The block within first: it needs the session, of which the reader holds a part.
     let feeds = fields
         .required_block("feed", &mut session.reports)
-        .and_then(|inner| feeds(inner, written, session));
+        .and_then(|inner| feeds(&FEEDS, inner, written, session));
+    with_feeds(feeds.map(|(feeds, _)| feeds), fields, written, session)
+}
+
+/// The same of an operation with [`FEED_OF_TWO`], with the speed of its disc in the material.
+pub fn check_of_two(
+    fields: &Fields<'_>,
+    written: Written<'_>,
+    session: &mut Session<'_>,
+) -> Checked<(Setup, Sourced<Speed>)> {
+    let feeds = fields
+        .required_block("feed", &mut session.reports)
+        .and_then(|inner| {
+            let (feeds, fields) = feeds(&FEEDS_OF_TWO, inner, written, session)?;
+            let mut reader = Reader::new(written.scope, &mut session.reports);
+            Ok((feeds, reader.required(&fields, "free")?))
+        });
+    let (feeds, free) = match feeds {
+        Ok((feeds, free)) => (Ok(feeds), Ok(free)),
+        Err(reported) => (Err(reported), Err(reported)),
+    };
+    let setup = with_feeds(feeds, fields, written, session);
+    Ok((setup?, free?))
+}
+
+// The block of feeds comes first: it needs the session, of which the reader holds a part.
+fn with_feeds(
+    feeds: Checked<Feeds>,
+    fields: &Fields<'_>,
+    written: Written<'_>,
+    session: &mut Session<'_>,
+) -> Checked<Setup> {
+    let scope = written.scope;
     let mut reader = Reader::new(scope, &mut session.reports);
     let rake = reader.required(fields, "rake");
     let direction = reader.choice(fields, "direction", Direction::WORDS);
@@ -92,15 +141,21 @@ struct Feeds {
     reorient: Sourced<AngularSpeed>,
 }
 
-fn feeds(inner: &Block, written: Written<'_>, session: &mut Session<'_>) -> Checked<Feeds> {
-    let fields = Fields::sort(&FEEDS, inner_place(inner), &inner.entries, session);
+fn feeds<'b>(
+    spec: &'static BlockSpec,
+    inner: &'b Block,
+    written: Written<'_>,
+    session: &mut Session<'_>,
+) -> Checked<(Feeds, Fields<'b>)> {
+    let fields = Fields::sort(spec, inner_place(inner), &inner.entries, session);
     let mut reader = Reader::new(written.scope, &mut session.reports);
     let cut = reader.required(&fields, "cut");
     let travel = reader.required(&fields, "travel");
     let reorient = reader.required(&fields, "reorient");
-    Ok(Feeds {
+    let feeds = Feeds {
         cut: cut?,
         travel: travel?,
         reorient: reorient?,
-    })
+    };
+    Ok((feeds, fields))
 }

@@ -5,7 +5,7 @@
 //! branch. Several courses are computed side by side, as lanes of a vector.
 
 use super::bounds::Stretch;
-use super::course::{CARRIED, Flange, Flight, Shape, Span};
+use super::course::{CARRIED, Flange, Flight, ROUND, Shape, Span};
 use super::types::{Clearance, Singularity, Violation};
 use super::wide::Wide;
 use core::f64::consts::PI;
@@ -71,6 +71,8 @@ pub(super) struct Carrying<'a> {
     pub(super) branch: ArmBranch,
     shape: Shape,
     carried: [Row; CARRIED],
+    /// What comes on top on arcs.
+    round: [Row; ROUND],
     middle: Row,
     half: Row,
     /// How many lanes are in use, from the first one on.
@@ -86,6 +88,7 @@ impl<'a> Carrying<'a> {
             branch,
             shape,
             carried: [[0.0; LANES]; CARRIED],
+            round: [[0.0; LANES]; ROUND],
             middle: [0.5; LANES],
             half: [0.5; LANES],
             lanes: 0,
@@ -96,10 +99,9 @@ impl<'a> Carrying<'a> {
     /// Puts a course into a lane. It has the shape of all others.
     pub(super) fn take(&mut self, lane: usize, flight: &Flight) {
         let numbers = flight.carried(DVec3::new(0.0, 0.0, -self.arm.c4)).numbers();
-        for (row, number) in self.carried.iter_mut().zip(numbers) {
-            if let Some(place) = row.get_mut(lane) {
-                *place = number;
-            }
+        put_in_lane(&mut self.carried, lane, numbers);
+        if let Some(numbers) = flight.round() {
+            put_in_lane(&mut self.round, lane, numbers);
         }
         self.lanes = self.lanes.max(lane + 1);
     }
@@ -122,6 +124,14 @@ impl<'a> Carrying<'a> {
     }
 }
 
+fn put_in_lane<const COUNT: usize>(rows: &mut [Row; COUNT], lane: usize, numbers: [f64; COUNT]) {
+    for (row, number) in rows.iter_mut().zip(numbers) {
+        if let Some(place) = row.get_mut(lane) {
+            *place = number;
+        }
+    }
+}
+
 /// The computation, for any kind of vector.
 struct Sweep<'c, 'a>(&'c mut Carrying<'a>);
 
@@ -132,17 +142,27 @@ impl WithSimd for Sweep<'_, '_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self(all) = self;
         for first in (0..all.lanes).step_by(S::F64_LANES) {
-            let mut carried = [Wide::new(simd, &[]); CARRIED];
-            for (wide, row) in carried.iter_mut().zip(&all.carried).take(all.shape.numbers()) {
-                *wide = Wide::new(simd, rest(row, first));
-            }
+            let carried = wide(simd, &all.carried, first);
+            let round = match all.shape {
+                Shape::Straight | Shape::Turning => None,
+                Shape::Arc => Some(&wide(simd, &all.round, first)),
+            };
             let middle = Wide::new(simd, rest(&all.middle, first));
             let half = Wide::new(simd, rest(&all.half, first));
-            let flange = Flange::over(&carried, all.shape, middle, half);
+            let flange = Flange::over(&carried, round, all.shape, [middle, half]);
             let posture = posture(all.arm, all.branch, &flange);
             all.swept.write(first, &posture, half);
         }
     }
+}
+
+#[inline(always)]
+fn wide<S: Simd, const COUNT: usize>(simd: S, rows: &[Row; COUNT], first: usize) -> [Wide<S>; COUNT] {
+    let mut all = [Wide::new(simd, &[]); COUNT];
+    for (wide, row) in all.iter_mut().zip(rows) {
+        *wide = Wide::new(simd, rest(row, first));
+    }
+    all
 }
 
 #[inline(always)]

@@ -81,6 +81,12 @@ impl Arc {
         (self.centre - self.at(s)) * (self.sweep * self.sweep)
     }
 
+    /// Its sweep and its two radii, in the order in which [`Flange::over`] takes them.
+    fn numbers(&self) -> [f64; ROUND] {
+        let ([a, b, c], [d, e, f]) = (self.first.to_array(), self.second.to_array());
+        [self.sweep, a, b, c, d, e, f]
+    }
+
     /// What each coordinate is off the centre by at most.
     fn farthest(&self) -> DVec3 {
         let [first, second] = [self.first.to_array(), self.second.to_array()];
@@ -197,12 +203,16 @@ impl Flight {
         let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| start.rotation * axis);
         let [x, y, z] = axes;
         Carried {
-            tip: self.tip,
+            tip: self.arc.map_or(self.tip, |arc| arc.centre),
             way: self.way,
-            arc: self.arc,
             angle: self.angle,
             turned: [from_tip, x, y, z].map(|vector| self.parts(vector)),
         }
+    }
+
+    /// The numbers of the arc on which the tip moves, if it does.
+    pub(super) fn round(&self) -> Option<[f64; ROUND]> {
+        self.arc.map(|arc| arc.numbers())
     }
 
     /// What it is computed by.
@@ -247,16 +257,6 @@ pub(super) enum Shape {
     Arc,
 }
 
-impl Shape {
-    /// How many of the numbers that a course carries it needs.
-    pub(super) const fn numbers(self) -> usize {
-        match self {
-            Self::Straight | Self::Turning => ON_LINES,
-            Self::Arc => CARRIED,
-        }
-    }
-}
-
 /// A vector that is carried along: its part along the axis of the turn, and what cosine and sine belong to.
 #[derive(Clone, Copy, Debug)]
 struct Parts {
@@ -268,18 +268,18 @@ struct Parts {
 /// What does not change on a course that carries a point of the flange and the flange's axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Carried {
+    /// At the start; of an arc its centre.
     tip: DVec3,
     way: DVec3,
-    arc: Option<Arc>,
     angle: f64,
     turned: [Parts; 4],
 }
 
-/// How many numbers that is on a line: the angle, tip and way, and four vectors in three parts.
-const ON_LINES: usize = 1 + 2 * 3 + 4 * 3 * 3;
+/// How many numbers that is: the angle, tip and way, and four vectors in three parts.
+pub(super) const CARRIED: usize = 1 + 2 * 3 + 4 * 3 * 3;
 
-/// How many it is at most: on an arc its sweep and two radii come on top, and its centre is in the place of the tip.
-pub(super) const CARRIED: usize = ON_LINES + 1 + 2 * 3;
+/// How many come on top on an arc: its sweep and two radii.
+pub(super) const ROUND: usize = 1 + 2 * 3;
 
 impl Carried {
     /// All of it, in the order in which [`Flange::over`] takes it.
@@ -288,15 +288,13 @@ impl Carried {
             .turned
             .iter()
             .flat_map(|part| [part.along, part.square, part.across]);
-        let tip = self.arc.map_or(self.tip, |arc| arc.centre);
-        let vectors = [tip, self.way].into_iter().chain(parts);
-        let on_line = vectors.flat_map(|vector| vector.to_array());
-        let round = self.arc.into_iter().flat_map(|arc| {
-            let radii = [arc.first, arc.second].map(|radius| radius.to_array());
-            core::iter::once(arc.sweep).chain(radii.into_iter().flatten())
-        });
+        let vectors = [self.tip, self.way].into_iter().chain(parts);
         let mut all = [self.angle; CARRIED];
-        for (place, number) in all.iter_mut().skip(1).zip(on_line.chain(round)) {
+        for (place, number) in all
+            .iter_mut()
+            .skip(1)
+            .zip(vectors.flat_map(|vector| vector.to_array()))
+        {
             *place = number;
         }
         all
@@ -312,24 +310,30 @@ pub(super) struct Flange<N> {
 }
 
 impl<N: Number> Flange<N> {
-    /// The flange on the span within `half` of `middle`, by the numbers of [`Carried::numbers`].
+    /// The flange on the span within `half` of `middle`, by the numbers of [`Carried::numbers`] and, on an arc, of
+    /// [`Flight::round`].
     #[inline(always)]
-    pub(super) fn over(carried: &[N; CARRIED], shape: Shape, middle: N, half: N) -> Self {
+    pub(super) fn over(
+        carried: &[N; CARRIED],
+        round: Option<&[N; ROUND]>,
+        shape: Shape,
+        [middle, half]: [N; 2],
+    ) -> Self {
         let (angle, tip, way) = (carried[0], vector(carried, 1), vector(carried, 4));
         let sin_cos = match shape {
             Shape::Straight => None,
             Shape::Turning | Shape::Arc => Some(Along::line(angle * middle, angle * half).sin_cos()),
         };
-        let tip = match shape {
-            Shape::Straight | Shape::Turning => [
+        let tip = match round {
+            None => [
                 Along::line(tip[0] + way[0] * middle, way[0] * half),
                 Along::line(tip[1] + way[1] * middle, way[1] * half),
                 Along::line(tip[2] + way[2] * middle, way[2] * half),
             ],
-            Shape::Arc => {
-                let sweep = carried[ON_LINES];
+            Some(round) => {
+                let sweep = round[0];
                 let (sin, cos) = Along::line(sweep * middle, sweep * half).sin_cos();
-                let (first, second) = (vector(carried, ON_LINES + 1), vector(carried, ON_LINES + 4));
+                let (first, second) = (vector(round, 1), vector(round, 4));
                 [
                     rodrigues(sin, cos, tip[0], first[0], second[0]),
                     rodrigues(sin, cos, tip[1], first[1], second[1]),
@@ -350,8 +354,8 @@ impl<N: Number> Flange<N> {
 }
 
 #[inline(always)]
-fn vector<N: Number>(carried: &[N; CARRIED], first: usize) -> [N; 3] {
-    [carried[first], carried[first + 1], carried[first + 2]]
+fn vector<N: Number, const COUNT: usize>(numbers: &[N; COUNT], first: usize) -> [N; 3] {
+    [numbers[first], numbers[first + 1], numbers[first + 2]]
 }
 
 /// A vector that is carried along.

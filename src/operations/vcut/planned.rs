@@ -67,9 +67,9 @@ impl PlannedOperation for PlannedVcut {
 
     fn bound(&self) -> Bound<'_> {
         Bound {
-            part: &self.bound,
             drop: self.parameters.drop,
             edge: self.asked.limits.edge.map(|limit| limit.value),
+            ..Bound::of(&self.bound)
         }
     }
 

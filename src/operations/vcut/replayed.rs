@@ -79,17 +79,7 @@ fn a_cut_into_the_part_is_found_with_its_place_and_depth() {
         Point2 { x: 85.0, z: 13.1 },
     ])
     .unwrap();
-    let found = replay(
-        &program,
-        &[Bound {
-            part: &bump,
-            drop: Length::ZERO,
-            edge: None,
-        }],
-    )
-    .findings
-    .overcut
-    .unwrap();
+    let found = replay(&program, &[Bound::of(&bump)]).findings.overcut.unwrap();
     let CutFault::Overcut { at, depth } = found.fault else {
         panic!("{found:?}")
     };
@@ -100,9 +90,8 @@ fn a_cut_into_the_part_is_found_with_its_place_and_depth() {
     assert_eq!(found.tip, victim);
     // The blade's thickness lowers its side towards the part.
     let thick = Bound {
-        part: &plan.profile,
         drop: Length::mm(lowest - 13.1 + 0.1),
-        edge: None,
+        ..Bound::of(&plan.profile)
     };
     let found = replay(&program, &[thick]).findings.overcut.unwrap();
     let CutFault::Overcut { depth, .. } = found.fault else {
@@ -178,9 +167,8 @@ fn a_later_operation_may_come_closer_to_the_part() {
     let program = verify(lower(&plan, &SourceMap::default())).unwrap();
     let [rough, fine] = [0, 1].map(|index| PlannedVcut::of(&*plan.operations[index]).unwrap());
     let bound = |part, drop| Bound {
-        part,
         drop: Length::mm(drop),
-        edge: None,
+        ..Bound::of(part)
     };
     let bounds = [bound(&rough.bound, 30.0), bound(&fine.bound, 0.0)];
     let found = replay(&program, &bounds).findings.overcut.unwrap();

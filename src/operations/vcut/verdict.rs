@@ -17,7 +17,7 @@ use not_freed::{Chips, not_freed};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
 use vcutc_job::operation::{Trials, WorksThere};
-use vcutc_process::verdict::{overcut, place, point};
+use vcutc_process::verdict::{explained, overcut, place, point};
 use vcutc_simulation::prove::{CutFault, Finding};
 
 /// Explains a cut whose chip does not come free, or whose way is blocked.
@@ -40,6 +40,7 @@ pub(crate) fn explain(
         }
         CutFault::Blocked { at } => blocked(&vcut.asked, finding, at),
         CutFault::Overcut { at, depth } => overcut(&vcut.asked, finding, at, depth),
+        CutFault::Strip(_) => explained(&vcut.asked, finding),
     }
 }
 

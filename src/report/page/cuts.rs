@@ -97,7 +97,9 @@ fn layers(program: &Program, op_times: &[Duration]) -> Layers {
             }
             if let Some(cut) = cuts.get_mut(place) {
                 cut.time += *time;
-                if let (Action::Cut { to, .. }, Some(line)) = (segment.op.action, segment.line()) {
+                if let (Action::Cut { to, .. } | Action::Follow { to, .. }, Some(line)) =
+                    (segment.op.action, segment.line())
+                {
                     (cut.x, cut.z) = (to.x, to.z);
                     cut.way += line.length().to_mm();
                 }

@@ -132,9 +132,8 @@ fn flat(z: f64) -> Profile {
 
 const fn bound(part: &Profile) -> Bound<'_> {
     Bound {
-        part,
         drop: Length::ZERO,
-        edge: None,
+        ..Bound::of(part)
     }
 }
 

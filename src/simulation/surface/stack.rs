@@ -54,31 +54,37 @@ impl Stack {
         }
     }
 
+    #[inline]
     pub(super) fn corners(&self) -> &[Point2] {
         &self.corners
     }
 
+    #[inline]
     pub(super) fn last(&self) -> Option<Point2> {
         self.corners.last().copied()
     }
 
     /// The one below the last.
+    #[inline]
     pub(super) fn second(&self) -> Option<Point2> {
         let place = self.corners.len().checked_sub(2)?;
         self.corners.get(place).copied()
     }
 
     /// The nearest ones, nearest last.
+    #[inline]
     pub(super) fn nearest(&self, count: usize) -> &[Point2] {
         let rest = self.corners.len().saturating_sub(count);
         self.corners.get(rest..).unwrap_or_default()
     }
 
+    #[inline]
     pub(super) fn push(&mut self, corner: Point2) {
         self.corners.push(corner);
     }
 
     /// Pushes a corner unless it is the one already there.
+    #[inline]
     pub(super) fn push_corner(&mut self, corner: Point2) {
         if let Some(last) = self.corners.last_mut()
             && is_same(*last, corner)
@@ -89,17 +95,47 @@ impl Stack {
         self.corners.push(corner);
     }
 
+    /// Drops the last corner where it lies on a level line from the one below it to the next one.
+    pub(super) fn drop_level(&mut self, next: Point2) {
+        let is_level = |corner: Option<Point2>| corner.is_some_and(|corner| corner.z == next.z);
+        if is_level(self.last()) && is_level(self.second()) {
+            self.drop_nearest(1);
+        }
+    }
+
+    /// Takes the nearest one off if it goes.
     pub(super) fn pop_if(&mut self, goes: impl FnOnce(&Point2) -> bool) -> Option<Point2> {
         let corner = self.corners.pop_if(|corner| goes(corner))?;
         self.shorten_peaks();
         Some(corner)
     }
 
+    #[inline]
+    pub(super) fn pop(&mut self) -> Option<Point2> {
+        let corner = self.corners.pop()?;
+        self.shorten_peaks();
+        Some(corner)
+    }
+
+    /// Moves the nearest corners to the other side of the place of work: those up to the first that does not go.
+    #[inline]
+    pub(super) fn pass_on(&mut self, other: &mut Self, goes: impl Fn(Point2) -> bool) {
+        let last = self.corners.iter().rposition(|&corner| !goes(corner));
+        let kept = last.map_or(0, |last| last + 1);
+        if let Some(passed @ [_, ..]) = self.corners.get(kept..) {
+            other.corners.extend(passed.iter().rev());
+            self.corners.truncate(kept);
+            self.shorten_peaks();
+        }
+    }
+
+    #[inline]
     pub(super) fn drop_nearest(&mut self, count: usize) {
         self.corners.truncate(self.corners.len().saturating_sub(count));
         self.shorten_peaks();
     }
 
+    #[inline]
     fn shorten_peaks(&mut self) {
         if self.peaks.len() > self.corners.len() {
             self.peaks.truncate(self.corners.len());
@@ -119,6 +155,7 @@ impl Stack {
     }
 
     /// Follows a flank from a point of the surface above it, past so many corners, to where it comes out.
+    #[inline]
     pub(super) fn walk(&self, ray: Ray, skipped: usize, start: Point2) -> FlankWalk {
         let mut before = start;
         for (passed, &corner) in self.corners.iter().rev().enumerate().skip(skipped) {

@@ -308,7 +308,7 @@ mod tests {
 
     /// A disc that leads by 3 degrees along +y: out of the edge is down, and back by the lead.
     fn leading(lead: f64) -> Orientation {
-        let (sine, cosine) = ((180.0 - lead).to_radians() / 2.0).sin_cos();
+        let (sine, cosine) = libm::sincos((180.0 - lead).to_radians() / 2.0);
         Orientation::from_quaternion(cosine, sine, 0.0, 0.0).unwrap()
     }
 
@@ -329,7 +329,7 @@ mod tests {
             for step in 0..=20_u32 {
                 let m = held[0].towards(held[1], f64::from(step) / 20.0).matrix();
                 for corner in 0..90_u32 {
-                    let (sine, cosine) = f64::from(corner * 4).to_radians().sin_cos();
+                    let (sine, cosine) = libm::sincos(f64::from(corner * 4).to_radians());
                     for up in [0.0, 1.5] {
                         let at = |row: usize| 25.0 * (m[row][0] * cosine + m[row][1] * sine) - up * m[row][2];
                         assert!(at(1) >= extent.y[0] - 1e-9 && at(1) <= extent.y[1] + 1e-9);
@@ -343,7 +343,7 @@ mod tests {
     #[test]
     fn the_hull_holds_the_circle_and_little_more() {
         for [x, y, _] in disc().hull() {
-            let radius = x.hypot(y);
+            let radius = libm::hypot(x, y);
             assert!((25.0..25.05).contains(&radius), "{radius}");
         }
     }

@@ -48,7 +48,7 @@ fn shorter(blade: &Blade) -> Blade {
     let mut shorter = blade.clone();
     "short".clone_into(&mut shorter.name);
     if let Some(straight) = shorter.straight_mut() {
-        straight.cutting_length = straight.cutting_length - Length::mm(1.0);
+        straight.cutting_length -= Length::mm(1.0);
     }
     shorter
 }

@@ -1,17 +1,14 @@
 //! `limits { ... }` of an operation: bounds on what may be chosen and on what comes out.
 
 use crate::asked::Limits;
-use vcutc_diagnostics::source::Span;
-use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::sema::both::both;
 use vcutc_job::sema::eval::Scope;
 use vcutc_job::sema::field_ranges::{LONGEST_TIME, MOST_CUTS, SIZE, SWING};
 use vcutc_job::sema::fields::{BlockSpec, Fields, Inner, bounds, limit};
-use vcutc_job::sema::quantity::{Measured, Quantity};
 use vcutc_job::sema::read::Reader;
 use vcutc_job::sema::report::Checked;
 use vcutc_job::sema::session::Session;
 use vcutc_job::sema::setup::inner_place;
-use vcutc_job::{Bounds, Sourced};
 use vcutc_syntax::ast::Block;
 
 pub(super) const LIMITS: BlockSpec = BlockSpec {
@@ -52,46 +49,4 @@ pub(super) fn check(inner: Option<&Block>, scope: Scope<'_>, session: &mut Sessi
         time: time?,
         cuts: cuts?,
     })
-}
-
-/// Bounds from below and above, which must leave something between them.
-fn both<T: Measured + Copy + PartialOrd>(
-    fields: &Fields<'_>,
-    name: &str,
-    reader: &mut Reader<'_>,
-) -> Checked<Bounds<T>> {
-    let least: Checked<Option<Sourced<T>>> = reader.least(fields, name);
-    let most: Checked<Option<Sourced<T>>> = reader.optional(fields, name);
-    let bounds = Bounds {
-        least: least?,
-        most: most?,
-    };
-    if let (Some(least), Some(most)) = (bounds.least, bounds.most)
-        && least.value > most.value
-        && let (Some(low), Some(high)) = (least.span, most.span)
-    {
-        return Err(reader
-            .reports
-            .push(crossed(name, (text(least.value), low), (text(most.value), high))));
-    }
-    Ok(bounds)
-}
-
-fn text<T: Measured>(value: T) -> String {
-    Quantity::new(value.to_base(), T::DIMENSION).text()
-}
-
-/// Bounds that no value keeps.
-fn crossed(name: &str, (least, low): (String, Span), (most, high): (String, Span)) -> Diagnostic {
-    Diagnostic::new(
-        Code::OutOfRange,
-        format!("no `{name}` is at least {least} and at most {most}"),
-        low,
-        format!("at least {least}"),
-    )
-    .and(high, format!("at most {most}"))
-    .fix_all(
-        format!("swap the two: at least {most} and at most {least}"),
-        &[(low, most), (high, least)],
-    )
 }

@@ -1,0 +1,177 @@
+//! Rectangular roughing as an operation of a job.
+
+use crate::asked::{AIR, RoughRect};
+use crate::decided::{Extensions, Planned};
+use crate::plan::blades::{Cover, Hold, Knife, Wheel};
+use crate::plan::model::Pace;
+use crate::plan::{self, Blades, Limits, Rounding, Span as Range, WORTH, Wish, Work};
+use crate::{lower, refused};
+use vcutc_backend_api::ir::{Flank, Stock};
+use vcutc_backend_api::units::{Duration, Length};
+use vcutc_diagnostics::source::Span;
+use vcutc_geometry::offset::offset_up;
+use vcutc_job::operation::{Ground, Laid, Operation, Unplanned};
+use vcutc_job::{BladeRef, Bounds, Machine, Setup, Sourced};
+use vcutc_process::posture::Feed;
+use vcutc_simulation::surface::Surface;
+
+impl Operation for RoughRect {
+    fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    fn setup_mut(&mut self) -> &mut Setup {
+        &mut self.setup
+    }
+
+    fn blades(&self) -> Vec<BladeRef<'_>> {
+        vec![BladeRef::Straight(&self.blade), BladeRef::Disc(&self.disc)]
+    }
+
+    fn forget_places(&mut self, place: Span) {
+        self.blade.forget_places(place);
+        self.disc.forget_places(place);
+        self.lead.forget_place(place);
+        self.free_feed.forget_place(place);
+        self.layer.forget_place(place);
+        self.step.forget_place(place);
+        self.through.forget_place(place);
+        self.residual.forget_place(place);
+        self.beyond.forget_place(place);
+        self.down_to.forget_place(place);
+        self.allowance.forget_place(place);
+        self.standoff.forget_place(place);
+        self.limits.layer.forget_places(place);
+        self.limits.step.forget_places(place);
+        forget(&mut self.limits.scallop, place);
+        forget(&mut self.limits.changes, place);
+        forget(&mut self.limits.cuts, place);
+        forget(&mut self.limits.time, place);
+    }
+
+    fn scallop_limit(&self) -> Option<Sourced<Length>> {
+        self.limits.scallop
+    }
+
+    fn plan<'j>(&'j self, ground: Ground<'j>) -> Result<Laid, Box<dyn Unplanned + 'j>> {
+        let stock = ground.job.stock;
+        if !is_untouched(&ground.before, stock) {
+            return Err(Box::new(refused::on_cut_stock(self)));
+        }
+        let bound = offset_up(&ground.job.profile, self.allowance.value);
+        let work = Work {
+            stock,
+            part: &ground.job.profile,
+            bound: &bound,
+            allowance: self.allowance.value,
+        };
+        let blades = self.pair(ground.job.machine.as_ref());
+        let plan = plan::plan(work, &blades, &self.wish(), ground.cuts_left)
+            .map_err(|refusal| Box::new(refused::told(self, &refusal)) as Box<dyn Unplanned>)?;
+        let standoff = blades.knife.standoff;
+        let planned = Planned {
+            extensions: self.extensions(),
+            asked: self.clone(),
+            plan,
+            bound,
+            standoff,
+        };
+        let after = planned.leaves(stock);
+        Ok(Laid {
+            planned: Box::new(planned),
+            after,
+        })
+    }
+}
+
+impl RoughRect {
+    /// The blades as the planner needs them, and how fast they go.
+    fn pair(&self, machine: Option<&Machine>) -> Blades {
+        Blades {
+            knife: Knife::of(
+                &self.blade,
+                self.setup.rake.value,
+                self.standoff.value,
+                Cover::Uncut,
+            ),
+            wheel: Wheel::of(
+                &self.disc,
+                Hold {
+                    lead: self.lead.value,
+                    beyond: self.beyond.value,
+                    clearance: AIR,
+                },
+            ),
+            pace: self.pace(machine),
+        }
+    }
+
+    fn pace(&self, machine: Option<&Machine>) -> Pace {
+        let change = machine.and_then(|machine| machine.change).map(|held| held.change);
+        Pace {
+            slit: self.setup.cut_feed.value,
+            free: self.free_feed.value,
+            travel: self.setup.travel_feed.value,
+            reorient: self.setup.reorient_rate.value,
+            change: change.map_or(Duration::ZERO, |change| change.time),
+            change_way: Duration::ZERO,
+            run_out: self.setup.run_out.value,
+            clearance: self.setup.clearance.value,
+        }
+    }
+
+    fn wish(&self) -> Wish {
+        let limits = &self.limits;
+        let whole = |limit: Sourced<f64>| limit.value.floor();
+        Wish {
+            layer: self.layer.value,
+            step: self.step.value,
+            through: self.through.value,
+            residual: self.residual.value,
+            down_to: self.down_to.value,
+            limits: Limits {
+                layer: range(limits.layer),
+                step: range(limits.step),
+                scallop: limits.scallop.map(|limit| limit.value),
+                changes: limits.changes.map(|limit| whole(limit) as u32),
+                cuts: limits.cuts.map(|limit| whole(limit) as usize),
+                time: limits.time.map(|limit| limit.value),
+            },
+            rounding: Rounding::Grid,
+            worth: WORTH,
+        }
+    }
+
+    /// How far beside the work each blade is clear of it while it turns from one feed to the other.
+    fn extensions(&self) -> Extensions {
+        let run_out = self.setup.run_out.value;
+        let slits = lower::slit_holder(self)
+            .turning_overhang(self.blade.cutting_length.value, self.blade.half_apex.value);
+        let holder = lower::strip_holder(self);
+        let held = [Feed::Forward, Feed::Backward].map(|feed| holder.cutting(Flank::Left, feed));
+        let [near, far] = self.disc.in_program().extent(held).y;
+        Extensions {
+            slits: slits + run_out,
+            strips: Length::mm(far.max(-near)) + run_out,
+        }
+    }
+}
+
+fn range(bounds: Bounds<Length>) -> Range {
+    Range {
+        least: bounds.least.map(|bound| bound.value),
+        most: bounds.most.map(|bound| bound.value),
+    }
+}
+
+/// Whether nothing has been cut yet.
+fn is_untouched(surface: &Surface, stock: Stock) -> bool {
+    let top = stock.height.to_mm();
+    surface.corners().all(|corner| corner.z >= top)
+}
+
+fn forget<T>(limit: &mut Option<Sourced<T>>, place: Span) {
+    if let Some(limit) = limit {
+        limit.forget_place(place);
+    }
+}

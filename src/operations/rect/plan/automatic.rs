@@ -1,0 +1,280 @@
+//! What is open: layer, step, and how many layers slits go through.
+//!
+//! The largest layer that both blades take and the widest strip that the disc frees make the fewest strips. Only where they leave
+//! more on the part than may stay, smaller ones are planned too, those with the largest sections first. How many layers slits go
+//! through is decided by the time of the plans.
+
+use super::ground::{Sizes, Terms};
+use super::refusal::{Closed, Refusal, SizeField};
+use super::trial::{self, Choice};
+use super::{Blades, PlannedRect, Rounding, Span, Wish, Work};
+use crate::asked::Residual;
+use vcutc_backend_api::units::Length;
+use vcutc_geometry::grid;
+use vcutc_job::Auto;
+
+/// By what share sizes shrink from one try to the next.
+const SHRINKING: f64 = 0.8;
+
+/// How often a size shrinks at most: to about a sixth.
+const SHRUNK: u32 = 8;
+
+/// Most layers that slits go through where that is open.
+const MOST_THROUGH: u32 = 8;
+
+/// By how much a plan may be over its limit by rounding, in mm.
+const OVER_LIMIT: f64 = 1e-3;
+
+/// Plans rectangular roughing, with at most so many strips.
+///
+/// # Errors
+/// What is in the way.
+pub fn plan(work: Work<'_>, blades: &Blades, wish: &Wish, most: usize) -> Result<PlannedRect, Refusal> {
+    if blades.knife.deepest() <= Length::ZERO {
+        return Err(Refusal::NoEdge {
+            rake: blades.knife.rake,
+            half_apex: blades.knife.half_apex,
+        });
+    }
+    let search = Search {
+        work,
+        blades,
+        wish,
+        most,
+    };
+    match search.best(wish.down_to) {
+        Err(Refusal::Closed(closed)) => Err(Refusal::Closed(search.opened(closed))),
+        planned => planned,
+    }
+}
+
+struct Search<'s> {
+    work: Work<'s>,
+    blades: &'s Blades,
+    wish: &'s Wish,
+    most: usize,
+}
+
+impl Search<'_> {
+    /// The fastest plan over how many layers slits go through.
+    fn best(&self, down_to: Length) -> Result<PlannedRect, Refusal> {
+        let most = match self.wish.through {
+            Auto::Given(through) => return self.through(through.max(1), down_to),
+            Auto::Auto => MOST_THROUGH,
+        };
+        let mut best = self.through(1, down_to);
+        for through in 2..=most {
+            let may_help = match &best {
+                Ok(best) => self.is_worth_trying(through, best),
+                Err(refusal) => refusal.is_about_the_whole(),
+            };
+            if !may_help {
+                break;
+            }
+            let further = self.through(through, down_to);
+            let is_faster = match (&best, &further) {
+                (Ok(best), Ok(further)) => further.time < best.time,
+                (Err(_), Ok(_)) => true,
+                (_, Err(_)) => false,
+            };
+            if is_faster {
+                best = further;
+            }
+        }
+        best
+    }
+
+    /// Whether slits through so many layers may be faster than a plan: a layer at most half as thick makes twice the strips, which
+    /// fewer changes hardly outweigh. A judgement, from no source.
+    fn is_worth_trying(&self, through: u32, best: &PlannedRect) -> bool {
+        let thickest = self.blades.knife.deepest() * (1.0 / f64::from(through));
+        match self.wish.layer {
+            Auto::Given(layer) => thickest + Length::mm(OVER_LIMIT) >= layer,
+            Auto::Auto => thickest > best.layer * 0.5,
+        }
+    }
+
+    /// The plan with the largest sections that keeps all limits.
+    fn through(&self, through: u32, down_to: Length) -> Result<PlannedRect, Refusal> {
+        let layers = self.layers(through)?;
+        let mut tries = Vec::new();
+        for &layer in &layers {
+            tries.extend(self.steps(layer)?.into_iter().map(|step| (layer, step)));
+        }
+        tries.sort_by(|(layer, step), (other, wide)| {
+            let section = layer.to_mm() * step.to_mm();
+            let further = other.to_mm() * wide.to_mm();
+            further.total_cmp(&section)
+        });
+        let mut first = None;
+        for (layer, step) in tries {
+            match self.tried(layer, step, through, down_to) {
+                Ok(plan) => return Ok(plan),
+                Err(refusal @ Refusal::Scallop { .. }) => first = first.or(Some(refusal)),
+                Err(refusal) => return Err(first.unwrap_or(refusal)),
+            }
+        }
+        Err(first.unwrap_or(Refusal::Nothing))
+    }
+
+    fn tried(
+        &self,
+        layer: Length,
+        step: Length,
+        through: u32,
+        down_to: Length,
+    ) -> Result<PlannedRect, Refusal> {
+        let terms = Terms {
+            work: self.work,
+            knife: &self.blades.knife,
+            wheel: &self.blades.wheel,
+            down_to,
+            rounding: self.wish.rounding,
+            worth: self.wish.worth,
+        };
+        let choice = Choice {
+            sizes: Sizes {
+                layer: layer.to_mm(),
+                step: step.to_mm(),
+            },
+            through,
+            residual: self.wish.residual.or(Residual::Mixed),
+            limit: self.wish.limits.scallop.map(Length::to_mm),
+            most: self.most,
+        };
+        let plan = trial::plan(terms, self.blades, choice)?;
+        self.within_limits(plan)
+    }
+
+    fn within_limits(&self, plan: PlannedRect) -> Result<PlannedRect, Refusal> {
+        let limits = &self.wish.limits;
+        if let Some(limit) = limits.scallop
+            && plan.left.to_mm() > limit.to_mm() + OVER_LIMIT
+        {
+            return Err(Refusal::Scallop {
+                left: plan.left,
+                limit,
+            });
+        }
+        let counts = plan.counts();
+        if let Some(limit) = limits.changes
+            && counts.changes > limit as usize
+        {
+            let changes = u32::try_from(counts.changes).unwrap_or(u32::MAX);
+            return Err(Refusal::Changes { changes, limit });
+        }
+        let cuts = counts.slits + counts.strips;
+        if let Some(limit) = limits.cuts
+            && cuts > limit
+        {
+            return Err(Refusal::Cuts { cuts, limit });
+        }
+        if let Some(limit) = limits.time
+            && plan.time > limit
+        {
+            return Err(Refusal::Time {
+                time: plan.time,
+                limit,
+            });
+        }
+        Ok(plan)
+    }
+
+    /// The layers that are tried, the largest first.
+    fn layers(&self, through: u32) -> Result<Vec<Length>, Refusal> {
+        let (knife, wheel) = (&self.blades.knife, &self.blades.wheel);
+        let by_blades = (knife.deepest() * (1.0 / f64::from(through))).min(wheel.thickest_layer());
+        if let (Auto::Auto, true) = (self.wish.layer, by_blades <= Length::ZERO) {
+            return Err(Refusal::TooThick {
+                layer: Length::ZERO,
+                chip: wheel.sink(),
+                depth: wheel.depth,
+            });
+        }
+        self.sizes(
+            self.wish.layer,
+            by_blades,
+            self.wish.limits.layer,
+            SizeField::Layer,
+        )
+    }
+
+    /// The steps that are tried with a layer, the largest first.
+    fn steps(&self, layer: Length) -> Result<Vec<Length>, Refusal> {
+        let (limit, bound) = self.blades.wheel.widest_strip(layer);
+        if let (Auto::Auto, true) = (self.wish.step, limit <= Length::ZERO) {
+            return Err(Refusal::TooWide {
+                widest: Length::ZERO,
+                limit,
+                bound,
+            });
+        }
+        self.sizes(self.wish.step, limit, self.wish.limits.step, SizeField::Step)
+    }
+
+    fn sizes(
+        &self,
+        wished: Auto<Length>,
+        largest: Length,
+        span: Span,
+        field: SizeField,
+    ) -> Result<Vec<Length>, Refusal> {
+        let largest = match wished {
+            Auto::Given(size) => return Ok(vec![size]),
+            Auto::Auto => span.most.map_or(largest, |most| most.min(largest)),
+        };
+        let least = span.least.unwrap_or(Length::ZERO);
+        let tries = if self.wish.limits.scallop.is_some() {
+            SHRUNK
+        } else {
+            0
+        };
+        let sizes = (0..=tries).scan(largest, |size, _| {
+            let this = *size;
+            *size = *size * SHRINKING;
+            Some(this)
+        });
+        let sizes: Vec<Length> = sizes
+            .map(|size| self.on_grid(size))
+            .filter(|&size| size >= least && size > Length::ZERO)
+            .collect();
+        if sizes.is_empty() {
+            return Err(Refusal::Bounds {
+                field,
+                least,
+                most: largest,
+            });
+        }
+        Ok(sizes)
+    }
+
+    fn on_grid(&self, size: Length) -> Length {
+        match self.wish.rounding {
+            Rounding::Exact => size,
+            Rounding::Grid => Length::mm(grid::down(size.to_mm())),
+        }
+    }
+
+    /// A closed place with a height down to which the job can be planned, the lowest one tried first: the lower one of the crests
+    /// beside it, then the layer above.
+    fn opened(&self, closed: Closed) -> Closed {
+        let bound = self.work.bound;
+        let (start, end) = bound.span();
+        let crest = super::ground::highest(bound, start, closed.left.to_mm()).min(super::ground::highest(
+            bound,
+            closed.right.to_mm(),
+            end,
+        ));
+        let layer = match self.wish.layer {
+            Auto::Given(layer) => Some(layer),
+            Auto::Auto => self.layers(1).ok().and_then(|layers| layers.first().copied()),
+        };
+        let above =
+            layer.map(|layer| self.work.stock.height - layer * f64::from(closed.layer.saturating_sub(1)));
+        let heights = [Some(Length::mm(grid::up(crest))), above];
+        let down_to = heights.into_iter().flatten().find(|&height| {
+            height > self.wish.down_to && height < self.work.stock.height && self.best(height).is_ok()
+        });
+        Closed { down_to, ..closed }
+    }
+}

@@ -1,0 +1,122 @@
+//! Why there is no plan, with the numbers to say it by.
+
+use super::blades::WidthBound;
+use vcutc_backend_api::units::{Angle, Duration, Length};
+
+/// Why rectangular roughing is not planned.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// Nothing of the stock is to be cut.
+    Nothing,
+    /// The edge of the straight blade does not lead into the material: half its apex angle is no less than its rake.
+    NoEdge { rake: Angle, half_apex: Angle },
+    /// More strips than may be planned.
+    TooMany {
+        /// How many there would be, more or less.
+        strips: f64,
+    },
+    /// Strips are wider than the disc frees.
+    TooWide {
+        /// The widest strip.
+        widest: Length,
+        /// The widest that the disc frees; at most zero where its body leaves no room at all.
+        limit: Length,
+        bound: WidthBound,
+    },
+    /// Slits through so many layers are deeper than the edge of the straight blade.
+    TooDeepForSlits {
+        layer: Length,
+        through: u32,
+        /// The edge that the deepest slit needs.
+        needed: Length,
+        /// The edge that it may use.
+        edge: Length,
+    },
+    /// A slit runs down beside a wall that is higher than the edge of the straight blade covers.
+    TooHighForSlit {
+        x: Length,
+        bottom: Length,
+        /// The higher one of the surfaces beside it.
+        top: Length,
+        /// The edge that it needs.
+        needed: Length,
+        /// The edge that it may use.
+        edge: Length,
+    },
+    /// Chips are thicker than the disc takes.
+    TooThick {
+        layer: Length,
+        /// The thickest chip, with what the lead adds.
+        chip: Length,
+        /// The thickest that the disc takes.
+        depth: Length,
+    },
+    /// A slit would enter the part.
+    SlitInPart {
+        x: Length,
+        bottom: Length,
+        /// How far the part reaches above its bottom.
+        entry: Length,
+    },
+    /// Strips that no disc gets at: material stands on both sides of them.
+    Closed(Closed),
+    /// Slits through several layers need columns that stay where they are, which this strategy does not have.
+    NoColumns { through: u32 },
+    /// More stays on the part than may.
+    Scallop { left: Length, limit: Length },
+    /// More changes of blade than there may be.
+    Changes { changes: u32, limit: u32 },
+    /// More slits and strips than there may be.
+    Cuts { cuts: usize, limit: usize },
+    /// It takes longer than it may.
+    Time { time: Duration, limit: Duration },
+    /// No layer or step within the bounds: the least that the job allows is more than blades or bounds do.
+    Bounds {
+        field: SizeField,
+        least: Length,
+        most: Length,
+    },
+}
+
+impl Refusal {
+    /// Whether there is a plan, but one that is too long: other ones may be shorter.
+    pub(crate) const fn is_about_the_whole(&self) -> bool {
+        match self {
+            Self::Changes { .. } | Self::Cuts { .. } | Self::Time { .. } => true,
+            Self::Nothing
+            | Self::NoEdge { .. }
+            | Self::TooMany { .. }
+            | Self::TooWide { .. }
+            | Self::TooDeepForSlits { .. }
+            | Self::TooHighForSlit { .. }
+            | Self::TooThick { .. }
+            | Self::SlitInPart { .. }
+            | Self::Closed(_)
+            | Self::NoColumns { .. }
+            | Self::Scallop { .. }
+            | Self::Bounds { .. } => false,
+        }
+    }
+}
+
+/// A size that is left to the compiler.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SizeField {
+    Layer,
+    Step,
+}
+
+/// The highest strips that are stuck.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Closed {
+    /// Their layer, counted from 1 at the top.
+    pub layer: u32,
+    /// Where the first one of them begins.
+    pub left: Length,
+    /// Where the last one beside it ends.
+    pub right: Length,
+    /// How many strips are stuck in all layers.
+    pub strips: usize,
+    /// A height down to which all strips come out, tried; none where no such height is worth a strip.
+    pub down_to: Option<Length>,
+}

@@ -1,0 +1,270 @@
+//! Why there is no plan, in the user's words.
+
+use crate::asked::RoughRect;
+use crate::plan::blades::WidthBound;
+use crate::plan::refusal::{Closed, Refusal, SizeField};
+use vcutc_backend_api::script::duration_words;
+use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::number::show;
+use vcutc_diagnostics::source::Span;
+use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::{Auto, Sourced};
+
+/// A refusal as it is reported.
+pub(crate) fn told(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
+    match refusal {
+        Refusal::Nothing => nothing(asked),
+        Refusal::NoEdge { rake, half_apex } => Diagnostic::new(
+            Code::RakeTooFlat,
+            format!(
+                "the edge of `{}` does not lead into the material: half its apex angle is {} deg, the rake is {} deg",
+                asked.blade.name,
+                show(half_apex.to_deg()),
+                show(rake.to_deg())
+            ),
+            place(asked, asked.setup.rake.span),
+            "this rake",
+        )
+        .help("use a rake that is larger than half the apex angle"),
+        Refusal::TooMany { strips } => Diagnostic::new(
+            Code::TooManyCuts,
+            format!("about {strips:.0} strips are too many to plan"),
+            place(asked, asked.step.span.or(asked.layer.span)),
+            "of strips so small",
+        )
+        .help("use larger layers or steps"),
+        Refusal::TooWide {
+            widest,
+            limit,
+            bound,
+        } => too_wide(asked, *widest, *limit, *bound),
+        Refusal::TooDeepForSlits {
+            layer,
+            through,
+            needed,
+            edge,
+        } => too_deep(asked, (*layer, *through), (*needed, *edge)),
+        Refusal::TooHighForSlit {
+            x,
+            bottom,
+            top,
+            needed,
+            edge,
+        } => Diagnostic::new(
+            Code::BladesTooSmall,
+            format!(
+                "a slit at x {} mm from z {} mm down to {} mm needs {} mm of edge, `{}` has {} mm",
+                mm(*x),
+                mm(*top),
+                mm(*bottom),
+                mm(*needed),
+                asked.blade.name,
+                mm(*edge)
+            ),
+            place(asked, asked.blade.cutting_length.span),
+            "the edge of the straight blade",
+        )
+        .help("use a longer blade"),
+        Refusal::TooThick { layer, chip, depth } => Diagnostic::new(
+            Code::BladesTooSmall,
+            format!(
+                "layers of {} mm make chips of {} mm with this lead, `{}` takes {} mm",
+                mm(*layer),
+                mm(*chip),
+                asked.disc.name,
+                mm(*depth)
+            ),
+            place(asked, asked.layer.span),
+            "these layers",
+        )
+        .and(place(asked, asked.disc.depth.span), "the thickest chip that it takes")
+        .help("use thinner layers, or `layer = auto`"),
+        Refusal::SlitInPart { x, bottom, entry } => Diagnostic::new(
+            Code::Overcut,
+            format!(
+                "a slit at x {} mm down to z {} mm would enter the part or its allowance by {} mm",
+                mm(*x),
+                mm(*bottom),
+                mm(*entry)
+            ),
+            asked.setup.head_span,
+            "a slit of this operation",
+        )
+        .help("use a thinner blade, or a smaller `standoff`"),
+        Refusal::Closed(closed) => self::closed(asked, closed),
+        Refusal::NoColumns { through } => Diagnostic::new(
+            Code::LimitsConflict,
+            format!("slits through {through} layers need columns that stay where they are, and `residual = shift` has none"),
+            place(asked, asked.through.span),
+            "through several layers",
+        )
+        .and(place(asked, asked.residual.span), "strips in other places in each layer")
+        .help("use `through = 1`, or another `residual`"),
+        Refusal::Scallop { left, limit } => Diagnostic::new(
+            Code::ScallopOverLimit,
+            format!("{} mm would stay on the part, the limit is {} mm", mm(*left), mm(*limit)),
+            limit_place(asked, asked.limits.scallop),
+            "this limit",
+        )
+        .help("use smaller layers and steps, or a higher limit"),
+        Refusal::Changes { changes, limit } => over(
+            asked,
+            format!("the plan has {changes} changes of blade, the limit is {limit}"),
+            limit_place(asked, asked.limits.changes),
+        ),
+        Refusal::Cuts { cuts, limit } => over(
+            asked,
+            format!("the plan has {cuts} slits and strips, the limit is {limit}"),
+            limit_place(asked, asked.limits.cuts),
+        ),
+        Refusal::Time { time, limit } => over(
+            asked,
+            format!(
+                "the plan takes {}, the limit is {}",
+                duration_words(*time),
+                duration_words(*limit)
+            ),
+            limit_place(asked, asked.limits.time),
+        ),
+        Refusal::Bounds { field, least, most } => {
+            let (name, bounds) = match field {
+                SizeField::Layer => ("layer", asked.limits.layer),
+                SizeField::Step => ("step", asked.limits.step),
+            };
+            Diagnostic::new(
+                Code::LimitsConflict,
+                format!(
+                    "`{name}` is at least {} mm, and the blades do at most {} mm",
+                    mm(*least),
+                    mm(*most)
+                ),
+                limit_place(asked, bounds.least),
+                "this bound",
+            )
+            .help(format!("take a bound of at most {} mm", mm(*most)))
+        }
+    }
+}
+
+/// Rectangular roughing begins with a whole stock.
+pub(crate) fn on_cut_stock(asked: &RoughRect) -> Diagnostic {
+    Diagnostic::new(
+        Code::NothingToCut,
+        "`rough rect` begins with a whole stock, and an operation before it has cut",
+        asked.setup.head_span,
+        "this operation",
+    )
+    .help("let `rough rect` come first, and the other operation cut what it leaves")
+}
+
+fn nothing(asked: &RoughRect) -> Diagnostic {
+    Diagnostic::new(
+        Code::NothingToCut,
+        "`rough rect` has nothing to cut: no strip is worth a pass above the part, its allowance and `down_to`",
+        asked.setup.head_span,
+        "this operation",
+    )
+    .help("check the heights of stock and part, `allowance` and `down_to`")
+}
+
+fn too_wide(asked: &RoughRect, widest: Length, limit: Length, bound: WidthBound) -> Diagnostic {
+    let because = match bound {
+        WidthBound::Disc => ("the widest strip that it takes", asked.disc.width.span),
+        WidthBound::Body { stage } => {
+            let stage = asked.disc.body.stages.get(stage);
+            let span = stage.and_then(|stage| stage.radius.span);
+            ("this stage of its body needs the room", span)
+        }
+    };
+    let (label, span) = because;
+    let diagnostic = Diagnostic::new(
+        Code::BladesTooSmall,
+        format!(
+            "strips of {} mm are wider than `{}` frees: {} mm",
+            mm(widest),
+            asked.disc.name,
+            mm(limit.max(Length::ZERO))
+        ),
+        place(asked, asked.step.span),
+        "these strips",
+    )
+    .and(span.unwrap_or(asked.disc.body.span), label);
+    match (asked.step.value, asked.step.span) {
+        (Auto::Given(_), Some(span)) if limit > Length::ZERO => diagnostic
+            .help(format!("use a step of at most {} mm", mm(limit)))
+            .fix("leave the step to the compiler", span, "auto"),
+        _ => diagnostic.help("use a larger disc, or one with a thinner shank"),
+    }
+}
+
+fn too_deep(
+    asked: &RoughRect,
+    (layer, through): (Length, u32),
+    (needed, edge): (Length, Length),
+) -> Diagnostic {
+    let layers = match through {
+        1 => format!("layers of {} mm", mm(layer)),
+        _ => format!("slits through {through} layers of {} mm", mm(layer)),
+    };
+    Diagnostic::new(
+        Code::BladesTooSmall,
+        format!(
+            "{layers} need {} mm of edge, `{}` has {} mm",
+            mm(needed),
+            asked.blade.name,
+            mm(edge)
+        ),
+        place(asked, asked.layer.span.or(asked.through.span)),
+        "slits so deep",
+    )
+    .and(
+        place(asked, asked.blade.cutting_length.span),
+        "the edge of the straight blade",
+    )
+    .help("use thinner layers, or `layer = auto`")
+}
+
+fn closed(asked: &RoughRect, closed: &Closed) -> Diagnostic {
+    let below = match closed.strips {
+        1 => "1 strip stays".to_owned(),
+        strips => format!("{strips} strips stay"),
+    };
+    let diagnostic = Diagnostic::new(
+        Code::NoAccess,
+        format!(
+            "layer {} is closed at x {} mm and x {} mm: `{}` gets at no strip between them; {below}",
+            closed.layer,
+            mm(closed.left),
+            mm(closed.right),
+            asked.disc.name
+        ),
+        asked.setup.head_span,
+        "this operation needs an open side in every layer",
+    )
+    .note("a disc comes from the side: beside the first strip there has to be room for its shank");
+    let Some(height) = closed.down_to else {
+        return diagnostic.help("rough this part with `rough vcut`");
+    };
+    let text = format!("{} mm", mm(height));
+    let advice = format!("stop above it with `down_to = {text}`, and cut the rest with `rough vcut`");
+    diagnostic.fix_all(advice, &asked.setup.stated("down_to", asked.down_to.span, &text))
+}
+
+fn over(asked: &RoughRect, message: String, limit: Span) -> Diagnostic {
+    Diagnostic::new(Code::LimitsConflict, message, limit, "this limit").and(
+        asked.setup.head_span,
+        "no plan of this operation that was tried keeps it",
+    )
+}
+
+fn limit_place<T>(asked: &RoughRect, limit: Option<Sourced<T>>) -> Span {
+    place(asked, limit.and_then(|limit| limit.span))
+}
+
+fn place(asked: &RoughRect, span: Option<Span>) -> Span {
+    span.unwrap_or(asked.setup.head_span)
+}
+
+fn mm(length: Length) -> String {
+    show(length.to_mm())
+}

@@ -1,0 +1,145 @@
+//! A disc and how it passes: what a pass needs to know, and what it reports.
+
+use super::rim::Rim;
+use super::surface::Side;
+use vcutc_backend_api::ir::BodyStage;
+use vcutc_backend_api::units::{Angle, Area, Length};
+use vcutc_geometry::curve::Point2;
+
+/// A disc that frees strips. Its tip is the centre of its edge.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disc {
+    /// Of its edge.
+    pub radius: Length,
+    /// The thickest chip that it takes.
+    pub depth: Option<Length>,
+    /// The widest one.
+    pub width: Option<Length>,
+    /// Shank and holder, from the edge up.
+    pub body: Vec<BodyStage>,
+}
+
+/// A straight way of a disc along y through all of the stock, without swing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DiscPass {
+    /// The centre of the edge, in mm.
+    pub centre: Point2,
+    /// How far the axis leans along the feed.
+    pub lead: Angle,
+    /// On which side of the centre the strip lies.
+    pub side: Side,
+    /// How far the rim may go on below what stands beside the strip.
+    pub beyond: Length,
+    /// The thickest sliver that the pass may take off besides its strip; none where it is what the lead shaves.
+    pub shave: Option<Length>,
+    /// Air around the body.
+    pub clearance: Length,
+}
+
+impl DiscPass {
+    /// What its edge covers.
+    #[must_use]
+    pub fn rim(&self, disc: &Disc) -> Rim {
+        Rim::new(self.centre, disc.radius, self.lead)
+    }
+}
+
+/// What a pass has done.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PassOutcome {
+    /// What came free, from left to right.
+    pub freed: Vec<Freed>,
+    /// What the rim cuts below the neighbour of the strip.
+    pub undercut: Option<Stretch>,
+    /// What is wrong with it.
+    pub faults: Vec<PassFault>,
+}
+
+/// A column that came free.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Freed {
+    /// Over what, and how thick it is.
+    pub stretch: Stretch,
+    /// Of its section.
+    pub area: Area,
+}
+
+/// What stands above a rim without a break.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// Its left end, in mm.
+    pub from: f64,
+    /// Its right end, in mm.
+    pub to: f64,
+    /// The greatest height above the rim.
+    pub height: Length,
+    /// Where that is, in mm.
+    pub highest: f64,
+}
+
+/// Something wrong with a pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PassFault {
+    /// The strip is not cut free.
+    Attached {
+        /// All that hangs together above the rim.
+        stretch: Stretch,
+        /// What holds it.
+        hold: Hold,
+    },
+    /// The rim meets more than its strip. This comes off where it is among what was freed, and stands otherwise.
+    Meets(Stretch),
+    /// The rim enters the part.
+    EntersPart {
+        /// The deepest place of the rim.
+        at: Point2,
+        /// How deep, along z.
+        depth: Length,
+    },
+    /// The body, with its clearance, meets the section as it is before the pass.
+    Body {
+        /// The stage, from the edge.
+        stage: usize,
+        /// The point of the section that is farthest in.
+        at: Point2,
+        /// How far, along z.
+        depth: Length,
+    },
+    /// The strip is thicker than the disc takes, or than there is room for below its body.
+    TooThick {
+        /// The strip.
+        stretch: Stretch,
+        /// The largest thickness.
+        limit: Length,
+    },
+    /// The strip is wider than the disc takes.
+    TooWide {
+        /// The strip.
+        stretch: Stretch,
+        /// How much of it counts: what is thicker than a sliver.
+        width: Length,
+        /// The largest width.
+        limit: Length,
+    },
+}
+
+/// Why a strip stays attached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Hold {
+    /// A slit ends above the rim.
+    SlitShort {
+        /// Where, in mm.
+        x: f64,
+        /// How far above.
+        above: Length,
+    },
+    /// The rim ends before the slit, the wall, or the side of the stock at which the strip ends.
+    RimShort {
+        /// Where that is, in mm.
+        x: f64,
+        /// How far beyond the rim.
+        by: Length,
+    },
+    /// The strip has no end on a side: nothing is open there.
+    Closed,
+}

@@ -1,0 +1,189 @@
+//! Upright slits, and passes of a disc that free the strips between them, as a program states them.
+
+use super::flank::FlankGeometry;
+use super::{Cut, CutFault, Finding, Player, note};
+use crate::cross_section::Guard;
+use crate::disc::{Disc, DiscPass};
+use crate::surface::{Side, Surface};
+use vcutc_backend_api::geometry::Orientation;
+use vcutc_backend_api::ir::{self, Blade, OperationId, Program, Shape, Stock};
+use vcutc_backend_api::segments::{LinearSegment, Segment};
+use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::verify::UPRIGHT;
+use vcutc_geometry::curve::Point2;
+
+/// What an operation takes its disc for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strips {
+    /// The thickest chip.
+    pub depth: Length,
+    /// The widest strip.
+    pub width: Length,
+    /// How far the rim may go on below what stands beside a strip.
+    pub beyond: Length,
+    /// Air around the body.
+    pub clearance: Length,
+}
+
+/// Coordinates this close are equal, in mm.
+const SAME: f64 = 1e-6;
+
+/// A disc on its way along y through all of the stock, the centre of its edge in the section, and its lead.
+pub(super) struct Through {
+    pub(super) disc: Disc,
+    pub(super) centre: Point2,
+    lead: Angle,
+    strips: Option<Strips>,
+}
+
+impl Through {
+    /// The pass that a segment is; none where it is no straight way along y with a disc that leans along it only.
+    pub(super) fn of(program: &Program, segment: &Segment<'_>, strips: Option<Strips>) -> Option<Self> {
+        let blade = program.blade(segment.before.tool)?;
+        let Shape::Disc(edge) = blade.shape else {
+            return None;
+        };
+        let line = segment
+            .line()
+            .filter(|line| line.via.is_none() && !line.turns())?;
+        let held = program.orientation(line.to.orientation)?;
+        let lead = lead(held, &line).filter(|_| is_through(&line, program.stock))?;
+        Some(Self {
+            disc: disc(blade, edge, strips),
+            centre: Point2::new(line.to.tip.x, line.to.tip.z),
+            lead,
+            strips,
+        })
+    }
+
+    /// The pass. Its strip is on the side of the centre on which more stands above the rim: on the other one the disc has to have
+    /// room.
+    pub(super) fn pass(&self, surface: &mut Surface) -> DiscPass {
+        let radius = self.disc.radius.to_mm();
+        let Point2 { x, z } = self.centre;
+        let above = |surface: &mut Surface, from: f64, to: f64| {
+            let (from, to) = (from.max(0.0), to.min(surface.width()));
+            if from >= to {
+                return 0.0;
+            }
+            let line: Vec<Point2> = surface.stretch(from, to).collect();
+            let pairs = line.windows(2).map(|pair| match pair {
+                [a, b] => (b.x - a.x) * ((a.z + b.z) / 2.0 - z).max(0.0),
+                _ => 0.0,
+            });
+            pairs.sum()
+        };
+        let left = above(surface, x - radius, x);
+        let right: f64 = above(surface, x, x + radius);
+        DiscPass {
+            centre: self.centre,
+            lead: self.lead,
+            side: if left > right { Side::Left } else { Side::Right },
+            beyond: self.strips.map_or(Length::ZERO, |strips| strips.beyond),
+            shave: None,
+            clearance: self.strips.map_or(Length::ZERO, |strips| strips.clearance),
+        }
+    }
+}
+
+fn disc(blade: &Blade, edge: ir::Disc, strips: Option<Strips>) -> Disc {
+    Disc {
+        radius: edge.radius,
+        depth: strips.map(|strips| strips.depth),
+        width: strips.map(|strips| strips.width),
+        body: blade.body.clone().unwrap_or_default(),
+    }
+}
+
+/// How far the axis leans along the way; none where it leans to a side.
+fn lead(held: Orientation, line: &LinearSegment) -> Option<Angle> {
+    let m = held.matrix();
+    // From the edge to the shank is -z_t.
+    let (aside, along, up) = (-m[0][2], -m[1][2], -m[2][2]);
+    let forwards = line.to.tip.y > line.from.tip.y;
+    let along = if forwards { along } else { -along };
+    (aside.abs() <= UPRIGHT && up > 0.0 && along >= -SAME)
+        .then(|| Angle::rad(libm::atan2(along.max(0.0), up)))
+}
+
+/// Whether a way leads along y from one side of the stock to the other.
+fn is_through(line: &LinearSegment, stock: Stock) -> bool {
+    let (from, to) = (line.from.tip, line.to.tip);
+    let straight = (to.x - from.x).abs() <= SAME && (to.z - from.z).abs() <= SAME;
+    let (low, high) = (from.y.min(to.y), from.y.max(to.y));
+    straight && low <= 0.0 && high >= stock.depth.to_mm()
+}
+
+/// Cracks deeper than this that are left at the end have freed nothing, in mm. A disc with a lead leaves less.
+const IDLE: f64 = 0.01;
+
+impl<'p> Player<'p> {
+    /// An upright slit with its bottom in the material. It frees nothing by itself.
+    pub(super) fn slit(&mut self, cut: &Cut, geometry: FlankGeometry) {
+        let Point2 { x, z } = cut.tip;
+        let uncut = self.section.uncut(x, z).max(0.0);
+        self.use_edge(uncut * geometry.edge_per_height, cut);
+        self.section.slit(x, z);
+        let available = self.usable_edge().map_or(Length::ZERO, Length::mm);
+        let idle = CutFault::NotFreed {
+            needed: Length::mm(f64::INFINITY),
+            available,
+        };
+        self.slits.push((x, cut.finding(idle)));
+        let entry = self
+            .guard(cut.operation)
+            .and_then(|(guard, aside)| guard.below_slit(cut.tip, aside));
+        if let Some(depth) = entry {
+            self.note_entry(cut.tip, depth, |fault| cut.finding(fault));
+        }
+    }
+
+    /// The part that an operation must stay out of, for rims and slits, and how far beside a slit the sides of the blade are.
+    fn guard(&mut self, operation: OperationId) -> Option<(&Guard<'p>, f64)> {
+        let bound = self.bounds.get(usize::from(operation.0))?;
+        let guard = self.kept.entry(operation);
+        Some((
+            guard.or_insert_with(|| Guard::new(bound.part)),
+            bound.aside.to_mm(),
+        ))
+    }
+
+    /// A disc that goes along y through all of the stock.
+    pub(super) fn pass(
+        &mut self,
+        through: &Through,
+        operation: OperationId,
+        finding: impl Fn(CutFault) -> Finding,
+    ) {
+        let pass = through.pass(self.section.surface());
+        let rim = pass.rim(&through.disc);
+        let entry = self.guard(operation).and_then(|(guard, _)| guard.deepest(&rim));
+        if let Some((at, depth)) = entry {
+            self.note_entry(at, depth, &finding);
+        }
+        let outcome = self.section.pass_unguarded(&through.disc, &pass);
+        if through.strips.is_none() {
+            return;
+        }
+        for fault in outcome.faults {
+            note(
+                &mut self.findings.strips,
+                finding(CutFault::Strip(fault)),
+                |_, _| false,
+            );
+        }
+    }
+
+    /// Notes slits that are still there at the end: what they were to free hangs on beside them.
+    pub(super) fn note_idle_slits(&mut self) {
+        if self.slits.is_empty() {
+            return;
+        }
+        for crack in self.section.cracks_deeper(IDLE) {
+            let here = self.slits.iter().rfind(|(x, _)| (x - crack.x).abs() <= SAME);
+            if let Some(&(_, finding)) = here {
+                note(&mut self.findings.not_freed, finding, |_, _| false);
+            }
+        }
+    }
+}

@@ -1,0 +1,269 @@
+//! What the edge of a disc covers in the x-z plane.
+//!
+//! The edge is a circle of radius R about the disc's centre. With a lead gamma its axis leans along the feed, so that the
+//! leading rim is lowest. Swept along y, the circle shows as an ellipse with semi-axes R and `R sin gamma`, of which the lower
+//! half cuts (`docs/process.md`, "The cross-section of rectangular cutting"). It is convex: the height of a straight piece above
+//! it has one maximum, where both have the same slope.
+
+#[cfg(test)]
+mod tests;
+
+use vcutc_backend_api::units::{Angle, Length};
+use vcutc_geometry::curve::Point2;
+
+/// The lower half of the ellipse that a disc's edge shows as. A disc with swing is none of these.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rim {
+    centre: Point2,
+    /// In mm.
+    radius: f64,
+    /// Of the lead.
+    sine: f64,
+    cosine: f64,
+}
+
+impl Rim {
+    /// The rim of a disc with its centre there, in mm.
+    #[must_use]
+    pub fn new(centre: Point2, radius: Length, lead: Angle) -> Self {
+        let (sine, cosine) = libm::sincos(lead.to_rad());
+        Self {
+            centre,
+            radius: radius.to_mm(),
+            sine: sine.abs(),
+            cosine,
+        }
+    }
+
+    /// The centre of the edge, in mm.
+    #[must_use]
+    pub const fn centre(&self) -> Point2 {
+        self.centre
+    }
+
+    /// From where to where it reaches over x, in mm.
+    #[must_use]
+    pub const fn cover(&self) -> [f64; 2] {
+        [self.centre.x - self.radius, self.centre.x + self.radius]
+    }
+
+    /// Height over x, in mm; beyond the cover that of its end.
+    #[must_use]
+    pub fn height(&self, x: f64) -> f64 {
+        if self.is_level() {
+            return self.centre.z;
+        }
+        let off = x - self.centre.x;
+        let square = self.radius * self.radius - off * off;
+        self.centre.z - self.sine * square.max(0.0).sqrt()
+    }
+
+    /// Its lowest point.
+    #[must_use]
+    pub fn lowest(&self) -> Point2 {
+        Point2::new(self.centre.x, self.centre.z - self.depth().to_mm())
+    }
+
+    /// How far its lowest point lies below the centre: what it shaves off the floors of its neighbours at most.
+    #[must_use]
+    pub fn depth(&self) -> Length {
+        Length::mm(self.radius * self.sine)
+    }
+
+    /// How far it reaches along y, before and after its centre.
+    #[must_use]
+    pub fn overhang(&self) -> Length {
+        Length::mm(self.radius * self.cosine)
+    }
+
+    /// Its point where it has a slope: there it is deepest below a flank of that slope.
+    #[must_use]
+    pub fn touching(&self, slope: f64) -> Point2 {
+        let length = (slope * slope + self.sine * self.sine).sqrt();
+        if length > 0.0 {
+            Point2::new(
+                self.centre.x + self.radius * slope / length,
+                self.centre.z - self.radius * self.sine * self.sine / length,
+            )
+        } else {
+            self.centre
+        }
+    }
+
+    /// Height over its centre of the flank of a slope that touches it from below.
+    #[must_use]
+    pub fn flank(&self, slope: f64) -> f64 {
+        self.centre.z - self.radius * (slope * slope + self.sine * self.sine).sqrt()
+    }
+
+    /// Both x at which it has a height; its ends where it lies below that, and the centre where it lies above.
+    pub(crate) fn levels(&self, z: f64) -> [f64; 2] {
+        let line = Line {
+            from: Point2::new(self.centre.x, z),
+            slope: 0.0,
+        };
+        if self.is_level() {
+            self.cover()
+        } else {
+            self.crossings(line, 0.0)
+        }
+    }
+
+    /// Whether it shows as a straight line.
+    pub(crate) const fn is_level(&self) -> bool {
+        self.sine == 0.0
+    }
+
+    /// How far a point lies above it.
+    pub(crate) fn below(&self, point: Point2) -> f64 {
+        point.z - self.height(point.x)
+    }
+
+    /// The place between two x where a straight piece lies highest above it.
+    pub(crate) fn highest_above(&self, line: Line, from: f64, to: f64) -> f64 {
+        if self.is_level() {
+            return if line.slope > 0.0 { to } else { from };
+        }
+        self.touching(line.slope).x.max(from).min(to)
+    }
+
+    /// Where a straight piece lies more than so much above it.
+    pub(crate) fn above(&self, from: Point2, to: Point2, level: f64) -> Option<Above> {
+        let ends = [self.below(from) - level, self.below(to) - level];
+        let line = Line::through(from, to);
+        if self.is_level() {
+            let cross = || from.x + (to.x - from.x) * (ends[0] / (ends[0] - ends[1]));
+            return match ends.map(|end| end > 0.0) {
+                [false, false] => None,
+                [true, true] => Some(Above {
+                    from: from.x,
+                    to: to.x,
+                    line,
+                }),
+                [false, true] => Some(Above {
+                    from: cross(),
+                    to: to.x,
+                    line,
+                }),
+                [true, false] => Some(Above {
+                    from: from.x,
+                    to: cross(),
+                    line,
+                }),
+            };
+        }
+        let top = self.highest_above(line, from.x, to.x);
+        if self.below(line.at(top)) <= level {
+            return None;
+        }
+        let crossings = self.crossings(line, level);
+        let left = if ends[0] > 0.0 {
+            from.x
+        } else {
+            crossings[0].max(from.x).min(top)
+        };
+        let right = if ends[1] > 0.0 {
+            to.x
+        } else {
+            crossings[1].min(to.x).max(top)
+        };
+        Some(Above {
+            from: left,
+            to: right,
+            line,
+        })
+    }
+
+    /// Both x at which a line lies so much above it, from left to right; of a line that never does, that of the nearest place.
+    fn crossings(&self, line: Line, level: f64) -> [f64; 2] {
+        let over = line.at(self.centre.x).z - self.centre.z - level;
+        let (square, slope) = (self.sine * self.sine, line.slope);
+        let length = slope * slope + square;
+        let root = (self.radius * self.radius * length - over * over).max(0.0).sqrt();
+        [-1.0, 1.0].map(|sense| self.centre.x + (sense * self.sine * root - over * slope) / length)
+    }
+
+    /// A polyline from one x to a greater one, with corners on the rim and nowhere more than so much above it.
+    pub(crate) fn chords(&self, from: f64, to: f64, tolerance: f64, out: &mut Vec<Point2>) {
+        let mut at = from;
+        out.push(Point2::new(at, self.height(at)));
+        if !self.is_level() {
+            for _ in 0..MOST_CHORDS {
+                at = self.chord(at, to, tolerance);
+                if at >= to {
+                    break;
+                }
+                out.push(Point2::new(at, self.height(at)));
+            }
+        }
+        out.push(Point2::new(to, self.height(to)));
+    }
+
+    /// The end of the longest chord from an x, nearly.
+    fn chord(&self, from: f64, to: f64, tolerance: f64) -> f64 {
+        // By the curvature at the start; the bend of a chord is exact.
+        let inner = (self.radius * self.radius - (from - self.centre.x) * (from - self.centre.x)).max(0.0);
+        let curvature = self.sine * self.radius * self.radius / (inner * inner.sqrt());
+        let guess = (8.0 * tolerance / curvature).sqrt().max(LEAST_CHORD);
+        let mut length = (guess * LONGER).min(to - from);
+        for _ in 0..MOST_TRIES {
+            let bend = self.bend(from, from + length);
+            if bend <= tolerance {
+                break;
+            }
+            length = (length * SHORTER * (tolerance / bend).sqrt()).max(LEAST_CHORD);
+        }
+        from + length
+    }
+
+    /// How far the chord between two x rises above the rim.
+    fn bend(&self, from: f64, to: f64) -> f64 {
+        let line = Line::through(
+            Point2::new(from, self.height(from)),
+            Point2::new(to, self.height(to)),
+        );
+        line.at(self.centre.x).z - self.flank(line.slope)
+    }
+}
+
+/// No stretch takes more chords than this; the last one is longer if need be.
+const MOST_CHORDS: usize = 10_000;
+
+/// How often the length of a chord is corrected.
+const MOST_TRIES: usize = 8;
+
+/// No chord is shorter, in mm: over this even the ends of a rim bend by less than a micrometre.
+const LEAST_CHORD: f64 = 1e-6;
+
+/// A first guess is longer, because the rim may become flatter.
+const LONGER: f64 = 1.3;
+
+/// A correction is a little shorter than the bend asks for.
+const SHORTER: f64 = 0.98;
+
+/// A straight line that is not vertical.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Line {
+    from: Point2,
+    pub(crate) slope: f64,
+}
+
+impl Line {
+    pub(crate) fn through(from: Point2, to: Point2) -> Self {
+        let width = to.x - from.x;
+        let slope = if width > 0.0 { (to.z - from.z) / width } else { 0.0 };
+        Self { from, slope }
+    }
+
+    pub(crate) fn at(self, x: f64) -> Point2 {
+        Point2::new(x, self.from.z + self.slope * (x - self.from.x))
+    }
+}
+
+/// Where a straight piece lies above a rim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Above {
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+    pub(crate) line: Line,
+}

@@ -1,0 +1,100 @@
+//! Rims against the numbers of the field and against circles sampled in space.
+
+use super::*;
+use proptest::prelude::*;
+
+fn rim(lead: f64) -> Rim {
+    Rim::new(Point2::new(0.0, 0.0), Length::mm(25.0), Angle::deg(lead))
+}
+
+#[test]
+fn a_disc_of_25_mm_is_as_deep_as_published() {
+    for (lead, lowest, overhang, fall) in [(3.0, -1.3084, 24.9657, 1.0467), (5.0, -2.1789, 24.9049, 1.7431)] {
+        let rim = rim(lead);
+        assert!((rim.lowest().z - lowest).abs() < 5e-5);
+        assert!((rim.overhang().to_mm() - overhang).abs() < 5e-5);
+        // The floor of a strip of 10 mm falls from the rim to its open side.
+        assert!((rim.height(25.0) - rim.height(15.0) - fall).abs() < 5e-5);
+    }
+    // The floor at the slit of a strip half a millimetre within the rim.
+    assert!((rim(3.0).height(24.5) + 0.260).abs() < 5e-4);
+    // Ripples between passes 10 mm apart.
+    assert!((rim(3.0).height(5.0) - rim(3.0).height(0.0) - 0.0264).abs() < 5e-5);
+    // Against a flank of slope 0.1.
+    assert!((rim(3.0).touching(0.1).x - 22.1499).abs() < 5e-5);
+    assert!((rim(3.0).flank(0.1) + 2.8217).abs() < 5e-5);
+}
+
+proptest! {
+    #[test]
+    fn it_is_the_lower_edge_of_a_circle_in_space(
+        (radius, lead, x, z) in (1.0..80.0_f64, 0.0..30.0_f64, -50.0..50.0_f64, -20.0..60.0_f64),
+        slope in -3.0..3.0_f64,
+    ) {
+        let rim = Rim::new(Point2::new(x, z), Length::mm(radius), Angle::deg(lead));
+        let lean = lead.to_radians();
+        let points = (0..=20_000_u32).map(|i| {
+            let turn = f64::from(i) / 20_000.0 * core::f64::consts::TAU;
+            // The axis leans along y.
+            let (sine, cosine) = libm::sincos(turn);
+            (x + radius * cosine, z + radius * sine * libm::sin(lean))
+        });
+        let mut lowest = f64::INFINITY;
+        for (at, height) in points {
+            prop_assert!(height >= rim.height(at) - 1e-6);
+            lowest = lowest.min(height - slope * (at - x));
+        }
+        prop_assert!((lowest - rim.flank(slope)).abs() < 1e-4 * radius);
+        let touching = rim.touching(slope);
+        prop_assert!((touching.z - slope * (touching.x - x) - rim.flank(slope)).abs() < 1e-9 * radius);
+    }
+
+    #[test]
+    fn chords_are_above_it_by_no_more_than_asked(
+        lead in 0.01..20.0_f64,
+        (a, b) in (-25.0..25.0_f64, -25.0..25.0_f64),
+        tolerance in 1e-4..1e-1_f64,
+    ) {
+        let (from, to) = (a.min(b), a.max(b));
+        let rim = rim(lead);
+        let mut chords = Vec::new();
+        rim.chords(from, to, tolerance, &mut chords);
+        prop_assert!(chords[0].x == from && chords[chords.len() - 1].x == to);
+        for pair in chords.windows(2) {
+            prop_assert!(pair[0].x < pair[1].x || from == to);
+            for i in 0..=50_u32 {
+                let at = pair[0].lerp(pair[1], f64::from(i) / 50.0);
+                let above = rim.below(at);
+                prop_assert!((-1e-9..=tolerance + 1e-9).contains(&above), "{above}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_line_is_above_it_between_its_crossings(
+        lead in prop_oneof![Just(0.0), Just(1e-7), 0.01..20.0_f64],
+        (u, v) in ((-25.0..25.0_f64, -4.0..2.0_f64), (-25.0..25.0_f64, -4.0..2.0_f64)),
+        level in 0.0..1.0_f64,
+    ) {
+        prop_assume!((u.0 - v.0).abs() > 1e-6);
+        let rim = rim(lead);
+        let (from, to) = if u.0 < v.0 { (u, v) } else { (v, u) };
+        let (from, to) = (Point2::new(from.0, from.1), Point2::new(to.0, to.1));
+        let above = rim.above(from, to, level);
+        for i in 0..=200_u32 {
+            let at = from.lerp(to, f64::from(i) / 200.0);
+            let is_above = rim.below(at) > level;
+            let within = |by: f64| above.is_some_and(|above| (above.from - by..=above.to + by).contains(&at.x));
+            let is_near = within(1e-9) != within(-1e-9) || (rim.below(at) - level).abs() < 1e-9;
+            prop_assert!(is_above == within(0.0) || is_near, "{at:?} {above:?}");
+        }
+    }
+}
+
+/// A strip of 10 mm beside a rim that goes on for half a millimetre, with a lead of 5 deg.
+#[test]
+fn a_strip_takes_few_chords() {
+    let mut chords = Vec::new();
+    rim(5.0).chords(14.5, 24.5, 1e-3, &mut chords);
+    assert!((18..=24).contains(&chords.len()), "{}", chords.len());
+}

@@ -1,0 +1,266 @@
+//! `rough rect`: slits of a straight blade and strips of a disc, from the job to programs of all targets and back.
+
+use crate::pipeline::Files;
+use crate::repository::root;
+use vcutc::diagnostics::{Code, has_errors};
+use vcutc::driver::{self, Outcome, Request, Typed};
+use vcutc::readback::{Fresh, Reference};
+use vcutc::rect::Planned;
+use vcutc::registry;
+use vcutc::report;
+use vcutc::report::page::Further;
+use vcutc_backend_api::ir::{Action, Program};
+use vcutc_backend_api::readback::ProgramFile;
+
+const SLOPE: &str = "start (0 mm, 10 mm) line to (100 mm, 40 mm)";
+const HILL: &str = "start (0 mm, 12 mm) line to (50 mm, 38 mm) line to (100 mm, 12 mm)";
+const VALLEY: &str =
+    "start (0 mm, 40 mm) line to (30 mm, 10 mm) line to (70 mm, 10 mm) line to (100 mm, 40 mm)";
+
+const ROBOT: &str = "tool dagger { frame = frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg), place = 1, \
+                     load = load(mass = 14 kg, x = 0 mm, y = 0 mm, z = 140 mm) }\n  \
+                     tool wheel { frame = frame(x = 0 mm, y = 0 mm, z = 280 mm, a = 0 deg, b = 0 deg, c = 0 deg), place = 2, \
+                     load = load(mass = 13 kg, x = 0 mm, y = 0 mm, z = 130 mm) }\n  \
+                     base = frame(x = 1700 mm, y = -600 mm, z = 850 mm, a = 90 deg, b = 0 deg, c = 0 deg)\n  \
+                     ultrasonic = output(12)\n  spindle = output(13)";
+
+/// Its leading side points along Y while the head is upright.
+const GANTRY: &str = "tool dagger { frame = frame(x = 0 mm, y = 0 mm, z = 160 mm, a = -90 deg, b = 0 deg, c = 0 deg), place = 1 }\n  \
+                      tool wheel { frame = frame(x = 0 mm, y = 0 mm, z = 150 mm, a = -90 deg, b = 0 deg, c = 0 deg), place = 2 }\n  \
+                      base = frame(x = 350 mm, y = 300 mm, z = 0 mm, a = 0 deg, b = 0 deg, c = 0 deg)\n  \
+                      home = axes(x = 300 mm, y = 200 mm, z = -200 mm, b = 0 deg, a = 0 deg, c = 0 deg)\n  \
+                      change { at = axes(x = 300 mm, y = 100 mm, z = -200 mm, b = 0 deg, a = 0 deg, c = 0 deg), time = 10 s, \
+                      by = program }\n  ultrasonic = output(3)\n  gcode { dialect = sinumerik }";
+
+fn job(profile: &str, more: &str) -> String {
+    let arm = |home: &str, change: &str| {
+        format!(
+            "{ROBOT}\n  home = joints({home})\n  change {{ at = joints({change}), time = 10 s, by = hand }}"
+        )
+    };
+    let kuka = arm(
+        "0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg",
+        "60 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg",
+    );
+    let abb = arm(
+        "0 deg, 0 deg, 0 deg, 0 deg, 45 deg, 0 deg",
+        "60 deg, 0 deg, 0 deg, 0 deg, 45 deg, 0 deg",
+    );
+    format!(
+        "job \"strips\"\n\nstock {{ size = (100 mm, 60 mm, 50 mm) }}\n\nprofile {{ {profile} }}\n\n\
+         blade dagger {{ cutting_length = 13 mm, half_apex = 7.13 deg, thickness = 0.5 mm, edges = double }}\n\
+         blade wheel = disc {{\n  radius = 25 mm, thickness = 1 mm, depth = 12 mm, width = 20 mm, spin = 3000 rev/min\n  \
+         body (1 mm, 8 mm) (60 mm, 25 mm)\n}}\n\n\
+         rough rect {{\n  blade = dagger\n  disc = wheel\n  rake = 60 deg\n  {more}\n  \
+         feed {{ cut = 150 mm/s, free = 100 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}\n  clearance = 10 mm\n}}\n\n\
+         machine kuka = robot \"kuka/kr210_r3100_ultra\" {{\n  {kuka}\n}}\n\n\
+         machine abb = robot \"abb/irb6700_155_285\" {{\n  {abb}\n}}\n\n\
+         machine gantry = five_axis \"shop/knife_gantry.toml\" {{\n  {GANTRY}\n}}\n\ncell {{ machine = kuka }}\n"
+    )
+}
+
+const TENS: &str = "layer = 10 mm, step = 10 mm, residual = lift";
+
+fn compiled(text: String, machine: &str) -> Outcome {
+    let files = Files::of(root().join("examples")).with("strips.vcut", text);
+    let request = Request {
+        path: "strips.vcut",
+        loader: &files,
+        overrides: &[],
+        machine: Some(machine),
+        options: Typed::default(),
+        operations: registry::OPERATIONS,
+        targets: &registry::backends(),
+    };
+    driver::compile(request, &mut |_| {}).unwrap()
+}
+
+fn codes(outcome: &Outcome) -> Vec<Code> {
+    let codes = outcome.diagnostics.iter().map(|diagnostic| diagnostic.code);
+    codes.collect()
+}
+
+fn planned(outcome: &Outcome) -> &Planned {
+    let planned: &dyn core::any::Any = &*outcome.plan.as_ref().unwrap().operations[0];
+    planned.downcast_ref().unwrap()
+}
+
+fn program(outcome: &Outcome) -> &Program {
+    outcome.compiled.as_ref().unwrap().program.verified().program()
+}
+
+/// What the proof finds left is what the planner counted with, and no slit or strip is without its op.
+#[test]
+fn slopes_and_hills_are_proven_as_planned() {
+    for (profile, more) in [
+        (SLOPE, TENS),
+        (SLOPE, "residual = shift, lead = 0 deg"),
+        (
+            SLOPE,
+            "residual = discard, layer = 5 mm, step = 8 mm, through = 2",
+        ),
+        (HILL, "lead = 3 deg, allowance = 2 mm"),
+        (HILL, "limits { scallop <= 6 mm }"),
+    ] {
+        let outcome = compiled(job(profile, more), "kuka");
+        assert!(
+            !has_errors(&outcome.diagnostics),
+            "{more}: {:?}",
+            outcome.diagnostics
+        );
+        let report = &outcome.compiled.as_ref().unwrap().report;
+        let plan = &planned(&outcome).plan;
+        let left = report.largest_deviation().to_mm();
+        assert!(left <= plan.left.to_mm() + 2e-3, "{more}: {left} {:?}", plan.left);
+        let counts = plan.counts();
+        assert_eq!(report.cuts(), counts.slits + counts.strips, "{more}");
+        let ops = &program(&outcome).ops;
+        let count = |is: fn(&Action) -> bool| ops.iter().filter(|op| is(&op.action)).count();
+        assert_eq!(count(|action| matches!(action, Action::Cut { .. })), counts.slits);
+        assert_eq!(
+            count(|action| matches!(action, Action::Follow { .. })),
+            counts.strips
+        );
+        assert_eq!(
+            count(|action| matches!(action, Action::ToolChange { .. })),
+            counts.changes,
+            "{more}"
+        );
+    }
+}
+
+/// N9 of the sloping part: 28 strips and 27 slits of 10 mm by 10 mm.
+#[test]
+fn a_slope_takes_as_many_strips_as_by_hand() {
+    let outcome = compiled(
+        job(
+            SLOPE,
+            "layer = 10 mm, step = 10 mm, residual = lift, lead = 0 deg, beyond = 0 mm, standoff = 0 mm",
+        ),
+        "kuka",
+    );
+    assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
+    let counts = planned(&outcome).plan.counts();
+    assert_eq!((counts.strips, counts.slits), (28, 27));
+    let report = &outcome.compiled.as_ref().unwrap().report;
+    assert!(
+        (report.removed.to_mm2() - 2350.0).abs() < 0.1,
+        "{:?}",
+        report.removed
+    );
+}
+
+/// Of each machine its target, what starts its disc, and an edit.
+const CELLS: [(&str, &str, &str, (&str, &str)); 3] = [
+    (
+        "kuka",
+        "krl",
+        "$OUT[13]=TRUE",
+        ("$OUT[13]=TRUE", "$OUT[13]=FALSE"),
+    ),
+    (
+        "abb",
+        "rapid",
+        "SetDO do13,1;",
+        ("Put in blade wheel", "Put in blade dagger"),
+    ),
+    ("gantry", "gcode", "S3000 M3", ("T2 M6", "T1 M6")),
+];
+
+#[test]
+fn all_targets_write_strips_and_read_them_back() {
+    for (machine, target, word, (from, to)) in CELLS {
+        let outcome = compiled(job(SLOPE, TENS), machine);
+        assert!(
+            !has_errors(&outcome.diagnostics),
+            "{machine}: {:?}",
+            outcome.diagnostics
+        );
+        let backend = registry::backend(target).unwrap();
+        let written = driver::write(&outcome, backend).unwrap().unwrap();
+        let text: String = written.files.iter().map(|file| file.text.as_str()).collect();
+        assert!(text.contains(word), "{target}: {text}");
+        let done = outcome.compiled.as_ref().unwrap();
+        let is_same = |files: &[ProgramFile]| {
+            let reader = backend.reader().unwrap();
+            let (job, plan, reached) = (
+                outcome.job.as_ref(),
+                outcome.plan.as_ref(),
+                done.program.reached(),
+            );
+            let fresh = Fresh::of(job, plan, reached, &written, reader).unwrap();
+            let verdict = Reference::new(fresh).verify(files, &[], &mut outcome.sources.clone());
+            !has_errors(&verdict.diagnostics)
+        };
+        assert!(is_same(&written.files), "{target}");
+        let mut files = written.files.clone();
+        let mut changed = false;
+        for file in &mut files {
+            let text = file.text.replacen(from, to, 1);
+            changed |= text != file.text;
+            file.text = text;
+        }
+        assert!(changed, "{target}: no {from} in {text}");
+        if target != "rapid" {
+            assert!(!is_same(&files), "{target}: {from} to {to}");
+        }
+    }
+}
+
+#[test]
+fn pages_show_both_blades() {
+    let outcome = compiled(job(SLOPE, TENS), "kuka");
+    let page = report::page::page(&outcome, Further::NOTHING).unwrap();
+    for words in [
+        "<caption>Blades</caption>",
+        "does not show operations that change the blade",
+    ] {
+        assert!(page.contains(words), "no {words}");
+    }
+    let summary = &outcome.compiled.as_ref().unwrap().summary;
+    assert!(
+        summary
+            .iter()
+            .any(|line| line.contains("28 strips") || line.contains("strips")),
+        "{summary:?}"
+    );
+}
+
+#[test]
+fn what_blades_cannot_do_is_refused() {
+    let refused = |profile: &str, more: &str| codes(&compiled(job(profile, more), "kuka"));
+    assert_eq!(refused(VALLEY, TENS), [Code::NoAccess]);
+    assert_eq!(
+        refused(SLOPE, "step = 20 mm, layer = 10 mm"),
+        [Code::BladesTooSmall]
+    );
+    assert_eq!(refused(SLOPE, "layer = 12 mm"), [Code::BladesTooSmall]);
+    assert_eq!(
+        refused(SLOPE, "through = 2, residual = shift"),
+        [Code::LimitsConflict]
+    );
+    assert_eq!(refused(SLOPE, "limits { changes <= 1 }"), [Code::LimitsConflict]);
+    assert_eq!(refused(SLOPE, "beyond = 30 mm"), [Code::OutOfRange]);
+}
+
+/// The offer of a closed valley is tried: above it the strips come out, and Vs below.
+#[test]
+fn the_offer_for_a_valley_works_and_vs_cut_the_rest() {
+    let outcome = compiled(job(VALLEY, TENS), "kuka");
+    let fix = &outcome.diagnostics[0].fixes[0];
+    let height = fix.edits[0].replacement.trim();
+    let height = height.rsplit("= ").next().unwrap().to_owned();
+    let above = compiled(job(VALLEY, &format!("{TENS}\n  down_to = {height}")), "kuka");
+    assert!(
+        !has_errors(&above.diagnostics),
+        "{height}: {:?}",
+        above.diagnostics
+    );
+    let vcut = "\nrough vcut {\n  blade = dagger\n  lattice = interlaced\n  rake = 60 deg\n  swing = 30 deg\n  \
+                feed { cut = 150 mm/s, travel = 200 mm/s, reorient = 90 deg/s }\n  clearance = 10 mm\n}\n";
+    let both = job(VALLEY, &format!("{TENS}\n  down_to = {height}")) + vcut;
+    let both = compiled(both, "kuka");
+    assert!(!has_errors(&both.diagnostics), "{:?}", both.diagnostics);
+    let removed = |outcome: &Outcome| outcome.compiled.as_ref().unwrap().report.removed.to_mm2();
+    assert!(removed(&both) > removed(&above) + 100.0);
+}
