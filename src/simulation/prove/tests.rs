@@ -1,6 +1,7 @@
 //! Programs of walls, uneven Vs and single flanks, replayed.
 
 use super::{Bound, CutFault, Replay, replay};
+use crate::cross_section::CrossSection;
 use crate::report::{Report, report};
 use crate::surface::wall_tests::{Material, is_possible};
 use crate::surface::{Side, Surface, Vee};
@@ -310,13 +311,13 @@ fn a_cut() -> impl Strategy<Value = Swung> {
 
 /// Those of some cuts that nothing blocks, and what slicing polygons along them leaves.
 fn possible(cuts: Vec<Swung>) -> (Vec<Swung>, Material) {
-    let mut surface = Surface::flat(100.0, 40.0);
+    let mut section = CrossSection::new(Surface::flat(100.0, 40.0));
     let mut material = Material::block(100.0, 40.0);
-    let mut kept = Vec::new();
+    let (mut kept, mut slits) = (Vec::new(), Vec::new());
     for cut in cuts {
-        if is_possible(&mut surface, vee(cut)) {
-            surface.release(vee(cut));
-            material.cut(vee(cut));
+        if is_possible(section.surface(), vee(cut)) {
+            section.release(vee(cut));
+            material.cut_beside(vee(cut), &mut slits);
             kept.push(cut);
         }
     }

@@ -21,7 +21,7 @@ fn corners(surface: &Surface) -> Vec<(f64, f64)> {
     surface.corners().map(|corner| (corner.x, corner.z)).collect()
 }
 
-type Polygon = Vec<[f64; 2]>;
+pub(crate) type Polygon = Vec<[f64; 2]>;
 
 /// All of the material, as polygons.
 #[derive(Clone, Debug)]
@@ -45,6 +45,12 @@ impl Material {
 
     /// Slices along the flanks of a cut, far up, and drops the pieces that do not reach down to the bottom.
     pub(crate) fn cut(&mut self, vee: Vee) {
+        self.cut_beside(vee, &mut Vec::new());
+    }
+
+    /// The same with upright slits that are there: what lies between them and the cut comes free too. One whose flanks are
+    /// upright is one more of them.
+    pub(crate) fn cut_beside(&mut self, vee: Vee, slits: &mut Vec<Polygon>) {
         let far = |slope: Option<f64>, sense: f64| {
             slope.map(|slope| [vee.tip.x + sense * 200.0 / slope, vee.tip.z + 200.0])
         };
@@ -65,7 +71,13 @@ impl Material {
             .chain([tip])
             .chain(start(vee.right, vee.left, 1.0))
             .collect();
-        let pieces = self.0.slice_by_as::<i64>(&line, FillRule::EvenOdd);
+        let is_slit = [vee.left, vee.right].into_iter().flatten().all(f64::is_infinite);
+        let mut lines = slits.clone();
+        lines.push(line.clone());
+        if is_slit {
+            slits.push(line);
+        }
+        let pieces = self.0.slice_by_as::<i64>(&lines, FillRule::EvenOdd);
         let stands = |piece: &Vec<Polygon>| piece.iter().flatten().any(|[_, z]| z.abs() < 1e-9);
         self.0 = pieces.into_iter().filter(stands).collect();
     }
