@@ -42,7 +42,7 @@ fn stock(program: &Program) -> Block {
     }
 }
 
-/// Points of the blade frame T between which blade and tool lie: those of the blade at hand, and the flange. The arm behind the flange is farther away from the work than these.
+/// Points of the blade frame T between which blade and tool lie: those of the blade at hand, and the flange. The arm beyond the flange is farther away from the work than these.
 fn outline(survey: &Survey<'_>) -> Vec<DVec3> {
     let blade = survey.program.blade(survey.tool);
     let hull = blade.into_iter().flat_map(Blade::hull).map(DVec3::from_array);

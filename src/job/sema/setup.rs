@@ -48,8 +48,8 @@ const FEEDS_OF_TWO: BlockSpec = BlockSpec {
     fields: &[
         value("cut", "150 mm/s").required().within(SPEED),
         value("free", "100 mm/s").required().within(SPEED),
-        value("travel", "200 mm/s").required().within(SPEED),
-        value("reorient", "90 deg/s").required().within(TURNING_RATE),
+        TRAVEL,
+        REORIENT,
     ],
     inner: Inner::Refused,
 };
@@ -58,11 +58,14 @@ const FEEDS: BlockSpec = BlockSpec {
     title: "`feed`",
     fields: &[
         value("cut", "200 mm/s").required().within(SPEED),
-        value("travel", "200 mm/s").required().within(SPEED),
-        value("reorient", "90 deg/s").required().within(TURNING_RATE),
+        TRAVEL,
+        REORIENT,
     ],
     inner: Inner::Refused,
 };
+
+const TRAVEL: FieldSpec = value("travel", "200 mm/s").required().within(SPEED);
+const REORIENT: FieldSpec = value("reorient", "90 deg/s").required().within(TURNING_RATE);
 
 /// Air between the blade and the stock where it turns, when the job does not say: a usual value for the errors of stock and
 /// robot together, from no source.

@@ -212,7 +212,7 @@ struct Writer<'b> {
     held: Held,
     travel: FeedId,
     rate: RateId,
-    /// y of the tip before the stock and behind it, and z of the safe plane.
+    /// y of the tip in front of the stock and beyond it, and z of the safe plane.
     front: f64,
     back: f64,
     safe: f64,

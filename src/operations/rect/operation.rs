@@ -67,7 +67,7 @@ impl Operation for RoughRect {
         };
         let blades = self.pair(ground.job.machine.as_ref());
         let plan = plan::plan(work, &blades, &self.wish(), ground.cuts_left)
-            .map_err(|refusal| Box::new(refused::told(self, &refusal)) as Box<dyn Unplanned>)?;
+            .map_err(|refusal| Box::new(refused::diagnostic(self, &refusal)) as Box<dyn Unplanned>)?;
         let standoff = blades.knife.standoff;
         let planned = Planned {
             extensions: self.extensions(),

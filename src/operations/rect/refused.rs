@@ -11,7 +11,7 @@ use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::{Auto, Sourced};
 
 /// A refusal as it is reported.
-pub(crate) fn told(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
+pub(crate) fn diagnostic(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
     match refusal {
         Refusal::Nothing => nothing(asked),
         Refusal::NoEdge { rake, half_apex } => Diagnostic::new(
@@ -189,11 +189,11 @@ fn too_wide(asked: &RoughRect, widest: Length, limit: Length, bound: WidthBound)
         "these strips",
     )
     .and(span.unwrap_or(asked.disc.body.span), label);
-    match (asked.step.value, asked.step.span) {
-        (Auto::Given(_), Some(span)) if limit > Length::ZERO => diagnostic
-            .help(format!("use a step of at most {} mm", mm(limit)))
-            .fix("leave the step to the compiler", span, "auto"),
-        _ => diagnostic.help("use a larger disc, or one with a thinner shank"),
+    match asked.step.value {
+        Auto::Given(_) if limit > Length::ZERO => {
+            diagnostic.help(format!("use a step of at most {} mm", mm(limit)))
+        }
+        Auto::Given(_) | Auto::Auto => diagnostic.help("use a larger disc, or one with a thinner shank"),
     }
 }
 

@@ -27,7 +27,7 @@ const fn spins(state: Switch) -> impl Fn(&Action) -> bool {
 #[test]
 fn a_disc_pass_is_verified() {
     assert_eq!(broken(|_| {}), []);
-    // Without a machine nobody knows what spins.
+    // Without a machine it is not known what spins.
     assert_eq!(
         broken(|program| {
             program.cell = None;
