@@ -22,6 +22,7 @@ pub mod starter;
 pub mod summary;
 mod target;
 mod trials;
+pub mod ways;
 
 pub use air::{air_cut_height, into_air_cut};
 pub use asked::{machine_words, misfits, understood};
@@ -35,7 +36,7 @@ use crate::checks::{Bodies, Carried, Checks};
 use crate::memory::Memory;
 use crate::numbers::Numbers;
 use crate::summary::chosen::{self, OperationFigures};
-use crate::summary::summary;
+use crate::summary::{summary, with_processes};
 use crate::summary::times::{TimeFigures, figures as time_figures};
 use refusal::{NotTaken, Refused, Unhelped};
 use routes::{Ended, Made, along_its_routes};
@@ -62,6 +63,7 @@ use vcutc_simulation::report::Report;
 use vcutc_simulation::timing::times;
 use vcutc_syntax::ast::Ast;
 use vcutc_syntax::fingerprint;
+use ways::Comparison;
 
 /// What to compile.
 #[derive(Clone, Copy)]
@@ -131,6 +133,8 @@ pub struct Outcome {
     pub plan: Option<PlannedJob>,
     /// The program, when the job is without errors.
     pub compiled: Option<Compiled>,
+    /// How other ways to do its operations compare, where the job leaves that open.
+    pub comparisons: Vec<Comparison>,
     /// The targets of this build that drive the job's machine.
     pub drivers: Vec<&'static str>,
 }
@@ -281,6 +285,18 @@ pub fn compile_in(
     Ok(outcome)
 }
 
+/// The job with the choices made that it leaves open; as it is where it leaves none.
+#[must_use]
+pub fn decided(job: CheckedJob, wanted: &Wanted) -> CheckedJob {
+    let mut run = Run {
+        memory: &mut Memory::none(),
+        wanted,
+        patience: &mut Unhurried,
+    };
+    let decided = ways::decided(&job, &SourceMap::default(), &mut run, &mut |_| ());
+    decided.map_or(job, |decided| decided.job)
+}
+
 /// Compiles a job that was checked before, perhaps changed since. None where it has errors, or is not wanted any more.
 #[must_use]
 pub fn compile_checked(job: &CheckedJob, wanted: &Wanted) -> Option<(PlannedJob, Compiled)> {
@@ -301,8 +317,16 @@ fn plan_and_prove(
     run: &mut Run<'_>,
     progress: &mut dyn FnMut(Stage),
 ) {
+    let mut made = None;
+    if let Some(job) = &outcome.job
+        && let Some(decided) = ways::decided(job, &outcome.sources, run, progress)
+    {
+        outcome.job = Some(decided.job);
+        outcome.comparisons = decided.comparisons;
+        made = decided.made;
+    }
     let Some(job) = &outcome.job else { return };
-    let ended = match along_its_routes(job, &outcome.sources, run, progress) {
+    let ended = match routes::ended(made, job, &outcome.sources, run, progress) {
         Ended::Compiled(made) => {
             let objections = target::objections(job, &made.compiled, request);
             if objections.is_empty() {
@@ -334,7 +358,9 @@ fn plan_and_prove(
             outcome.diagnostics.extend(warnings);
             outcome.diagnostics.extend(much_stays);
             outcome.diagnostics.extend(warned.into_iter().flatten());
-            (outcome.plan, outcome.compiled) = (Some(*plan), Some(*compiled));
+            let mut compiled = *compiled;
+            with_processes(&mut compiled.summary, &outcome.comparisons);
+            (outcome.plan, outcome.compiled) = (Some(*plan), Some(compiled));
         }
         Ended::Refused(refused) => {
             let before = (&outcome.sources, outcome.diagnostics.as_slice());

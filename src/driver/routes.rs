@@ -36,8 +36,22 @@ pub(super) struct Made {
 }
 
 impl Made {
-    fn time(&self) -> Duration {
+    pub(super) fn time(&self) -> Duration {
         self.compiled.report.times.all.total()
+    }
+}
+
+/// What came of a checked job, where it is not known yet.
+pub(super) fn ended<'j>(
+    known: Option<Made>,
+    job: &'j CheckedJob,
+    sources: &SourceMap,
+    run: &mut Run<'_>,
+    progress: &mut dyn FnMut(Stage),
+) -> Ended<'j> {
+    match known {
+        Some(made) => Ended::Compiled(made),
+        None => along_its_routes(job, sources, run, progress),
     }
 }
 

@@ -2,9 +2,11 @@
 
 pub mod air;
 pub mod chosen;
+mod processes;
 pub mod times;
 
 use crate::checks::Checks;
+use crate::ways::Comparison;
 use vcutc_backend_api::ir::Site;
 use vcutc_backend_api::script::duration_words;
 use vcutc_backend_api::units::{Duration, Length};
@@ -70,6 +72,12 @@ pub fn summary(
     let reach = reach.into_iter().flat_map(reach_summary::lines);
     lines.extend(reach.map(|(name, text)| row(name, &text)));
     lines
+}
+
+/// Adds what there is to say of other ways to do its operations, after what is said of these.
+pub(crate) fn with_processes(lines: &mut Vec<String>, comparisons: &[Comparison]) {
+    let at = lines.len().min(2);
+    lines.splice(at..at, processes::lines(comparisons));
 }
 
 /// `at least 3.20 mm above the stock in cuts, nearest in layer 7, cut 12`.

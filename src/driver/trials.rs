@@ -4,8 +4,8 @@
 //! the text, exactly as an editor would make it, and the text is compiled as far as these two. How often that is done for one
 //! refusal is bounded by a [`Budget`].
 
-use super::routes::{Ended, along_its_routes};
-use super::{Request, Run, Unhurried, target};
+use super::routes::{self, Ended};
+use super::{Request, Run, Unhurried, target, ways};
 use crate::memory::Memory;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_cancellation::Wanted;
@@ -95,7 +95,9 @@ impl<'t> Trials<'t> {
             wanted: &self.budget.wanted,
             patience: &mut Unhurried,
         };
-        let ended = along_its_routes(&job, &sources, &mut run, &mut |_| ());
+        let decided = ways::decided(&job, &sources, &mut run, &mut |_| ());
+        let (job, made) = decided.map_or((job, None), |decided| (decided.job, decided.made));
+        let ended = routes::ended(made, &job, &sources, &mut run, &mut |_| ());
         let (plan, left) = match ended {
             Ended::Compiled(made) => {
                 let objections = target::objections(&job, &made.compiled, self.request);

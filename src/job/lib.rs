@@ -10,6 +10,7 @@ mod places;
 pub mod sema;
 pub mod setup;
 mod tools;
+pub mod ways;
 
 pub use blades::{Blade, BladeKind, BladeRef, Body, BodyStage, Crusher, Disc, StraightBlade};
 pub use operation::planned::{self, PlannedJob, PlannedOperation};
@@ -66,6 +67,8 @@ pub struct CheckedJob {
     pub profile_span: Span,
     /// What to do, in order; at least one.
     pub operations: Vec<Box<dyn Operation>>,
+    /// Which of the operations may be done otherwise: each stands here in its first way.
+    pub open: Vec<ways::OpenChoice>,
     /// On what: the one that `cell` names, else the one in the job's own file, else the only one there is.
     pub machine: Option<Machine>,
 }

@@ -20,6 +20,12 @@ impl CheckedJob {
             setup(operation.setup_mut(), place);
             operation.forget_places(place);
         }
+        for choice in &mut job.open {
+            for way in choice.ways.iter_mut() {
+                setup(way.operation.setup_mut(), place);
+                way.operation.forget_places(place);
+            }
+        }
         if let Some(on) = &mut job.machine {
             machine(on, place);
         }

@@ -46,7 +46,8 @@ pub mod units;
 pub mod vocabulary;
 pub mod written;
 
-use crate::{Blade, BladeRef, CheckedJob, Machine, Operation};
+use crate::ways::{OpenChoice, Ways};
+use crate::{Blade, BladeRef, CheckedJob, Machine};
 use eval::Scope;
 use files::{File, Files};
 use gather::Definitions;
@@ -210,7 +211,7 @@ fn whole(
         Some(placed) => profile::check(placed.block, placed.place, stock, scope, session),
         None => Err(missing.profile(stock.ok(), session)),
     };
-    let operations: Vec<Checked<Box<dyn Operation>>> = all
+    let ways: Vec<Checked<Ways>> = all
         .operations
         .iter()
         .map(|(kind, placed)| {
@@ -221,13 +222,13 @@ fn whole(
                 blades: &blades,
                 stock: stock.ok(),
             };
-            kind.check(written, session)
+            kind.ways(written, session)
         })
         .collect();
-    let operations: Checked<Vec<Box<dyn Operation>>> = if operations.is_empty() {
+    let ways: Checked<Vec<Ways>> = if ways.is_empty() {
         Err(missing.operation(session))
     } else {
-        operations.into_iter().collect()
+        ways.into_iter().collect()
     };
     let machine = cell::choose(
         cell::Said {
@@ -244,12 +245,10 @@ fn whole(
         Some(machine) => options::over(machine, said.options, scope, session).map(Some),
         None => Ok(None),
     });
-    let machine = match (machine, &operations) {
-        (Ok(Some(machine)), Ok(operations)) => {
-            let blades: Vec<BladeRef<'_>> = operations
-                .iter()
-                .flat_map(|operation| operation.blades())
-                .collect();
+    let machine = match (machine, &ways) {
+        (Ok(Some(machine)), Ok(ways)) => {
+            let ways = ways.iter().flat_map(Ways::iter);
+            let blades: Vec<BladeRef<'_>> = ways.flat_map(|way| way.operation.blades()).collect();
             tools::used(machine, &blades)
                 .map(Some)
                 .map_err(|fault| session.reports.push(*fault))
@@ -257,6 +256,12 @@ fn whole(
         (machine, _) => machine,
     };
     let (name, stock) = (name?, stock?);
+    let ways = ways?;
+    let open = ways.iter().enumerate().filter(|(_, ways)| ways.are_several());
+    let open = open.map(|(operation, ways)| OpenChoice {
+        operation,
+        ways: ways.clone(),
+    });
     Ok(CheckedJob {
         name: name.node.clone(),
         name_span: name.span,
@@ -264,7 +269,8 @@ fn whole(
         stock_span: stock.span,
         part: part?,
         profile_span: all.profile.map_or(stock.span, |placed| placed.place.whole),
-        operations: operations?,
+        open: open.collect(),
+        operations: ways.into_iter().map(|ways| ways.into_first().operation).collect(),
         machine: machine?,
     })
 }

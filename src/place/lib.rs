@@ -166,6 +166,7 @@ fn prepare(
     let Some(job) = job.filter(|_| !has_errors(&diagnostics)) else {
         return Err(Failed::Diagnostics(diagnostics));
     };
+    let job = driver::decided(job, &Wanted::ALWAYS);
     let Some(machine) = job.machine.clone() else {
         return Err(Failed::Diagnostics(vec![without_machine(&job)]));
     };

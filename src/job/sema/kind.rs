@@ -4,6 +4,7 @@ use super::report::Checked;
 use super::session::Session;
 use super::written::Written;
 use crate::operation::Operation;
+use crate::ways::{Way, Ways};
 use core::fmt::Debug;
 use vcutc_diagnostics::schema::field::{BlockSpec, Need, Takes};
 
@@ -42,6 +43,14 @@ pub trait Kind: Debug + Sync {
 
     /// Works out what a block of it means.
     fn check(&self, written: Written<'_>, session: &mut Session<'_>) -> Checked<Box<dyn Operation>>;
+
+    /// The same with all ways that the block leaves to the compiler; most leave none.
+    fn ways(&self, written: Written<'_>, session: &mut Session<'_>) -> Checked<Ways> {
+        Ok(Ways::one(Way {
+            word: self.words()[1],
+            operation: self.check(written, session)?,
+        }))
+    }
 }
 
 /// The kinds of operation that this compiler knows.

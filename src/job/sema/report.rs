@@ -32,6 +32,15 @@ impl Reports {
         token
     }
 
+    /// Takes what was found by a second look at the same text, without what is known.
+    pub fn append_new(&mut self, found: Self) {
+        for diagnostic in found.diagnostics {
+            if !self.diagnostics.contains(&diagnostic) {
+                self.diagnostics.push(diagnostic);
+            }
+        }
+    }
+
     /// Whether there are more than anybody reads in one go, so that it is time to be brief.
     pub const fn are_many(&self) -> bool {
         self.diagnostics.len() > 200

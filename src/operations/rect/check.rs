@@ -37,7 +37,8 @@ const LEADS: Range = Range::new(
 /// Layers that a slit may go through.
 const THROUGH: Range = Range::closed(Dimension::PURE, 1.0, 1000.0);
 
-const SPEC: BlockSpec = BlockSpec {
+/// Its fields.
+pub const SPEC: BlockSpec = BlockSpec {
     title: "`rough rect`",
     fields: &[
         setup::BLADE,

@@ -23,5 +23,5 @@ mod verdict;
 mod words;
 
 pub use asked::RoughRect;
-pub use check::Rect;
+pub use check::{Rect, SPEC};
 pub use decided::Planned;

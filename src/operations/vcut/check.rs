@@ -18,7 +18,8 @@ use vcutc_job::sema::session::Session;
 use vcutc_job::sema::setup;
 use vcutc_job::sema::written::Written;
 
-const SPEC: BlockSpec = BlockSpec {
+/// Its fields.
+pub const SPEC: BlockSpec = BlockSpec {
     title: "`rough vcut`",
     fields: &[
         setup::BLADE,

@@ -26,5 +26,5 @@ mod tables;
 mod verdict;
 
 pub use asked::RoughVcut;
-pub use check::Vcut;
+pub use check::{SPEC, Vcut};
 pub use plan::PlannedVcut;

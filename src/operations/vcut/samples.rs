@@ -42,6 +42,7 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
         stock_span: span,
         part: Part::through(profile).unwrap(),
         profile_span: span,
+        open: Vec::new(),
         operations: vec![Box::new(RoughVcut {
             setup: Setup {
                 head_span: span,
