@@ -119,6 +119,32 @@ impl Rim {
         point.z - self.height(point.x)
     }
 
+    /// A point with what its place has in common for both pieces that end there.
+    pub(crate) fn over(&self, at: Point2) -> Over {
+        let off = at.x - self.centre.x;
+        let root = (self.radius * self.radius - off * off).max(0.0).sqrt();
+        Over {
+            at,
+            above: at.z - self.centre.z + self.sine * root,
+            root,
+        }
+    }
+
+    /// Whether a straight piece plainly is nowhere more than so much above it. The rim lies below its own chord there by no more
+    /// than its greatest curvature makes it.
+    pub(crate) fn is_clear(&self, from: Over, to: Over, level: f64) -> bool {
+        let higher = from.above.max(to.above);
+        if higher > level {
+            return false;
+        }
+        if self.is_level() {
+            return true;
+        }
+        let (width, root) = (to.at.x - from.at.x, from.root.min(to.root));
+        let bend = width * width * self.sine * self.radius * self.radius;
+        (level - higher) * (8.0 * root * root * root) >= bend
+    }
+
     /// The place between two x where a straight piece lies highest above it.
     pub(crate) fn highest_above(&self, line: Line, from: f64, to: f64) -> f64 {
         if self.is_level() {
@@ -131,26 +157,19 @@ impl Rim {
     pub(crate) fn above(&self, from: Point2, to: Point2, level: f64) -> Option<Above> {
         let ends = [self.below(from) - level, self.below(to) - level];
         let line = Line::through(from, to);
+        let is_above = ends.map(|end| end > 0.0);
+        if is_above == [true; 2] {
+            let (from, to) = (from.x, to.x);
+            return Some(Above { from, to, line });
+        }
         if self.is_level() {
-            let cross = || from.x + (to.x - from.x) * (ends[0] / (ends[0] - ends[1]));
-            return match ends.map(|end| end > 0.0) {
-                [false, false] => None,
-                [true, true] => Some(Above {
-                    from: from.x,
-                    to: to.x,
-                    line,
-                }),
-                [false, true] => Some(Above {
-                    from: cross(),
-                    to: to.x,
-                    line,
-                }),
-                [true, false] => Some(Above {
-                    from: from.x,
-                    to: cross(),
-                    line,
-                }),
+            let cross = from.x + (to.x - from.x) * (ends[0] / (ends[0] - ends[1]));
+            let (from, to) = match is_above {
+                [true, _] => (from.x, cross),
+                [_, true] => (cross, to.x),
+                [false, false] => return None,
             };
+            return Some(Above { from, to, line });
         }
         let top = self.highest_above(line, from.x, to.x);
         if self.below(line.at(top)) <= level {
@@ -185,61 +204,47 @@ impl Rim {
 
     /// A polyline from one x to a greater one, with corners on the rim and nowhere more than so much above it.
     pub(crate) fn chords(&self, from: f64, to: f64, tolerance: f64, out: &mut Vec<Point2>) {
-        let mut at = from;
-        out.push(Point2::new(at, self.height(at)));
+        out.push(Point2::new(from, self.height(from)));
         if !self.is_level() {
-            for _ in 0..MOST_CHORDS {
-                at = self.chord(at, to, tolerance);
-                if at >= to {
-                    break;
-                }
-                out.push(Point2::new(at, self.height(at)));
+            let middle = self.centre.x.max(from).min(to);
+            self.inwards(from, middle, tolerance, out);
+            if from < middle && middle < to {
+                out.push(self.lowest());
+            }
+            let first = out.len();
+            self.inwards(to, middle, tolerance, out);
+            if let Some(right) = out.get_mut(first..) {
+                right.reverse();
             }
         }
         out.push(Point2::new(to, self.height(to)));
     }
 
-    /// The end of the longest chord from an x, nearly.
-    fn chord(&self, from: f64, to: f64, tolerance: f64) -> f64 {
-        // By the curvature at the start; the bend of a chord is exact.
-        let inner = (self.radius * self.radius - (from - self.centre.x) * (from - self.centre.x)).max(0.0);
-        let curvature = self.sine * self.radius * self.radius / (inner * inner.sqrt());
-        let guess = (8.0 * tolerance / curvature).sqrt().max(LEAST_CHORD);
-        let mut length = (guess * LONGER).min(to - from);
-        for _ in 0..MOST_TRIES {
-            let bend = self.bend(from, from + length);
-            if bend <= tolerance {
+    /// The ends of chords between an x and one nearer to the centre. The rim becomes flatter there, so each chord may be as long
+    /// as the curvature at its start allows, or the bend of one that starts at the rim's own end.
+    fn inwards(&self, outer: f64, inner: f64, tolerance: f64, out: &mut Vec<Point2>) {
+        let scale = 8.0 * tolerance / (self.sine * self.radius * self.radius);
+        let least = STEEP * 8.0 * tolerance * tolerance / (self.sine * self.sine * self.radius);
+        let mut root = self.over(Point2::new(outer, 0.0)).root;
+        let (sense, way) = ((inner - outer).signum(), (inner - outer).abs());
+        let mut done = 0.0;
+        for _ in 0..MOST_CHORDS {
+            done += (scale * root * root * root).sqrt().max(least);
+            if done >= way {
                 break;
             }
-            length = (length * SHORTER * (tolerance / bend).sqrt()).max(LEAST_CHORD);
+            let over = self.over(Point2::new(outer + sense * done, 0.0));
+            root = over.root;
+            out.push(Point2::new(over.at.x, -over.above));
         }
-        from + length
-    }
-
-    /// How far the chord between two x rises above the rim.
-    fn bend(&self, from: f64, to: f64) -> f64 {
-        let line = Line::through(
-            Point2::new(from, self.height(from)),
-            Point2::new(to, self.height(to)),
-        );
-        line.at(self.centre.x).z - self.flank(line.slope)
     }
 }
 
-/// No stretch takes more chords than this; the last one is longer if need be.
+/// No stretch takes more chords than this on either side of the centre; the last one is longer if need be.
 const MOST_CHORDS: usize = 10_000;
 
-/// How often the length of a chord is corrected.
-const MOST_TRIES: usize = 8;
-
-/// No chord is shorter, in mm: over this even the ends of a rim bend by less than a micrometre.
-const LEAST_CHORD: f64 = 1e-6;
-
-/// A first guess is longer, because the rim may become flatter.
-const LONGER: f64 = 1.3;
-
-/// A correction is a little shorter than the bend asks for.
-const SHORTER: f64 = 0.98;
+/// The closed form for the first chord at the rim's end is good for short ones; this makes it so for all.
+const STEEP: f64 = 0.9;
 
 /// A straight line that is not vertical.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -258,6 +263,16 @@ impl Line {
     pub(crate) fn at(self, x: f64) -> Point2 {
         Point2::new(x, self.from.z + self.slope * (x - self.from.x))
     }
+}
+
+/// A point over a rim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Over {
+    pub(crate) at: Point2,
+    /// How far it lies above the rim.
+    pub(crate) above: f64,
+    /// Half the width of the edge there, seen along its axis.
+    root: f64,
 }
 
 /// Where a straight piece lies above a rim.

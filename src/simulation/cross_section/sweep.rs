@@ -7,7 +7,7 @@
 use super::TOUCH;
 use super::crack::Crack;
 use crate::disc::Stretch;
-use crate::rim::{Above, Rim};
+use crate::rim::{Above, Over, Rim};
 use crate::surface::Side;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
@@ -96,8 +96,12 @@ impl Sweep<'_> {
             open: None,
             out,
         };
-        for (&from, &to) in self.line.iter().zip(self.line.iter().skip(1)) {
-            walk.go_on(from, to);
+        let mut corners = self.line.iter().map(|&corner| self.rim.over(corner));
+        if let Some(mut from) = corners.next() {
+            for to in corners {
+                walk.go_on(from, to);
+                from = to;
+            }
         }
         if let Some(&last) = self.line.last() {
             walk.end(last.x);
@@ -123,33 +127,34 @@ struct Walk<'s, 'o, C: Iterator<Item = Crack>> {
 
 impl<C: Iterator<Item = Crack>> Walk<'_, '_, C> {
     /// Along a straight piece of the surface, or a wall of it.
-    fn go_on(&mut self, from: Point2, to: Point2) {
+    fn go_on(&mut self, from: Over, to: Over) {
         let Sweep { rim, tolerance, .. } = *self.sweep;
-        if to.x <= from.x {
-            if rim.below(to) <= tolerance {
-                self.close(from.x, End::Open);
+        if to.at.x <= from.at.x {
+            if to.above <= tolerance {
+                self.close(from.at.x, End::Open);
             }
             return;
         }
-        let highest = |above: Above| {
+        let highest = |above: &Above| {
             let x = rim.highest_above(above.line, above.from, above.to);
             rim.below(above.line.at(x))
         };
-        let Some(above) = rim
-            .above(from, to, 0.0)
-            .filter(|&above| highest(above) > tolerance)
-        else {
-            self.close(from.x, End::Open);
+        let above = (!rim.is_clear(from, to, tolerance))
+            .then(|| rim.above(from.at, to.at, 0.0))
+            .flatten()
+            .filter(|above| from.above.max(to.above) > tolerance || highest(above) > tolerance);
+        let Some(above) = above else {
+            self.close(from.at.x, End::Open);
             return;
         };
-        if rim.below(from) <= tolerance {
-            self.close(from.x, End::Open);
+        if from.above <= tolerance {
+            self.close(from.at.x, End::Open);
         }
         if self.open.is_none() {
             self.start(above.from);
         }
         self.pass_cracks(above);
-        if rim.below(to) <= tolerance {
+        if to.above <= tolerance {
             self.close(above.to, End::Open);
         }
     }

@@ -294,10 +294,14 @@ fn two_walls_less_than_a_micrometre_apart() {
 #[test]
 fn neighbouring_passes_shave_the_floor() {
     let mut section = block(70.0, 40.0);
+    // Its shank passes over slivers.
+    let mut disc = wheel();
+    let deepest = pass(at(0.0, 0.0), Side::Right, 3.0).rim(&disc).depth();
+    disc.depth = Some(Length::mm(10.0) + deepest);
     let mut shaved: f64 = 0.0;
     for strip in 1..=6_u32 {
         let x = 10.0 * f64::from(strip);
-        let rim = pass(at(x - 24.5, 30.0), Side::Right, 3.0).rim(&disc(25.0));
+        let rim = pass(at(x - 24.5, 30.0), Side::Right, 3.0).rim(&disc);
         section.slit(x, rim.height(x));
         let before = section
             .surface()
@@ -306,11 +310,7 @@ fn neighbouring_passes_shave_the_floor() {
         if strip > 1 {
             shaved = shaved.max(before - rim.height(x - 10.0));
         }
-        let outcome = free(
-            &mut section,
-            &disc(25.0),
-            pass(at(x - 24.5, 30.0), Side::Right, 3.0),
-        );
+        let outcome = free(&mut section, &disc, pass(at(x - 24.5, 30.0), Side::Right, 3.0));
         assert_eq!(outcome.faults, [], "{strip}");
         assert_eq!(outcome.freed.len(), 1);
     }
