@@ -51,12 +51,12 @@ pub(super) fn plot(args: &PlotArgs, targets: &Targets, console: &Console) -> Exi
         To::Stdout(what) => {
             return match picture(what, &material) {
                 Some(svg) => console.document(&svg),
-                None => console.failure(&without_machine()),
+                None => console.failure(&without(what)),
             };
         }
         To::File(what, path) => match picture(what, &material) {
             Some(svg) => disk.spares(path).and_then(|()| one_file(path, svg.as_bytes())),
-            None => return console.failure(&without_machine()),
+            None => return console.failure(&without(what)),
         },
         To::Folder(folder) => all(folder, &material, &disk),
     };
@@ -106,7 +106,18 @@ impl<'a> To<'a> {
     }
 }
 
-/// The picture; none where it is about the machine and the job has none.
+/// Why there is no such picture.
+fn without(what: What) -> Failure {
+    match what {
+        What::Process => Failure::new("the job leaves no choice between two processes that both compile")
+            .help("write `rough auto { ... }` with blocks `vcut` and `rect`"),
+        What::Lattice | What::Contour | What::Deviation | What::Correlation | What::Joints | What::Time => {
+            without_machine()
+        }
+    }
+}
+
+/// The picture; none where it is about the machine and the job has none, or about a choice that it does not leave.
 fn picture(what: What, material: &Material<'_>) -> Option<String> {
     let ids = Prefix::NONE;
     match what {
@@ -116,6 +127,7 @@ fn picture(what: What, material: &Material<'_>) -> Option<String> {
         What::Correlation => Some(pictures::correlation(material, ids)),
         What::Joints => pictures::joints(material, ids),
         What::Time => Some(pictures::time(material, ids)),
+        What::Process => pictures::process(material, ids),
     }
 }
 

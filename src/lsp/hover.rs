@@ -207,7 +207,7 @@ fn auto(analysis: &Analysis, path: &str, site: &Site<'_>) -> Option<String> {
     let rule = site
         .place
         .field
-        .and_then(|field| manual::row(Table::Auto, field.name))
+        .and_then(|field| manual::row(Table::Auto(site.place.block), field.name))
         .map(manual::Row::text);
     let found = match chosen(analysis, path, site) {
         Chosen::As { value, why } => {

@@ -27,8 +27,8 @@ pub(super) enum Table<'a> {
     Functions,
     /// What each strategy for cuts at the part does.
     Residuals,
-    /// How each field that is left open is chosen.
-    Auto,
+    /// How each field of a block that is left open is chosen.
+    Auto(&'a str),
     /// In which formulas each value enters.
     Formulas,
 }
@@ -98,7 +98,10 @@ pub(super) fn rows(table: Table<'_>) -> impl Iterator<Item = Row> + Clone {
         Table::Calls => headed("| Value | Meaning |"),
         Table::Functions => headed("| Function |"),
         Table::Residuals => headed("| `residual` | Such a cut is |"),
-        Table::Auto => headed("| Field | Chosen as |"),
+        Table::Auto(block) => match section(block) {
+            "rough rect" => headed("| Field of `rough rect` | Chosen as |"),
+            _ => headed("| Field | Chosen as |"),
+        },
         Table::Formulas => headed("| Value | Enters |"),
     };
     let body = start.map_or("", |at| REFERENCE.get(at..).unwrap_or_default());
@@ -120,7 +123,16 @@ fn fields_table(block: &str) -> Option<usize> {
         "dxf" | "svg" => headed("| Field of `dxf` and `svg` |"),
         "disc" => headed("| Field of `disc` |"),
         "crusher" => headed("| Field of `crusher` |"),
-        _ => behind(&format!("\n### `{block}`\n"), "| Field |"),
+        _ => behind(&format!("\n### `{}`\n", section(block)), "| Field |"),
+    }
+}
+
+/// The section about a block: one of a process within `rough auto` is that of the process alone.
+fn section(block: &str) -> &str {
+    match block {
+        "vcut" => "rough vcut",
+        "rect" => "rough rect",
+        _ => block,
     }
 }
 
@@ -158,7 +170,7 @@ pub(super) fn about(block: &str) -> Option<String> {
         "default" => return paragraph("The word `default`"),
         _ => {}
     }
-    let heading = format!("\n### `{block}`\n");
+    let heading = format!("\n### `{}`\n", section(block));
     let start = REFERENCE.find(&heading)? + heading.len();
     let section = REFERENCE.get(start..)?;
     let section = section.split("\n#").next()?;
@@ -199,16 +211,20 @@ mod tests {
     use vcutc_registry::OPERATIONS;
 
     fn blocks() -> Vec<(&'static str, &'static BlockSpec)> {
-        let tops = ["stock", "blade", "rough", "machine", "cell"];
-        let mut all: Vec<_> = tops
-            .into_iter()
-            .map(|first| {
-                (
-                    if first == "rough" { "rough vcut" } else { first },
-                    vocabulary::block(&[first], OPERATIONS).unwrap(),
-                )
-            })
-            .collect();
+        let tops = [
+            "stock",
+            "blade",
+            "rough vcut",
+            "rough rect",
+            "rough auto",
+            "machine",
+            "cell",
+        ];
+        let spec = |head: &str| {
+            let words: Vec<&str> = head.split(' ').collect();
+            vocabulary::block(&words, OPERATIONS).unwrap()
+        };
+        let mut all: Vec<_> = tops.into_iter().map(|head| (head, spec(head))).collect();
         for kind in ["disc", "crusher"] {
             let head = ["blade", "b", "=", kind];
             all.push((kind, vocabulary::block(&head, OPERATIONS).unwrap()));
@@ -282,6 +298,8 @@ mod tests {
             "profile",
             "blade",
             "rough vcut",
+            "rough rect",
+            "rough auto",
             "machine",
             "cell",
             "let",

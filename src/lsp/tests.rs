@@ -56,6 +56,8 @@ fn heads() -> Vec<(&'static str, &'static BlockSpec)> {
         "blade b = disc ",
         "blade b = crusher ",
         "rough vcut ",
+        "rough rect ",
+        "rough auto ",
         MACHINE,
         "cell ",
     ]
@@ -162,6 +164,7 @@ fn other_spots() -> Vec<Spot> {
         for next in vocabulary::head_words(word, OPERATIONS) {
             let text = match word {
                 "blade" => format!("blade n = {next} {{ }}"),
+                "rough" => format!("rough {next} {{ }}"),
                 _ => text.replace("robot", next),
             };
             spots.push(spot(&text, &format!(" {next} "), next));
@@ -234,7 +237,7 @@ fn every_word_is_explained() {
 fn words_that_enter_formulas_show_them() {
     let mut shown = 0;
     for spot in spots_of_fields() {
-        let is_operations = spot.text.starts_with("rough") || spot.text.starts_with("blade b {");
+        let is_operations = spot.text.starts_with("rough vcut") || spot.text.starts_with("blade b {");
         let row = manual::row(Table::Formulas, &spot.word);
         if let (Some(row), true) = (row, is_operations && spot.text[spot.at..].contains(['='])) {
             let text = explained(&spot).unwrap_or_default();
@@ -254,9 +257,9 @@ fn is_choice(spot: &Spot) -> bool {
 /// What is left open says how it is chosen.
 #[test]
 fn what_can_be_left_open_says_how_it_is_chosen() {
-    for (_, spec) in heads() {
+    for (head, spec) in heads() {
         for field in spec.fields.iter().filter(|field| field.leaving == Leaving::Open) {
-            let row = manual::row(Table::Auto, field.name);
+            let row = manual::row(Table::Auto(head.trim()), field.name);
             assert!(row.is_some(), "{}", field.name);
         }
     }

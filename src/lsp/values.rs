@@ -65,14 +65,14 @@ impl Place<'_> {
         if spec.leaving == Leaving::Open {
             offers.push(Offer {
                 detail: "left to the compiler".to_owned(),
-                documentation: manual::row(Table::Auto, spec.name).map(manual::Row::text),
+                documentation: manual::row(Table::Auto(self.title.trim_matches('`')), spec.name)
+                    .map(manual::Row::text),
                 ..offer("auto", CompletionItemKind::KEYWORD, Rank::Fitting)
             });
         }
         match spec.takes {
             Takes::Words(words) => offers.extend(words().iter().map(|word| self.word(spec.name, word))),
-            // All operations cut with straight blades.
-            Takes::Blade => offers.extend(self.named(Meaning::Blade(BladeKind::Straight))),
+            Takes::Blade => offers.extend(self.blades()),
             Takes::Machine => offers.extend(self.named(Meaning::Machine)),
             Takes::Calls(calls) => offers.extend(self.calls(spec.name, calls)),
             Takes::Quantity(range) => {
@@ -134,6 +134,12 @@ impl Place<'_> {
             documentation: super::hover::word_explained(&self.title, field, word),
             ..offer(word, CompletionItemKind::ENUM_MEMBER, Rank::Fitting)
         }
+    }
+
+    /// The blades of the job: whether a field takes a straight one or a disc, its check says.
+    fn blades(&self) -> Vec<Offer> {
+        let kinds = BladeKind::WORDS.iter().map(|(_, kind)| *kind);
+        kinds.flat_map(|kind| self.named(Meaning::Blade(kind))).collect()
     }
 
     fn named(&self, meaning: Meaning) -> Vec<Offer> {

@@ -10,6 +10,7 @@ pub mod pictures;
 pub mod playback;
 pub mod sheet;
 
+use vcutc_driver::ways::Comparison;
 use vcutc_driver::{Compiled, Outcome};
 use vcutc_job::CheckedJob;
 use vcutc_job::PlannedJob;
@@ -21,6 +22,8 @@ pub struct Material<'a> {
     pub plan: &'a PlannedJob,
     /// Its program and figures.
     pub compiled: &'a Compiled,
+    /// How other ways to do its operations compare.
+    pub comparisons: &'a [Comparison],
 }
 
 impl<'a> Material<'a> {
@@ -31,6 +34,7 @@ impl<'a> Material<'a> {
             job: outcome.job.as_ref()?,
             plan: outcome.plan.as_ref()?,
             compiled: outcome.compiled.as_ref()?,
+            comparisons: &outcome.comparisons,
         })
     }
 }

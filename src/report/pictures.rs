@@ -6,11 +6,13 @@
 mod blade;
 mod joints;
 mod paths;
+mod process;
 mod time;
 
 pub use blade::blade;
 pub use joints::{joints, joints_twice};
 pub use paths::paths;
+pub use process::process;
 pub use time::time;
 
 use super::Material;

@@ -61,6 +61,7 @@ mod pipeline;
 mod playback;
 #[cfg(feature = "krl")]
 mod process_errors;
+mod processes;
 #[cfg(feature = "krl")]
 mod published;
 #[cfg(feature = "krl")]

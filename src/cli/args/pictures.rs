@@ -47,7 +47,7 @@ pub(in crate::cli) struct PlotArgs {
 
     /// For one picture, the file or - for standard output (the default); for all, the folder (default: the current one)
     ///
-    /// Pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine.
+    /// Pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine, that of processes `rough auto`.
     #[arg(short, long, value_name = "FILE.svg|DIR|-")]
     pub(in crate::cli) output: Option<String>,
 
@@ -70,4 +70,6 @@ pub(in crate::cli) enum What {
     Joints,
     /// The time by kind of motion and by layer
     Time,
+    /// The times of both processes of `rough auto` over the depth of the work, and where they cross
+    Process,
 }

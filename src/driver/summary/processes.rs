@@ -18,7 +18,10 @@ fn of_one(comparison: &Comparison) -> Vec<String> {
     if let [taken, other] = comparison.ways.as_slice()
         && let (Came::Compiled(first), Came::Compiled(second)) = (&taken.came, &other.came)
     {
-        lines.push(row("break even", &even((taken.word, first), (other.word, second))));
+        lines.push(row(
+            "break even",
+            &even((taken.word, first), (other.word, second)),
+        ));
     }
     lines
 }
@@ -53,11 +56,15 @@ fn even(taken: (&str, &WayFigures), other: (&str, &WayFigures)) -> String {
         Faster::Below(depth) => format!("{word} is faster below a depth of {}", millimetres(depth)),
     };
     let feeds = [(other, taken, "from", " on"), (taken, other, "down to", "")];
-    let feed = feeds.into_iter().find_map(|((word, figures), against, from, on)| {
-        let even = figures.planned.even_feed(&against.1.planned)?;
-        let (depth, feed) = (millimetres(figures.planned.depth), metres_per_minute(even));
-        Some(format!("; at {depth} {word} is the faster one {from} a disc feed of {feed}{on}"))
-    });
+    let feed = feeds
+        .into_iter()
+        .find_map(|((word, figures), against, from, on)| {
+            let even = figures.planned.even_feed(&against.1.planned)?;
+            let (depth, feed) = (millimetres(figures.planned.depth), metres_per_minute(even));
+            Some(format!(
+                "; at {depth} {word} is the faster one {from} a disc feed of {feed}{on}"
+            ))
+        });
     format!("{depth}{} (programmed speeds)", feed.unwrap_or_default())
 }
 

@@ -52,7 +52,7 @@ const SPEC: BlockSpec = BlockSpec {
 const LIMITS: BlockSpec = BlockSpec {
     title: "`limits` of `rough auto`",
     fields: &[
-        limit("scallop", "10 mm").required().within(SIZE),
+        limit("scallop", "10 mm").within(SIZE),
         limit("time", "10 min").within(LONGEST_TIME),
     ],
     inner: Inner::Refused,

@@ -53,7 +53,9 @@ pub(crate) fn with(shared: &[Entry], own: &[Entry]) -> Vec<Entry> {
         what.is_some() && own.iter().any(|own| about(own) == what)
     };
     let rest = shared.iter().filter(|entry| !is_own(entry));
-    rest.cloned().chain(own.iter().map(|own| joined(shared, own))).collect()
+    rest.cloned()
+        .chain(own.iter().map(|own| joined(shared, own)))
+        .collect()
 }
 
 /// An entry of one's own; a block with what the shared one of its name says.

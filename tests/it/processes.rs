@@ -1,0 +1,303 @@
+//! `rough auto`: both processes compiled, and the faster taken. The numbers are those of the paper and of plans that were checked
+//! by an independent model.
+
+use crate::pipeline::Files;
+use crate::repository::root;
+use vcutc::diagnostics::{Code, has_errors};
+use vcutc::driver::ways::{Came, ComparedWay};
+use vcutc::driver::{self, Outcome, Request, Typed};
+use vcutc::process::comparison::{Faster, PlanTime};
+use vcutc::process::plan::plan;
+use vcutc::registry;
+use vcutc_backend_api::units::Length;
+
+/// A machine that says how long a change takes.
+const ROBOT: &str = "machine kuka = robot \"kuka/kr210_r3100_ultra\" {
+  tool dagger { frame = frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg), place = 1 }
+  tool wheel { frame = frame(x = 0 mm, y = 0 mm, z = 280 mm, a = 0 deg, b = 0 deg, c = 0 deg), place = 2 }
+  base = frame(x = 1700 mm, y = -600 mm, z = 850 mm, a = 90 deg, b = 0 deg, c = 0 deg)
+  home = joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)
+  change { at = joints(60 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg), time = 10 s, by = hand }
+  ultrasonic = output(12)
+  spindle = output(13)
+  ready = after(0 s)
+}
+";
+
+/// What differs between jobs.
+#[derive(Clone, Copy)]
+struct Job {
+    size: [f64; 3],
+    profile: &'static str,
+    /// Feeds other than in cuts: `travel` and `reorient`.
+    quick: &'static str,
+    scallop: f64,
+    vcut: &'static str,
+    rect: &'static str,
+    /// Feed of the disc, in m/min.
+    free: f64,
+}
+
+/// The flat block of the paper's comparison, without ways through the air.
+const FLAT: Job = Job {
+    size: [60.0, 1000.0, 70.0],
+    profile: "start (0 mm, 10 mm)  line to (60 mm, 10 mm)",
+    quick: "travel = 6000 m/min, reorient = 10000 deg/s",
+    scallop: 9.9,
+    vcut: "swing = 30 deg",
+    rect: "layer = 10 mm, step = 10 mm, lead = 0 deg, beyond = 0 mm, through = 1",
+    free: 10.0,
+};
+
+impl Job {
+    fn text(self) -> String {
+        let Self {
+            size: [width, depth, height],
+            profile,
+            quick,
+            scallop,
+            vcut,
+            rect,
+            free,
+        } = self;
+        format!(
+            "job \"block\"\n\nstock {{ size = ({width} mm, {depth} mm, {height} mm) }}\n\nprofile {{ {profile} }}\n\n\
+             blade dagger {{ cutting_length = 12.543 mm, half_apex = 7.13 deg, thickness = 0 mm, edges = double }}\n\
+             blade wheel = disc {{\n  radius = 25 mm, thickness = 1 mm, depth = 12 mm, width = 20 mm, spin = 3000 rev/min\n  \
+             body (1 mm, 8 mm) (60 mm, 25 mm)\n}}\n\n\
+             rough auto {{\n  blade = dagger\n  rake = 60 deg\n  limits {{ scallop <= {scallop} mm }}\n  \
+             feed {{ cut = 10 m/min, {quick} }}\n  clearance = 10 mm\n  run_out = 0 mm\n  vcut {{ {vcut} }}\n  \
+             rect {{ disc = wheel, {rect}, feed {{ free = {free} m/min }} }}\n}}\n\n{ROBOT}"
+        )
+    }
+
+    /// Both ways as planned: V cuts, then slits and strips.
+    fn planned(self) -> [PlanTime; 2] {
+        let files = Files::of(root().join("examples")).with("block.vcut", self.text());
+        let job = driver::understood(request(&files)).unwrap();
+        let ways = job.each_way().unwrap();
+        let times = ways.iter().map(|(_, job)| {
+            let (planned, found) = plan(job);
+            assert!(!has_errors(&found), "{found:?}");
+            PlanTime::of(&planned.unwrap()).unwrap()
+        });
+        times.collect::<Vec<_>>().try_into().unwrap()
+    }
+
+    fn compiled(self) -> Outcome {
+        compiled(self.text())
+    }
+}
+
+fn request(files: &Files) -> Request<'_> {
+    Request {
+        path: "block.vcut",
+        loader: files,
+        overrides: &[],
+        machine: None,
+        options: Typed::default(),
+        operations: registry::OPERATIONS,
+        targets: &[],
+    }
+}
+
+fn compiled(text: String) -> Outcome {
+    let files = Files::of(root().join("examples")).with("block.vcut", text);
+    driver::compile(request(&files), &mut |_| {}).unwrap()
+}
+
+/// Within half a percent.
+fn near(found: f64, published: f64) {
+    assert!(
+        (found / published - 1.0).abs() < 0.005,
+        "{found} instead of {published}"
+    );
+}
+
+fn seconds(planned: &PlanTime) -> f64 {
+    planned.at(planned.depth, 1.0).to_s()
+}
+
+/// At disc feeds of 0.3, 0.6 and 1 of that of the blade: 1048.73, 670.73 and 519.53 s, and V cuts 554.4 s (without ways).
+#[test]
+fn times_of_the_flat_block_are_the_published_ones() {
+    for (free, published) in [(3.0, 1048.73), (6.0, 670.73), (10.0, 519.53)] {
+        let [vcut, rect] = Job { free, ..FLAT }.planned();
+        near(seconds(&vcut), 554.4);
+        near(seconds(&rect), published);
+        assert_eq!((rect.changes, rect.changing.to_s()), (11, 110.0));
+    }
+}
+
+/// With `r* = 0.6000` both need as long per mm of depth, so they differ by the changes of blade and the extensions alone.
+#[test]
+fn at_the_even_ratio_of_feeds_neither_gains_with_the_depth() {
+    let [vcut, rect] = Job { free: 6.0, ..FLAT }.planned();
+    let gap = |depth| rect.at(depth, 1.0).to_s() - vcut.at(depth, 1.0).to_s();
+    let [near_gap, far_gap] = [1000.0, 5000.0].map(|depth| gap(Length::mm(depth)));
+    near(near_gap, 116.31);
+    near(far_gap, near_gap);
+}
+
+/// Rectangular cutting wins from 757.73 mm on against V cuts at 30 deg, and from 1150.53 mm on against the best ones; at a depth of
+/// 1000 mm it does so from a disc feed of 8.667 and of 10.681 m/min on.
+#[test]
+fn processes_are_even_where_the_independent_model_says() {
+    for (vcut, depth, feed) in [
+        ("swing = 30 deg", 757.73, 8.667),
+        ("limits { swing <= 50 deg }", 1150.53, 10.681),
+    ] {
+        let [vcut, rect] = Job { vcut, ..FLAT }.planned();
+        let Faster::Beyond(found) = rect.is_faster_than(&vcut) else {
+            panic!("{:?}", rect.is_faster_than(&vcut));
+        };
+        near(found.to_mm(), depth);
+        let even = rect.even_feed(&vcut).unwrap();
+        near(even.to_mm_per_s() * 0.06, feed);
+        // Both answers against the times themselves.
+        let times = [&vcut, &rect].map(|way| way.at(found, 1.0).to_s());
+        assert!((times[0] - times[1]).abs() < 1e-6, "{times:?}");
+        let share = even.to_mm_per_s() * 0.06 / 10.0;
+        let times = [vcut.at(vcut.depth, 1.0), rect.at(rect.depth, share)].map(|time| time.to_s());
+        assert!((times[0] - times[1]).abs() < 1e-6, "{times:?}");
+    }
+}
+
+/// What is read off for another depth is what is planned for it.
+#[test]
+fn times_of_other_depths_are_those_of_plans() {
+    let ways = FLAT.planned();
+    for depth in [120.0, 777.0, 3000.0] {
+        let deeper = Job {
+            size: [60.0, depth, 70.0],
+            ..FLAT
+        };
+        for (one, other) in ways.iter().zip(deeper.planned()) {
+            let read_off = one.at(Length::mm(depth), 1.0).to_s();
+            assert!((read_off / seconds(&other) - 1.0).abs() < 1e-9, "{depth} mm");
+        }
+    }
+}
+
+/// With speeds that the machine follows.
+const SLOW: Job = Job {
+    quick: "travel = 200 mm/s, reorient = 90 deg/s",
+    size: [60.0, 400.0, 70.0],
+    vcut: "limits { swing <= 50 deg }",
+    ..FLAT
+};
+
+#[test]
+fn the_faster_process_is_taken() {
+    for (depth, first) in [(300.0, "vcut"), (600.0, "rect")] {
+        let outcome = Job {
+            size: [60.0, depth, 70.0],
+            ..SLOW
+        }
+        .compiled();
+        assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
+        let [comparison] = outcome.comparisons.as_slice() else {
+            panic!("{:?}", outcome.comparisons);
+        };
+        assert_eq!(comparison.ways[0].word, first);
+        let time = |way: &ComparedWay| match &way.came {
+            Came::Compiled(figures) => figures.time,
+            Came::Refused(why) => panic!("{why:?}"),
+        };
+        assert!(time(&comparison.ways[0]) <= time(&comparison.ways[1]));
+        let compiled = outcome.compiled.unwrap();
+        assert_eq!(compiled.report.times.all.total(), time(&comparison.ways[0]));
+        let kind = &compiled.program.verified().program().operations[0].kind;
+        assert_eq!(String::from(kind.clone()), format!("rough_{first}"));
+        assert!(outcome.job.unwrap().open.is_empty());
+    }
+}
+
+/// A valley is closed to the disc, and steep walls are to V cuts: the process that is left is taken, and why the other one is not.
+#[test]
+fn a_process_that_does_not_compile_is_named_with_the_reason() {
+    let outcome = Job {
+        size: [100.0, 60.0, 50.0],
+        profile: "start (0 mm, 40 mm) line to (30 mm, 10 mm) line to (70 mm, 10 mm) line to (100 mm, 40 mm)",
+        ..SLOW
+    }
+    .compiled();
+    assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
+    let ways = &outcome.comparisons[0].ways;
+    assert_eq!(ways[0].word, "vcut");
+    let Came::Refused(Some(why)) = &ways[1].came else {
+        panic!("{ways:?}");
+    };
+    assert_eq!(why.code, Code::NoAccess);
+    let summary = outcome.compiled.unwrap().summary.join("\n");
+    assert!(summary.contains("rect: no, layer 2 is closed"), "{summary}");
+    assert!(!summary.contains("break even"), "{summary}");
+}
+
+#[test]
+fn where_neither_compiles_the_first_is_explained() {
+    let limited = SLOW
+        .text()
+        .replace("scallop <= 9.9 mm", "scallop <= 9.9 mm, time <= 9 s");
+    let outcome = compiled(limited);
+    assert!(has_errors(&outcome.diagnostics));
+    assert!(outcome.compiled.is_none());
+    let [vcut, rect] = outcome.comparisons[0].ways.as_slice() else {
+        panic!("{:?}", outcome.comparisons);
+    };
+    assert_eq!((vcut.word, rect.word), ("vcut", "rect"));
+    assert!(matches!(&vcut.came, Came::Refused(Some(why)) if outcome.diagnostics[0].code == why.code));
+    assert!(matches!(rect.came, Came::Refused(Some(_))));
+}
+
+/// What both processes share is wrong once, and what one of them lacks is added in its own block.
+#[test]
+fn faults_are_reported_once_and_in_their_block() {
+    let good = SLOW.text();
+    let codes = |text: &str| -> Vec<Code> {
+        let outcome = compiled(text.to_owned());
+        outcome.diagnostics.iter().map(|one| one.code).collect()
+    };
+    assert_eq!(
+        codes(&good.replace("rake = 60 deg", "rake = 100 deg")),
+        [Code::OutOfRange]
+    );
+    assert_eq!(codes(&good.replace("disc = wheel, ", "")), [Code::MissingField]);
+    assert_eq!(
+        codes(&good.replace("limits { scallop <= 9.9 mm }", "limits { time <= 9 min }")),
+        [Code::MissingField]
+    );
+    assert_eq!(
+        codes(&good.replace("limits { swing <= 50 deg }", "limits { swung <= 50 deg }")),
+        [Code::UnknownField]
+    );
+    assert_eq!(codes(&good.replace("vcut {", "vcuts {")), [Code::UnknownBlock]);
+}
+
+/// What a block within says stands for what is shared.
+#[test]
+fn a_process_may_have_what_is_shared_otherwise() {
+    let text = SLOW
+        .text()
+        .replace("vcut { ", "vcut { rake = 70 deg, feed { cut = 5 m/min }, ");
+    let files = Files::of(root().join("examples")).with("block.vcut", text);
+    let ways = driver::understood(request(&files)).unwrap().each_way().unwrap();
+    let set: Vec<(f64, f64, f64)> = ways
+        .iter()
+        .map(|(_, job)| {
+            let setup = job.operations[0].setup();
+            (
+                setup.rake.value.to_deg().round(),
+                setup.cut_feed.value.to_mm_per_s() * 0.06,
+                setup.travel_feed.value.to_mm_per_s(),
+            )
+        })
+        .collect();
+    assert_eq!(set[0].0, 70.0);
+    assert_eq!(set[1].0, 60.0);
+    assert!(
+        (set[0].1 - 5.0).abs() < 1e-9 && (set[1].1 - 10.0).abs() < 1e-9,
+        "{set:?}"
+    );
+    assert_eq!((set[0].2, set[1].2), (200.0, 200.0));
+}
