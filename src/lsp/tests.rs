@@ -36,7 +36,11 @@ struct Spot {
 
 /// A word after a lead in a text.
 fn spot(text: &str, lead: &str, word: &str) -> Spot {
-    let start = text.find(lead).unwrap_or_else(|| panic!("{lead} in {text}"));
+    let mut leads = text.match_indices(lead).map(|(at, _)| at);
+    // `cut` is not the end of `vcut`.
+    let is_letter = |letter: char| letter.is_alphanumeric();
+    let begins = |at: &usize| !(lead.starts_with(is_letter) && text[..*at].ends_with(is_letter));
+    let start = leads.find(begins).unwrap_or_else(|| panic!("{lead} in {text}"));
     let rest = &text[start..];
     let at = rest.find(word).unwrap_or_else(|| panic!("{word} in {rest}"));
     Spot {

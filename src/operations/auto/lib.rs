@@ -160,10 +160,10 @@ fn sorted<'b>(written: Written<'b>, session: &mut Session<'_>) -> Checked<Shared
     let entries = block.entries.iter();
     let entries = entries.filter(|entry| !merge::is_block(entry, &[VCUT, RECT]));
     let entries = entries.cloned().collect();
-    (limits?, feed?);
-    Ok(Shared {
-        entries,
-        vcut: vcut?,
-        rect: rect?,
-    })
+    match (limits, feed, vcut, rect) {
+        (Ok(_), Ok(_), Ok(vcut), Ok(rect)) => Ok(Shared { entries, vcut, rect }),
+        (Err(reported), ..) | (_, Err(reported), ..) | (_, _, Err(reported), _) | (.., Err(reported)) => {
+            Err(reported)
+        }
+    }
 }

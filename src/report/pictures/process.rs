@@ -25,7 +25,7 @@ pub fn process(material: &Material<'_>, ids: Prefix) -> Option<String> {
     };
     let deepest = Length::mm(2.0 * crossing.unwrap_or(depth).max(depth).to_mm());
     let way = |(name, planned): &(&'static str, PlanTime)| processes::Way {
-        name: *name,
+        name,
         ends: ends(planned, deepest, 1.0),
         others: others(planned, deepest),
     };
