@@ -2,7 +2,7 @@
 
 pub mod air;
 pub mod chosen;
-mod processes;
+pub mod processes;
 pub mod times;
 
 use crate::checks::Checks;
@@ -156,7 +156,9 @@ fn hollow(report: &Report) -> String {
     )
 }
 
-fn row(name: &str, text: &str) -> String {
+/// A line of a summary: a name, and what there is to say of it.
+#[must_use]
+pub fn row(name: &str, text: &str) -> String {
     format!("  {name:<14} {text}")
 }
 

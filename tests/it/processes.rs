@@ -9,6 +9,7 @@ use vcutc::driver::{self, Outcome, Request, Typed};
 use vcutc::process::comparison::{Faster, PlanTime};
 use vcutc::process::plan::plan;
 use vcutc::registry;
+use vcutc::vcut_optimize;
 use vcutc_backend_api::units::Length;
 
 /// A machine that says how long a change takes.
@@ -300,4 +301,26 @@ fn a_process_may_have_what_is_shared_otherwise() {
         "{set:?}"
     );
     assert_eq!((set[0].2, set[1].2), (200.0, 200.0));
+}
+
+#[test]
+fn optimising_reports_what_has_no_formulas_and_both_processes() {
+    let text = Job {
+        size: [60.0, 600.0, 70.0],
+        ..SLOW
+    }
+    .text();
+    let files = Files::of(root().join("examples")).with("block.vcut", text);
+    let optimised = vcut_optimize::optimise(request(&files), 3, &mut |_| {}).unwrap();
+    let text = vcut_optimize::report::text(&optimised);
+    for line in [
+        "rect           30 slits, 36 strips, 11 changes of blade",
+        "break even     vcut is faster below",
+    ] {
+        assert!(text.contains(line), "{text}");
+    }
+    let body = serde_json::to_value(vcut_optimize::report::body(&optimised)).unwrap();
+    assert_eq!(body["processes"][0]["process"], "rect");
+    assert_eq!(body["processes"][1]["cuts"], 41);
+    assert_eq!(body["others"][0]["operation"], 1);
 }

@@ -12,7 +12,9 @@ pub(crate) fn lines(comparisons: &[Comparison]) -> Vec<String> {
     comparisons.iter().flat_map(of_one).collect()
 }
 
-fn of_one(comparison: &Comparison) -> Vec<String> {
+/// The lines of one.
+#[must_use]
+pub fn of_one(comparison: &Comparison) -> Vec<String> {
     let ways: Vec<String> = comparison.ways.iter().map(way).collect();
     let mut lines = vec![row("process", &ways.join("; "))];
     if let [taken, other] = comparison.ways.as_slice()

@@ -6,11 +6,13 @@
 
 mod bounds;
 mod came;
+mod others;
 pub mod report;
 mod trade_off;
 
 pub use bounds::Relaxed;
 pub use came::{Came, Plan};
+pub use others::OtherOperation;
 pub use trade_off::TradeOff;
 
 use came::{Room, came};
@@ -18,9 +20,9 @@ use vcutc_backend_api::ir::{OperationId, Site};
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
+use vcutc_driver::ways::Comparison;
 use vcutc_driver::{self as driver, Compiled, Outcome, Request, RequestError, Stage};
-use vcutc_job::PlannedJob;
-use vcutc_job::{Auto, CheckedJob, PlanningJob, Sourced};
+use vcutc_job::{Auto, CheckedJob, PlannedJob, PlanningJob, Sourced};
 use vcutc_picture::pareto::{self, Curve, Pareto};
 use vcutc_vcut::PlannedVcut;
 use vcutc_vcut::asked::{Formulas, Lattice, Objective, RoughVcut};
@@ -36,6 +38,10 @@ pub struct Optimisation {
     pub operations: Vec<OperationOptimum>,
     /// Operations whose tips the job gives, so that there is nothing to choose.
     pub given: Vec<GivenOperation>,
+    /// Operations of other kinds, which these formulas are not about.
+    pub others: Vec<OtherOperation>,
+    /// How other ways to do its operations compare, where the job leaves that open.
+    pub comparisons: Vec<Comparison>,
     /// The simulated scallop of the whole job.
     pub scallop: Length,
     /// What there was to warn of.
@@ -171,6 +177,7 @@ pub fn optimise(
         job: Some(job),
         plan: Some(plan),
         compiled: Some(compiled),
+        comparisons,
         ..
     } = outcome
     else {
@@ -179,8 +186,11 @@ pub fn optimise(
     progress(Stage::Optimising);
     let operations = operations(&job, &plan, &compiled, &sources, points);
     let given = given(&job, &sources);
+    let others = others::of(&plan, &compiled, &sources);
     Ok(Optimisation {
         given,
+        others,
+        comparisons,
         job: job.name,
         operations,
         scallop: compiled.report.scallop.height,

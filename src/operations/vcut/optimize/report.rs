@@ -1,6 +1,7 @@
 //! What came of optimising, for people and for programs.
 
 use super::bounds::{Relaxed, name, value};
+use super::others::{self, OtherBody, ProcessBody};
 use super::{
     Came, Faster, FoundBy, GivenOperation, OperationOptimum, Optimisation, Plan, Planned, Role, Row,
 };
@@ -42,6 +43,12 @@ pub fn text(optimisation: &Optimisation) -> String {
             "{}: operation {}: its {} tips are given ({}), so there is nothing to choose",
             optimisation.job, given.number, given.tips, given.place
         );
+    }
+    for part in others::texts(optimisation) {
+        if !text.is_empty() {
+            text.push('\n');
+        }
+        text += &part;
     }
     text
 }
@@ -391,6 +398,10 @@ pub struct OptimisationBody<'a> {
     /// Operations along tips that the job gives.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     given: Vec<GivenBody<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    others: Vec<OtherBody<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    processes: Vec<ProcessBody<'a>>,
 }
 
 #[derive(Debug, Serialize)]
@@ -498,6 +509,12 @@ pub fn body(optimisation: &Optimisation) -> OptimisationBody<'_> {
         scallop: optimisation.scallop.to_mm(),
         operations: optimisation.operations.iter().map(operation_body).collect(),
         given: optimisation.given.iter().map(given_body).collect(),
+        others: optimisation.others.iter().map(others::body).collect(),
+        processes: optimisation
+            .comparisons
+            .iter()
+            .flat_map(others::process_bodies)
+            .collect(),
     }
 }
 
