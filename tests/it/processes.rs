@@ -164,6 +164,38 @@ fn processes_are_even_where_the_independent_model_says() {
     }
 }
 
+/// On parts that are no blocks: strips up to the part against the best V cuts, 1000 mm deep.
+#[test]
+fn on_curved_parts_the_disc_has_to_be_as_fast_as_the_independent_model_says() {
+    for (width, profile, vcut_s, feed) in [
+        (
+            85.0,
+            "start (0 mm, 18 mm) bezier (20 mm, 30 mm) (60 mm, 34 mm) to (85 mm, 14 mm)",
+            283.4,
+            10.183,
+        ),
+        (100.0, "start (0 mm, 10 mm) line to (100 mm, 40 mm)", 308.0, 9.714),
+        (
+            100.0,
+            "z(x) = 40 mm - 30 mm * ((x - 50 mm) / 50 mm) ^ 2",
+            271.1,
+            9.651,
+        ),
+    ] {
+        let [vcut, rect] = Job {
+            size: [width, 1000.0, 50.0],
+            profile,
+            vcut: "limits { swing <= 50 deg }",
+            rect: "residual = shift, layer = 10 mm, step = 10 mm, lead = 0 deg, beyond = 0 mm, through = 1",
+            ..FLAT
+        }
+        .planned();
+        near(seconds(&vcut), vcut_s);
+        near(rect.even_feed(&vcut).unwrap().to_mm_per_s() * 0.06, feed);
+        assert_eq!(rect.changes, 5);
+    }
+}
+
 /// What is read off for another depth is what is planned for it.
 #[test]
 fn times_of_other_depths_are_those_of_plans() {
