@@ -305,6 +305,14 @@ fn faults_are_reported_once_and_in_their_block() {
         [Code::UnknownField]
     );
     assert_eq!(codes(&good.replace("vcut {", "vcuts {")), [Code::UnknownBlock]);
+    assert_eq!(
+        codes(&good.replace("blade = dagger", "blade = wheel")),
+        [Code::WrongBlade]
+    );
+    assert_eq!(
+        codes(&good.replace("rake = 60 deg", "rake = 60 mm")),
+        [Code::WrongDimension]
+    );
 }
 
 /// What a block within says stands for what is shared.

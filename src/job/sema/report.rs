@@ -32,13 +32,18 @@ impl Reports {
         token
     }
 
-    /// Takes what was found by a second look at the same text, without what is known.
+    /// Takes what was found by a second look at the same text, but for faults whose place has that fault already.
     pub fn append_new(&mut self, found: Self) {
-        for diagnostic in found.diagnostics {
-            if !self.diagnostics.contains(&diagnostic) {
-                self.diagnostics.push(diagnostic);
-            }
-        }
+        let is_known = |one: &Diagnostic| {
+            let mut known = self.diagnostics.iter();
+            known.any(|known| known.code == one.code && known.primary.span == one.primary.span)
+        };
+        let new: Vec<Diagnostic> = found
+            .diagnostics
+            .into_iter()
+            .filter(|one| !is_known(one))
+            .collect();
+        self.diagnostics.extend(new);
     }
 
     /// Whether there are more than anybody reads in one go, so that it is time to be brief.
