@@ -13,6 +13,7 @@ mod crack;
 mod guard;
 mod judge;
 mod pass;
+mod skin;
 mod sorted;
 mod sweep;
 #[cfg(test)]

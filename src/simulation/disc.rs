@@ -44,6 +44,30 @@ impl DiscPass {
     }
 }
 
+/// A straight way of a disc along y that takes the skin off the part: what roughing has left, wherever the rim comes out of it. The
+/// axis leans along the feed by a lead above 0, and is rolled about the feed to stand on the part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkinPass {
+    /// The centre of the edge, in mm.
+    pub centre: Point2,
+    /// How far the axis leans along the feed.
+    pub lead: Angle,
+    /// By how much it leans towards -x.
+    pub roll: Angle,
+    /// How thick a strip may be that runs over the body of the disc; at least as thick as there is room below the body.
+    pub over_hub: Length,
+    /// Air around the body.
+    pub clearance: Length,
+}
+
+impl SkinPass {
+    /// What its edge covers.
+    #[must_use]
+    pub fn rim(&self, disc: &Disc) -> Rim {
+        Rim::rolled(self.centre, disc.radius, self.lead, self.roll)
+    }
+}
+
 /// What a pass has done.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PassOutcome {
@@ -112,6 +136,13 @@ pub enum PassFault {
         /// The largest thickness.
         limit: Length,
     },
+    /// The strip runs over the body and is thicker than has room there.
+    OverBody {
+        /// The strip.
+        stretch: Stretch,
+        /// The largest thickness.
+        limit: Length,
+    },
     /// The strip is wider than the disc takes.
     TooWide {
         /// The strip.
@@ -139,6 +170,11 @@ pub enum Hold {
         x: f64,
         /// How far beyond the rim.
         by: Length,
+    },
+    /// The rim ends in the material: what stands there would have to be that much lower.
+    Buried {
+        /// The height of the surface above the end of the rim.
+        missing: Length,
     },
     /// The strip has no end on a side: nothing is open there.
     Closed,

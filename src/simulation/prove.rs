@@ -31,8 +31,8 @@ use entry::{below_top, deepest_entry};
 use flank::{FlankGeometry, flanks};
 use piece::Piece;
 use std::collections::BTreeMap;
-pub use strip::Strips;
 use strip::Through;
+pub use strip::{Passes, Skin, Strips};
 use vcutc_backend_api::ir::{
     Action, Flank, Joint, Op, OpId, OperationId, OrientationId, Program, Site, ToolId,
 };
@@ -54,8 +54,8 @@ pub struct Bound<'p> {
     pub edge: Option<Length>,
     /// How far to the left and right of a slit the sides of the blade are.
     pub aside: Length,
-    /// What discs of the operation are taken for; none where it frees no strips.
-    pub strips: Option<Strips>,
+    /// What discs of the operation are taken for; none where it has none.
+    pub passes: Option<Passes>,
 }
 
 /// Something wrong with a cut.
@@ -81,7 +81,7 @@ impl<'p> Bound<'p> {
             drop: Length::ZERO,
             edge: None,
             aside: Length::ZERO,
-            strips: None,
+            passes: None,
         }
     }
 }
@@ -543,11 +543,11 @@ impl<'p> Player<'p> {
         if joint == Joint::Stop {
             *self.layers.entry((operation, layer)).or_default() += 1;
         }
-        let strips = self
+        let passes = self
             .bounds
             .get(usize::from(operation.0))
-            .and_then(|bound| bound.strips);
-        if let Some(through) = Through::of(self.program, segment, strips) {
+            .and_then(|bound| bound.passes);
+        if let Some(through) = Through::of(self.program, segment, passes) {
             self.pass(&through, operation, finding);
             return;
         }

@@ -4,6 +4,11 @@
 //! leading rim is lowest. Swept along y, the circle shows as an ellipse with semi-axes R and `R sin gamma`, of which the lower
 //! half cuts (`docs/process.md`, "The cross-section of rectangular cutting"). It is convex: the height of a straight piece above
 //! it has one maximum, where both have the same slope.
+//!
+//! A disc that is rolled about its feed as well shows as the same ellipse, turned. Sheared along z, a turned ellipse is an upright
+//! one: with the slope `m` of its conjugate diameter, half its width `w` and its sag `k w`, the lower half is
+//! `z_c + m x - k sqrt(w^2 - x^2)`. Heights above straight pieces do not change by that but for the slope, so all that holds of
+//! upright ones holds of those.
 
 #[cfg(test)]
 mod tests;
@@ -11,15 +16,18 @@ mod tests;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::curve::Point2;
 
-/// The lower half of the ellipse that a disc's edge shows as. A disc with swing is none of these.
+/// The lower half of the ellipse that a disc's edge shows as.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rim {
     centre: Point2,
-    /// In mm.
-    radius: f64,
-    /// Of the lead.
-    sine: f64,
-    cosine: f64,
+    /// Half its width, in mm: of an upright disc its radius.
+    half: f64,
+    /// How far it hangs below its diameter, to half its width: of an upright disc the sine of its lead.
+    sag: f64,
+    /// Of the diameter that ends where the ellipse is vertical; 0 of an upright disc.
+    slope: f64,
+    /// How far it reaches along y, in mm.
+    overhang: f64,
 }
 
 impl Rim {
@@ -29,9 +37,30 @@ impl Rim {
         let (sine, cosine) = libm::sincos(lead.to_rad());
         Self {
             centre,
-            radius: radius.to_mm(),
-            sine: sine.abs(),
-            cosine,
+            half: radius.to_mm(),
+            sag: sine.abs(),
+            slope: 0.0,
+            overhang: radius.to_mm() * cosine,
+        }
+    }
+
+    /// The rim of a disc that leans along its feed by a lead above 0 and is rolled about its feed, so that its axis leans by that
+    /// towards -x: as on a part that rises by this angle towards +x.
+    #[must_use]
+    pub fn rolled(centre: Point2, radius: Length, lead: Angle, roll: Angle) -> Self {
+        let upright = Self::new(centre, radius, lead);
+        if roll == Angle::ZERO {
+            return upright;
+        }
+        let (sine, cosine) = libm::sincos(roll.to_rad());
+        // The semi-axes of the ellipse, of which the first one lies at the angle of the roll.
+        let (long, short) = (upright.half, upright.half * upright.sag);
+        let square = (long * cosine) * (long * cosine) + (short * sine) * (short * sine);
+        Self {
+            half: square.sqrt(),
+            sag: long * short / square,
+            slope: (long * long - short * short) * sine * cosine / square,
+            ..upright
         }
     }
 
@@ -44,7 +73,7 @@ impl Rim {
     /// From where to where it reaches over x, in mm.
     #[must_use]
     pub const fn cover(&self) -> [f64; 2] {
-        [self.centre.x - self.radius, self.centre.x + self.radius]
+        [self.centre.x - self.half, self.centre.x + self.half]
     }
 
     /// Height over x, in mm; beyond the cover that of its end.
@@ -53,37 +82,44 @@ impl Rim {
         if self.is_level() {
             return self.centre.z;
         }
-        let off = x - self.centre.x;
-        let square = self.radius * self.radius - off * off;
-        self.centre.z - self.sine * square.max(0.0).sqrt()
+        let off = (x - self.centre.x).max(-self.half).min(self.half);
+        let square = self.half * self.half - off * off;
+        self.centre.z + self.slope * off - self.sag * square.max(0.0).sqrt()
     }
 
     /// Its lowest point.
     #[must_use]
     pub fn lowest(&self) -> Point2 {
+        self.touching(0.0)
+    }
+
+    /// Its point below the centre.
+    fn bottom(&self) -> Point2 {
         Point2::new(self.centre.x, self.centre.z - self.depth().to_mm())
     }
 
-    /// How far its lowest point lies below the centre: what it shaves off the floors of its neighbours at most.
+    /// How far it hangs below its centre: what it shaves off the floors of its neighbours at most.
     #[must_use]
     pub fn depth(&self) -> Length {
-        Length::mm(self.radius * self.sine)
+        Length::mm(self.half * self.sag)
     }
 
     /// How far it reaches along y, before and after its centre.
     #[must_use]
-    pub fn overhang(&self) -> Length {
-        Length::mm(self.radius * self.cosine)
+    pub const fn overhang(&self) -> Length {
+        Length::mm(self.overhang)
     }
 
     /// Its point where it has a slope: there it is deepest below a flank of that slope.
     #[must_use]
     pub fn touching(&self, slope: f64) -> Point2 {
-        let length = (slope * slope + self.sine * self.sine).sqrt();
+        let slope = slope - self.slope;
+        let length = (slope * slope + self.sag * self.sag).sqrt();
         if length > 0.0 {
+            let off = self.half * slope / length;
             Point2::new(
-                self.centre.x + self.radius * slope / length,
-                self.centre.z - self.radius * self.sine * self.sine / length,
+                self.centre.x + off,
+                self.centre.z + self.slope * off - self.half * self.sag * self.sag / length,
             )
         } else {
             self.centre
@@ -93,7 +129,18 @@ impl Rim {
     /// Height over its centre of the flank of a slope that touches it from below.
     #[must_use]
     pub fn flank(&self, slope: f64) -> f64 {
-        self.centre.z - self.radius * (slope * slope + self.sine * self.sine).sqrt()
+        let slope = slope - self.slope;
+        self.centre.z - self.half * (slope * slope + self.sag * self.sag).sqrt()
+    }
+
+    /// The radius of its curvature where it has a slope, in mm; infinite of one that shows as a straight line.
+    #[must_use]
+    pub fn curvature_radius(&self, slope: f64) -> f64 {
+        // Of `z = m x - k sqrt(w^2 - x^2)` at the offset x: z'' = k w^2 / (w^2 - x^2)^(3/2), where z' is the slope.
+        let rest = self.over(self.touching(slope)).root;
+        let bend = self.sag * self.half * self.half / (rest * rest * rest);
+        let length = (1.0 + slope * slope).sqrt();
+        length * length * length / bend
     }
 
     /// Both x at which it has a height; its ends where it lies below that, and the centre where it lies above.
@@ -109,9 +156,9 @@ impl Rim {
         }
     }
 
-    /// Whether it shows as a straight line.
+    /// Whether it shows as a level line.
     pub(crate) const fn is_level(&self) -> bool {
-        self.sine == 0.0
+        self.sag == 0.0
     }
 
     /// How far a point lies above it.
@@ -122,10 +169,11 @@ impl Rim {
     /// A point with what its place has in common for both pieces that end there.
     pub(crate) fn over(&self, at: Point2) -> Over {
         let off = at.x - self.centre.x;
-        let root = (self.radius * self.radius - off * off).max(0.0).sqrt();
+        let root = (self.half * self.half - off * off).max(0.0).sqrt();
+        let off = off.max(-self.half).min(self.half);
         Over {
             at,
-            above: at.z - self.centre.z + self.sine * root,
+            above: at.z - (self.centre.z + self.slope * off) + self.sag * root,
             root,
         }
     }
@@ -141,7 +189,7 @@ impl Rim {
             return true;
         }
         let (width, root) = (to.at.x - from.at.x, from.root.min(to.root));
-        let bend = width * width * self.sine * self.radius * self.radius;
+        let bend = width * width * self.sag * self.half * self.half;
         (level - higher) * (8.0 * root * root * root) >= bend
     }
 
@@ -196,10 +244,10 @@ impl Rim {
     /// Both x at which a line lies so much above it, from left to right; of a line that never does, that of the nearest place.
     fn crossings(&self, line: Line, level: f64) -> [f64; 2] {
         let over = line.at(self.centre.x).z - self.centre.z - level;
-        let (square, slope) = (self.sine * self.sine, line.slope);
+        let (square, slope) = (self.sag * self.sag, line.slope - self.slope);
         let length = slope * slope + square;
-        let root = (self.radius * self.radius * length - over * over).max(0.0).sqrt();
-        [-1.0, 1.0].map(|sense| self.centre.x + (sense * self.sine * root - over * slope) / length)
+        let root = (self.half * self.half * length - over * over).max(0.0).sqrt();
+        [-1.0, 1.0].map(|sense| self.centre.x + (sense * self.sag * root - over * slope) / length)
     }
 
     /// A polyline from one x to a greater one, with corners on the rim and nowhere more than so much above it.
@@ -209,7 +257,7 @@ impl Rim {
             let middle = self.centre.x.max(from).min(to);
             self.inwards(from, middle, tolerance, out);
             if from < middle && middle < to {
-                out.push(self.lowest());
+                out.push(self.bottom());
             }
             let first = out.len();
             self.inwards(to, middle, tolerance, out);
@@ -223,8 +271,8 @@ impl Rim {
     /// The ends of chords between an x and one nearer to the centre. The rim becomes flatter there, so each chord may be as long
     /// as the curvature at its start allows, or the bend of one that starts at the rim's own end.
     fn inwards(&self, outer: f64, inner: f64, tolerance: f64, out: &mut Vec<Point2>) {
-        let scale = 8.0 * tolerance / (self.sine * self.radius * self.radius);
-        let least = STEEP * 8.0 * tolerance * tolerance / (self.sine * self.sine * self.radius);
+        let scale = 8.0 * tolerance / (self.sag * self.half * self.half);
+        let least = STEEP * 8.0 * tolerance * tolerance / (self.sag * self.sag * self.half);
         let mut root = self.over(Point2::new(outer, 0.0)).root;
         let (sense, way) = ((inner - outer).signum(), (inner - outer).abs());
         let mut done = 0.0;

@@ -15,7 +15,7 @@ use vcutc_job::PlannedOperation;
 use vcutc_job::description::{ParameterFigure, ParameterTable};
 use vcutc_job::operation::{Operation, Trials, WorksThere};
 use vcutc_job::planned::{Estimate, PlannedTip, TipOrigin};
-use vcutc_simulation::prove::{Bound, Finding, Strips};
+use vcutc_simulation::prove::{Bound, Finding, Passes, Strips};
 use vcutc_simulation::report::Report;
 
 impl PlannedOperation for Planned {
@@ -66,12 +66,12 @@ impl PlannedOperation for Planned {
     fn bound(&self) -> Bound<'_> {
         Bound {
             aside: self.standoff,
-            strips: Some(Strips {
+            passes: Some(Passes::Strips(Strips {
                 depth: self.asked.disc.depth.value,
                 width: self.asked.disc.width.value,
                 beyond: self.asked.beyond.value,
                 clearance: AIR,
-            }),
+            })),
             ..Bound::of(&self.bound)
         }
     }

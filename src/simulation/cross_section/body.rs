@@ -5,10 +5,10 @@
 //! takes the slivers below its centre off: there the body need only clear the height of the centre.
 
 use super::TOUCH;
-use crate::disc::{Disc, DiscPass, PassFault};
+use crate::disc::{Disc, PassFault};
 use crate::rim::{Line, Rim};
 use crate::surface::Surface;
-use vcutc_backend_api::units::Length;
+use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::curve::Point2;
 
 /// A stage as it passes.
@@ -16,7 +16,7 @@ struct Stage {
     /// The lower edge of its lower end.
     edge: Rim,
     /// Where slivers below the centre are gone.
-    cover: [f64; 2],
+    cover: Option<[f64; 2]>,
     centre: Point2,
 }
 
@@ -32,8 +32,8 @@ impl Stage {
     }
 
     fn is_in_cover(&self, x: f64) -> bool {
-        let [left, right] = self.cover;
-        (left..=right).contains(&x)
+        self.cover
+            .is_some_and(|[left, right]| (left..=right).contains(&x))
     }
 
     /// No point of its lower edge lies lower.
@@ -51,7 +51,7 @@ impl Stage {
     /// where the lower edge bends.
     fn places(&self, from: Point2, to: Point2) -> impl Iterator<Item = Point2> {
         let line = Line::through(from, to);
-        let [left, right] = self.cover;
+        let [left, right] = self.cover.unwrap_or([from.x, to.x]);
         let flank = self.edge.touching(line.slope).x;
         let [first, last] = self.edge.levels(self.centre.z);
         // Where the cover ends the lower edge may jump.
@@ -62,18 +62,31 @@ impl Stage {
     }
 }
 
+/// How a disc stands while its body passes.
+pub(super) struct Stand {
+    /// The centre of its edge.
+    pub(super) centre: Point2,
+    pub(super) lead: Angle,
+    pub(super) roll: Angle,
+    /// Air around the body.
+    pub(super) clearance: Length,
+    /// Over what slivers below the centre are gone before the body comes.
+    pub(super) cover: Option<[f64; 2]>,
+}
+
 /// Where each stage of the body is in the section.
-pub(super) fn contacts(surface: &mut Surface, disc: &Disc, pass: &DiscPass, out: &mut Vec<PassFault>) {
-    let (top, cosine) = (surface.top(), libm::cos(pass.lead.to_rad()));
+pub(super) fn contacts(surface: &mut Surface, disc: &Disc, stand: &Stand, out: &mut Vec<PassFault>) {
+    let (top, cosine) = (surface.top(), libm::cos(stand.lead.to_rad()));
+    let (aside, up) = libm::sincos(stand.roll.to_rad());
     for (number, stage) in disc.body.iter().enumerate() {
         let rise = stage.from.to_mm() * cosine;
-        let centre = Point2::new(pass.centre.x, pass.centre.z + rise);
+        let centre = Point2::new(stand.centre.x - rise * aside, stand.centre.z + rise * up);
         // What touches the clearance is clear.
-        let radius = stage.radius + pass.clearance - Length::mm(TOUCH);
+        let radius = stage.radius + stand.clearance - Length::mm(TOUCH);
         let stage = Stage {
-            edge: Rim::new(centre, radius, pass.lead),
-            cover: pass.rim(disc).cover(),
-            centre: pass.centre,
+            edge: Rim::rolled(centre, radius, stand.lead, stand.roll),
+            cover: stand.cover,
+            centre: stand.centre,
         };
         if stage.lowest() >= top - TOUCH {
             continue;

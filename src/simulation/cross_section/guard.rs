@@ -36,7 +36,7 @@ impl<'p> Guard<'p> {
     pub fn deepest(&self, rim: &Rim) -> Option<(Point2, f64)> {
         let [from, to] = self.within(rim.cover())?;
         let lowest = |block: &[Point2]| match block {
-            [first, .., last] => rim.height(rim.centre().x.max(first.x).min(last.x)),
+            [first, .., last] => rim.height(rim.lowest().x.max(first.x).min(last.x)),
             _ => f64::INFINITY,
         };
         let mut deepest = (rim.centre(), TOUCH);

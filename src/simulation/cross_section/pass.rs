@@ -1,12 +1,13 @@
 //! A pass of a disc: what it frees, and what is wrong with it.
 
+use super::body::{self, Stand};
 use super::crack::{Crack, Undercut};
 use super::sweep::{End, Piece, Sweep};
-use super::{CrossSection, Guard, TOUCH, body};
+use super::{CrossSection, Guard, TOUCH};
 use crate::disc::{Disc, DiscPass, Freed, PassFault, PassOutcome};
 use crate::rim::Rim;
 use crate::surface::Side;
-use vcutc_backend_api::units::{Area, Length};
+use vcutc_backend_api::units::{Angle, Area, Length};
 use vcutc_geometry::curve::Point2;
 
 /// Floors of a disc with a lead are chords no more than this above its rim, in mm.
@@ -28,30 +29,42 @@ impl CrossSection {
     pub fn pass_unguarded(&mut self, disc: &Disc, pass: &DiscPass) -> PassOutcome {
         let rim = pass.rim(disc);
         let mut outcome = PassOutcome::default();
-        body::contacts(&mut self.surface, disc, pass, &mut outcome.faults);
+        let stand = Stand {
+            centre: pass.centre,
+            lead: pass.lead,
+            roll: Angle::ZERO,
+            clearance: pass.clearance,
+            cover: Some(rim.cover()),
+        };
+        body::contacts(&mut self.surface, disc, &stand, &mut outcome.faults);
         let mut pieces = core::mem::take(&mut self.scratch.pieces);
         let [from, to] = rim.cover();
         self.sweep(&rim, [from, to], [End::Attached; 2], &mut pieces);
         self.judge(disc, pass, &pieces, &mut outcome);
-        for piece in pieces.iter().filter(|piece| piece.is_free()) {
-            let area = self.free(&rim, piece);
-            let stretch = piece.stretch();
-            outcome.freed.push(Freed { stretch, area });
-        }
-        for piece in pieces.iter().filter(|piece| !piece.is_free()) {
-            self.join(Undercut::of(rim, piece));
-        }
-        for piece in pieces.iter().filter(|piece| piece.is_free()) {
-            let [from, to] = piece.span;
-            self.free_undercuts(from, to);
-        }
+        self.take_off(&rim, &pieces, &mut outcome);
         pieces.clear();
         self.scratch.pieces = pieces;
         outcome
     }
 
+    /// Takes off what comes free, and remembers what is cut below the rest.
+    pub(super) fn take_off(&mut self, rim: &Rim, pieces: &[Piece], outcome: &mut PassOutcome) {
+        for piece in pieces.iter().filter(|piece| piece.is_free()) {
+            let area = self.free(rim, piece);
+            let stretch = piece.stretch();
+            outcome.freed.push(Freed { stretch, area });
+        }
+        for piece in pieces.iter().filter(|piece| !piece.is_free()) {
+            self.join(Undercut::of(*rim, piece));
+        }
+        for piece in pieces.iter().filter(|piece| piece.is_free()) {
+            let [from, to] = piece.span;
+            self.free_undercuts(from, to);
+        }
+    }
+
     /// Cuts along a rim, and finds what stands above it.
-    fn sweep(&mut self, rim: &Rim, [from, to]: [f64; 2], ends: [End; 2], out: &mut Vec<Piece>) {
+    pub(super) fn sweep(&mut self, rim: &Rim, [from, to]: [f64; 2], ends: [End; 2], out: &mut Vec<Piece>) {
         let (left, right) = (from.max(0.0), to.min(self.surface.width()));
         if left >= right {
             return;
@@ -227,7 +240,7 @@ fn is_beside(rim: &Rim, pass: &DiscPass, piece: &Piece) -> bool {
 }
 
 /// How far above a rim counts as on it.
-fn tolerance(rim: &Rim) -> f64 {
+pub(super) fn tolerance(rim: &Rim) -> f64 {
     if rim.is_level() { TOUCH } else { BEND }
 }
 

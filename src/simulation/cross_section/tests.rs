@@ -3,6 +3,7 @@
 mod arrangement;
 mod bodies;
 mod columns;
+mod skin;
 mod strips;
 
 use super::{CrossSection, Guard};

@@ -3,7 +3,8 @@
 use super::flank::FlankGeometry;
 use super::{Cut, CutFault, Finding, Player, note};
 use crate::cross_section::Guard;
-use crate::disc::{Disc, DiscPass};
+use crate::disc::{Disc, DiscPass, SkinPass};
+use crate::rim::Rim;
 use crate::surface::{Side, Surface};
 use vcutc_backend_api::geometry::Orientation;
 use vcutc_backend_api::ir::{self, Blade, OperationId, Program, Shape, Stock};
@@ -13,6 +14,28 @@ use vcutc_backend_api::verify::UPRIGHT;
 use vcutc_geometry::curve::Point2;
 
 /// What an operation takes its disc for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Passes {
+    /// To free strips between slits.
+    Strips(Strips),
+    /// To take the skin off the part.
+    Skin(Skin),
+}
+
+/// What holds of passes that take the skin off the part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Skin {
+    /// The thickest strip.
+    pub depth: Length,
+    /// The widest one.
+    pub width: Length,
+    /// The thickest one over the body of the disc.
+    pub over_hub: Length,
+    /// Air around the body.
+    pub clearance: Length,
+}
+
+/// What holds of passes that free strips between slits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strips {
     /// The thickest chip.
@@ -33,12 +56,14 @@ pub(super) struct Through {
     pub(super) disc: Disc,
     pub(super) centre: Point2,
     lead: Angle,
-    strips: Option<Strips>,
+    roll: Angle,
+    passes: Option<Passes>,
 }
 
 impl Through {
-    /// The pass that a segment is; none where it is no straight way along y with a disc that leans along it only.
-    pub(super) fn of(program: &Program, segment: &Segment<'_>, strips: Option<Strips>) -> Option<Self> {
+    /// The pass that a segment is; none where it is no straight way along y with a disc that leans along it. One that is rolled
+    /// besides is a pass that takes the skin off.
+    pub(super) fn of(program: &Program, segment: &Segment<'_>, passes: Option<Passes>) -> Option<Self> {
         let blade = program.blade(segment.before.tool)?;
         let Shape::Disc(edge) = blade.shape else {
             return None;
@@ -47,18 +72,34 @@ impl Through {
             .line()
             .filter(|line| line.via.is_none() && !line.turns())?;
         let held = program.orientation(line.to.orientation)?;
-        let lead = lead(held, &line).filter(|_| is_through(&line, program.stock))?;
-        Some(Self {
-            disc: disc(blade, edge, strips),
+        let (lead, roll) = lean(held, &line).filter(|_| is_through(&line, program.stock))?;
+        let is_taken = match passes {
+            Some(Passes::Skin(_)) => lead > Angle::ZERO,
+            Some(Passes::Strips(_)) | None => roll == Angle::ZERO,
+        };
+        is_taken.then(|| Self {
+            disc: disc(blade, edge, passes),
             centre: Point2::new(line.to.tip.x, line.to.tip.z),
             lead,
-            strips,
+            roll,
+            passes,
         })
+    }
+
+    /// The same as a pass that takes the skin off.
+    fn skin(&self, skin: Skin) -> SkinPass {
+        SkinPass {
+            centre: self.centre,
+            lead: self.lead,
+            roll: self.roll,
+            over_hub: skin.over_hub,
+            clearance: skin.clearance,
+        }
     }
 
     /// The pass. Its strip is on the side of the centre on which more stands above the rim: on the other one the disc has to have
     /// room.
-    pub(super) fn pass(&self, surface: &mut Surface) -> DiscPass {
+    fn strip(&self, strips: Option<Strips>, surface: &mut Surface) -> DiscPass {
         let radius = self.disc.radius.to_mm();
         let Point2 { x, z } = self.centre;
         let above = |surface: &mut Surface, from: f64, to: f64| {
@@ -79,31 +120,44 @@ impl Through {
             centre: self.centre,
             lead: self.lead,
             side: if left > right { Side::Left } else { Side::Right },
-            beyond: self.strips.map_or(Length::ZERO, |strips| strips.beyond),
+            beyond: strips.map_or(Length::ZERO, |strips| strips.beyond),
             shave: None,
-            clearance: self.strips.map_or(Length::ZERO, |strips| strips.clearance),
+            clearance: strips.map_or(Length::ZERO, |strips| strips.clearance),
         }
     }
 }
 
-fn disc(blade: &Blade, edge: ir::Disc, strips: Option<Strips>) -> Disc {
+fn disc(blade: &Blade, edge: ir::Disc, passes: Option<Passes>) -> Disc {
+    let limits = passes.map(|passes| match passes {
+        Passes::Strips(strips) => (strips.depth, strips.width),
+        Passes::Skin(skin) => (skin.depth, skin.width),
+    });
+    let (depth, width) = limits.unzip();
     Disc {
         radius: edge.radius,
-        depth: strips.map(|strips| strips.depth),
-        width: strips.map(|strips| strips.width),
+        depth,
+        width,
         body: blade.body.clone().unwrap_or_default(),
     }
 }
 
-/// How far the axis leans along the way; none where it leans to a side.
-fn lead(held: Orientation, line: &LinearSegment) -> Option<Angle> {
+/// How far the axis leans along the way, and by how much it is rolled towards -x; none where it leans back or lies.
+fn lean(held: Orientation, line: &LinearSegment) -> Option<(Angle, Angle)> {
     let m = held.matrix();
     // From the edge to the shank is -z_t.
     let (aside, along, up) = (-m[0][2], -m[1][2], -m[2][2]);
     let forwards = line.to.tip.y > line.from.tip.y;
     let along = if forwards { along } else { -along };
-    (aside.abs() <= UPRIGHT && up > 0.0 && along >= -SAME)
-        .then(|| Angle::rad(libm::atan2(along.max(0.0), up)))
+    if up <= 0.0 || along < -SAME {
+        return None;
+    }
+    let along = along.max(0.0);
+    if aside.abs() <= UPRIGHT {
+        let lead = Angle::rad(libm::atan2(along, up));
+        return Some((lead, Angle::ZERO));
+    }
+    let lead = Angle::rad(libm::atan2(along, libm::hypot(aside, up)));
+    Some((lead, Angle::rad(libm::atan2(-aside, up))))
 }
 
 /// Whether a way leads along y from one side of the stock to the other.
@@ -155,16 +209,23 @@ impl<'p> Player<'p> {
         operation: OperationId,
         finding: impl Fn(CutFault) -> Finding,
     ) {
-        let pass = through.pass(self.section.surface());
-        let rim = pass.rim(&through.disc);
+        let rim = Rim::rolled(through.centre, through.disc.radius, through.lead, through.roll);
         let entry = self.guard(operation).and_then(|(guard, _)| guard.deepest(&rim));
         if let Some((at, depth)) = entry {
             self.note_entry(at, depth, &finding);
         }
-        let outcome = self.section.pass_unguarded(&through.disc, &pass);
-        if through.strips.is_none() {
-            return;
-        }
+        let outcome = match through.passes {
+            Some(Passes::Skin(skin)) => self.section.skim(&through.disc, &through.skin(skin)),
+            Some(Passes::Strips(strips)) => {
+                let pass = through.strip(Some(strips), self.section.surface());
+                self.section.pass_unguarded(&through.disc, &pass)
+            }
+            None => {
+                let pass = through.strip(None, self.section.surface());
+                self.section.pass_unguarded(&through.disc, &pass);
+                return;
+            }
+        };
         for fault in outcome.faults {
             note(
                 &mut self.findings.strips,

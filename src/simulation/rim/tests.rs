@@ -49,6 +49,41 @@ proptest! {
         prop_assert!((touching.z - slope * (touching.x - x) - rim.flank(slope)).abs() < 1e-9 * radius);
     }
 
+    /// The same of a disc that is rolled: its axis is turned about y after it leans.
+    #[test]
+    fn rolled_it_is_the_lower_edge_of_a_circle_in_space(
+        (radius, lead, x, z) in (1.0..80.0_f64, 0.5..30.0_f64, -50.0..50.0_f64, -20.0..60.0_f64),
+        roll in -60.0..60.0_f64,
+        slope in -3.0..3.0_f64,
+    ) {
+        let rim = Rim::rolled(Point2::new(x, z), Length::mm(radius), Angle::deg(lead), Angle::deg(roll));
+        let (lean, turned) = (lead.to_radians(), roll.to_radians());
+        let points = (0..=20_000_u32).map(|i| {
+            let (sine, cosine) = libm::sincos(f64::from(i) / 20_000.0 * core::f64::consts::TAU);
+            let (across, up) = (radius * cosine, radius * sine * libm::sin(lean));
+            (
+                x + across * libm::cos(turned) - up * libm::sin(turned),
+                z + across * libm::sin(turned) + up * libm::cos(turned),
+            )
+        });
+        let mut lowest = f64::INFINITY;
+        let [mut left, mut right] = [f64::INFINITY, f64::NEG_INFINITY];
+        for (at, height) in points {
+            prop_assert!(height >= rim.height(at) - 1e-6);
+            lowest = lowest.min(height - slope * (at - x));
+            (left, right) = (left.min(at), right.max(at));
+        }
+        let [from, to] = rim.cover();
+        prop_assert!((left - from).abs() < 1e-4 * radius && (right - to).abs() < 1e-4 * radius);
+        prop_assert!((lowest - rim.flank(slope)).abs() < 1e-4 * radius);
+        let touching = rim.touching(slope);
+        prop_assert!((touching.z - slope * (touching.x - x) - rim.flank(slope)).abs() < 1e-9 * radius);
+        prop_assert!((rim.height(touching.x) - touching.z).abs() < 1e-6 * radius);
+        // Where it stands on the part it is as blunt as `R / sin(lambda)` [Yang 9].
+        let blunt = rim.curvature_radius(libm::tan(turned));
+        prop_assert!((blunt * libm::sin(lean) / radius - 1.0).abs() < 1e-6, "{blunt}");
+    }
+
     #[test]
     fn chords_are_above_it_by_no_more_than_asked(
         lead in 0.01..20.0_f64,

@@ -1,6 +1,6 @@
 //! Bodies of discs against circles sampled in space.
 
-use super::super::body::contacts;
+use super::super::body::{Stand, contacts};
 use super::*;
 use crate::disc::PassFault;
 use crate::surface::Vee;
@@ -22,7 +22,14 @@ proptest! {
         let disc = Disc { body: stages.into_iter().map(stage).collect(), ..disc(25.0) };
         let pass = pass(at(x, z), Side::Right, lead);
         let mut found = Vec::new();
-        contacts(&mut surface, &disc, &pass, &mut found);
+        let stand = Stand {
+            centre: pass.centre,
+            lead: pass.lead,
+            roll: Angle::ZERO,
+            clearance: pass.clearance,
+            cover: Some(pass.rim(&disc).cover()),
+        };
+        contacts(&mut surface, &disc, &stand, &mut found);
         for (number, stage) in disc.body.iter().enumerate() {
             // The axis leans along y.
             let (sine, cosine) = libm::sincos(lead.to_radians());
