@@ -235,6 +235,10 @@ pub fn strip_words(fault: PassFault) -> (String, String) {
                         show(x)
                     )
                 }
+                Hold::Buried { missing } => format!(
+                    "the rim of the disc ends {} mm below the surface beside it",
+                    mm(missing)
+                ),
                 Hold::Closed => "no side of it is open".to_owned(),
             },
         ),
@@ -257,6 +261,14 @@ pub fn strip_words(fault: PassFault) -> (String, String) {
         PassFault::TooThick { stretch, limit } => (
             format!(
                 "the strip is {} mm thick, the disc takes {} mm",
+                mm(stretch.height),
+                mm(limit)
+            ),
+            format!("from {}", over(stretch)),
+        ),
+        PassFault::OverBody { stretch, limit } => (
+            format!(
+                "a strip of {} mm runs over the body of the disc, which has room for {} mm",
                 mm(stretch.height),
                 mm(limit)
             ),

@@ -4,7 +4,12 @@ use vcutc_backend_api::backend::Backend;
 use vcutc_job::sema::kind::Operations;
 
 /// All operations.
-pub const OPERATIONS: Operations = Operations(&[&vcutc_vcut::Vcut, &vcutc_rect::Rect, &vcutc_auto::Auto]);
+pub const OPERATIONS: Operations = Operations(&[
+    &vcutc_vcut::Vcut,
+    &vcutc_rect::Rect,
+    &vcutc_auto::Auto,
+    &vcutc_finish::Finish,
+]);
 
 /// All backends, in the order of their names.
 #[must_use]

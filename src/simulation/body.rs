@@ -18,7 +18,7 @@ mod tests;
 mod turn;
 
 use super::course::Course;
-use super::prove::{Bound, accompanied};
+use super::prove::{Bound, Passes, accompanied};
 use super::surface::Surface;
 use section::{Ceiling, Near, Section};
 use stage::{Axis, Cylinder};
@@ -138,6 +138,10 @@ impl<'p> Watcher<'p> {
             Action::Cut { .. } | Action::Follow { .. } => During::Cut,
             _ => During::Way,
         };
+        if during == During::Cut && self.takes_skin_off(operation) {
+            // Strips run over the body there; the proof of passes says how thick they may be, and what must not be in its way.
+            return;
+        }
         self.ceiling.grow_older(surface);
         let mut section = Section {
             stock: self.program.stock,
@@ -166,6 +170,11 @@ impl<'p> Watcher<'p> {
         } else if during == During::Cut {
             self.found.nearest = Some(passage);
         }
+    }
+
+    fn takes_skin_off(&self, operation: OperationId) -> bool {
+        let bound = self.bounds.get(usize::from(operation.0));
+        matches!(bound.and_then(|bound| bound.passes), Some(Passes::Skin(_)))
     }
 
     /// Where the body comes nearest above the section: in a straight cut, if nearer than in any before; on other ways, if it

@@ -13,7 +13,7 @@ use super::report::Checked;
 use super::session::Session;
 use super::written::Written;
 use crate::{Direction, Setup, Sourced};
-use vcutc_backend_api::units::{AngularSpeed, Length, Speed};
+use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
 use vcutc_syntax::ast::Block;
 
 /// `rake = 60 deg`.
@@ -76,7 +76,40 @@ pub fn check(fields: &Fields<'_>, written: Written<'_>, session: &mut Session<'_
     let feeds = fields
         .required_block("feed", &mut session.reports)
         .and_then(|inner| feeds(&FEEDS, inner, written, session));
-    with_feeds(feeds.map(|(feeds, _)| feeds), fields, written, session)
+    with_feeds(
+        feeds.map(|(feeds, _)| feeds),
+        Rake::Stated,
+        fields,
+        written,
+        session,
+    )
+}
+
+/// The same of an operation whose blade has no rake, because it is round.
+pub fn check_without_rake(
+    fields: &Fields<'_>,
+    written: Written<'_>,
+    session: &mut Session<'_>,
+) -> Checked<Setup> {
+    let feeds = fields
+        .required_block("feed", &mut session.reports)
+        .and_then(|inner| feeds(&FEEDS, inner, written, session));
+    with_feeds(
+        feeds.map(|(feeds, _)| feeds),
+        Rake::None,
+        fields,
+        written,
+        session,
+    )
+}
+
+/// Whether the blade of an operation has a rake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Rake {
+    /// The operation states it.
+    Stated,
+    /// It has none: its axis is taken to be square to the feed.
+    None,
 }
 
 /// The same of an operation with [`FEED_OF_TWO`], with the speed of its disc in the material.
@@ -96,20 +129,24 @@ pub fn check_of_two(
         Ok((feeds, free)) => (Ok(feeds), Ok(free)),
         Err(reported) => (Err(reported), Err(reported)),
     };
-    let setup = with_feeds(feeds, fields, written, session);
+    let setup = with_feeds(feeds, Rake::Stated, fields, written, session);
     Ok((setup?, free?))
 }
 
 // The block of feeds comes first: it needs the session, of which the reader holds a part.
 fn with_feeds(
     feeds: Checked<Feeds>,
+    rake: Rake,
     fields: &Fields<'_>,
     written: Written<'_>,
     session: &mut Session<'_>,
 ) -> Checked<Setup> {
     let scope = written.scope;
     let mut reader = Reader::new(scope, &mut session.reports);
-    let rake = reader.required(fields, "rake");
+    let rake = match rake {
+        Rake::Stated => reader.required(fields, "rake"),
+        Rake::None => Ok(default(Angle::deg(90.0))),
+    };
     let direction = reader.choice(fields, "direction", Direction::WORDS);
     let clearance = reader.required(fields, "clearance");
     let extension = reader.auto(fields, "extension");

@@ -1,0 +1,84 @@
+//! Finishing with a disc as an operation of a job.
+
+use crate::asked::{AIR, FinishDisc};
+use crate::plan::{self, Wish, Work};
+use crate::planned::Planned;
+use crate::refused;
+use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::source::Span;
+use vcutc_geometry::offset::offset_up;
+use vcutc_job::operation::{Ground, Laid, Operation, Unplanned};
+use vcutc_job::{BladeRef, Setup, Sourced};
+use vcutc_simulation::disc::Disc;
+
+impl Operation for FinishDisc {
+    fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    fn setup_mut(&mut self) -> &mut Setup {
+        &mut self.setup
+    }
+
+    fn blades(&self) -> Vec<BladeRef<'_>> {
+        vec![BladeRef::Disc(&self.disc)]
+    }
+
+    fn forget_places(&mut self, place: Span) {
+        self.disc.forget_places(place);
+        self.step.forget_place(place);
+        self.lead.forget_place(place);
+        self.relief.forget_place(place);
+        self.over_hub.forget_place(place);
+        self.allowance.forget_place(place);
+        self.limits.scallop.forget_place(place);
+        self.limits.lead.forget_place(place);
+    }
+
+    fn scallop_limit(&self) -> Option<Sourced<Length>> {
+        Some(self.limits.scallop)
+    }
+
+    fn plan<'j>(&'j self, ground: Ground<'j>) -> Result<Laid, Box<dyn Unplanned + 'j>> {
+        let bound = offset_up(&ground.job.profile, self.allowance.value);
+        let work = Work {
+            part: &ground.job.profile,
+            bound: &bound,
+            before: &ground.before,
+        };
+        let wish = self.wish();
+        let (plan, after) = plan::plan(work, &wish).map_err(|refusal| {
+            let offer = refused::offer(work, &wish, &refusal);
+            Box::new(refused::diagnostic(self, &refusal, offer)) as Box<dyn Unplanned>
+        })?;
+        let planned = Planned {
+            asked: self.clone(),
+            plan,
+            bound,
+        };
+        Ok(Laid {
+            planned: Box::new(planned),
+            after,
+        })
+    }
+}
+
+impl FinishDisc {
+    fn wish(&self) -> Wish {
+        Wish {
+            disc: Disc {
+                radius: self.disc.radius.value,
+                depth: Some(self.disc.depth.value),
+                width: Some(self.disc.width.value),
+                body: self.disc.in_program().body.unwrap_or_default(),
+            },
+            step: self.step.value,
+            lead: self.lead.value,
+            relief: self.relief.value,
+            steepest: self.limits.lead.value,
+            over_hub: self.over_hub.value,
+            clearance: AIR,
+            scallop: self.limits.scallop.value,
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! The plan of finishing as the stages after planning see it.
+
+use crate::asked::{AIR, FinishDisc};
+use crate::plan::PlannedFinish;
+use crate::{lower, words};
+use vcutc_backend_api::builder::ProgramBuilder;
+use vcutc_backend_api::ir::SourceRef;
+use vcutc_backend_api::units::{Angle, Area, Duration, Length};
+use vcutc_diagnostics::Diagnostic;
+use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::Profile;
+use vcutc_job::PlannedOperation;
+use vcutc_job::description::{ParameterFigure, ParameterTable};
+use vcutc_job::operation::{Operation, Trials, WorksThere};
+use vcutc_job::planned::{Estimate, PlannedTip, TipOrigin};
+use vcutc_process::verdict::explained;
+use vcutc_simulation::prove::{Bound, Finding, Passes, Skin};
+use vcutc_simulation::report::{Report, area_under};
+
+/// Finishing with a disc, planned.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planned {
+    pub asked: FinishDisc,
+    pub plan: PlannedFinish,
+    /// The part with its allowance.
+    pub bound: Profile,
+}
+
+impl PlannedOperation for Planned {
+    fn asked(&self) -> &dyn Operation {
+        &self.asked
+    }
+
+    fn asked_mut(&mut self) -> &mut dyn Operation {
+        &mut self.asked
+    }
+
+    fn cuts(&self) -> usize {
+        self.plan.tracks.len()
+    }
+
+    fn tips(&self) -> Vec<PlannedTip> {
+        let tips = self.plan.tracks.iter().map(|track| PlannedTip {
+            layer: 1,
+            tip: track.centre,
+            origin: TipOrigin::Lattice,
+        });
+        tips.collect()
+    }
+
+    fn swing(&self) -> Angle {
+        Angle::ZERO
+    }
+
+    fn extension(&self) -> Length {
+        lower::extension(self)
+    }
+
+    fn bound(&self) -> Bound<'_> {
+        Bound {
+            passes: Some(Passes::Skin(Skin {
+                depth: self.asked.disc.depth.value,
+                width: self.asked.disc.width.value,
+                over_hub: self.asked.over_hub.value,
+                clearance: AIR,
+            })),
+            ..Bound::of(&self.bound)
+        }
+    }
+
+    fn estimate(&self) -> Estimate {
+        Estimate {
+            time: self.time(),
+            cuts: self.cuts() as f64,
+        }
+    }
+
+    fn lower(&self, source: SourceRef, builder: &mut ProgramBuilder) {
+        lower::lower(self, source, builder);
+    }
+
+    fn explain(
+        &self,
+        finding: Finding,
+        count: usize,
+        _: &mut dyn Trials,
+        _: &mut WorksThere<'_>,
+    ) -> Diagnostic {
+        let diagnostic = explained(&self.asked, finding);
+        match count {
+            0 | 1 => diagnostic,
+            2 => diagnostic.note("the same holds for one more track"),
+            _ => diagnostic.note(format!("the same holds for {} more tracks", count - 1)),
+        }
+    }
+
+    fn to_remove(&self, _: &Profile, top: &[Point2]) -> Area {
+        Area::mm2((area_under(top) - area_under(self.bound.points())).max(0.0))
+    }
+
+    fn parameters(&self) -> Vec<ParameterFigure> {
+        words::parameters(self)
+    }
+
+    fn tables(&self) -> Vec<ParameterTable> {
+        words::tables(self)
+    }
+
+    fn summary(&self, _: &Report) -> Vec<(&'static str, String)> {
+        words::summary(self)
+    }
+
+    fn chosen(&self, field: &str) -> Option<(String, String)> {
+        words::chosen(self, field)
+    }
+
+    fn layout(&self) -> [String; 2] {
+        words::layout(self)
+    }
+}
+
+impl Planned {
+    /// Tracks through the work, and the ways between them at the speed of travel.
+    fn time(&self) -> Duration {
+        let tracks = &self.plan.tracks;
+        let ways = tracks.iter().zip(tracks.iter().skip(1));
+        let way: f64 = ways
+            .map(|(from, to)| libm::hypot(to.centre.x - from.centre.x, to.centre.z - from.centre.z))
+            .sum();
+        let beside = lower::extension(self) * 2.0;
+        let out = beside * self.cuts() as f64;
+        Length::mm(way) / self.asked.setup.travel_feed.value + out / self.asked.setup.cut_feed.value
+    }
+}

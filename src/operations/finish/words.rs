@@ -1,0 +1,101 @@
+//! What a plan of finishing says of itself: parameters, lines of the summary, and values of fields that were left open.
+
+use crate::planned::Planned;
+use vcutc_backend_api::units::Angle;
+use vcutc_diagnostics::number::show;
+use vcutc_job::Auto;
+use vcutc_job::description::{
+    ParameterFigure, ParameterRow, ParameterTable, angle_text, degrees, length_text, millimetres,
+};
+
+const FEWEST: &str = "the fewest tracks that keep the limit on scallop, as simulated";
+const LEAST: &str = "the least with which all strips come free and nothing is entered";
+
+/// The tables: blade, cut, motion.
+pub(crate) fn tables(planned: &Planned) -> Vec<ParameterTable> {
+    let (asked, plan) = (&planned.asked, &planned.plan);
+    let speed = |speed: vcutc_backend_api::units::Speed| format!("{} mm/s", show(speed.to_mm_per_s()));
+    let blade = vec![
+        ParameterRow::written("blade", asked.disc.name.clone(), asked.disc.span),
+        ParameterRow::of("radius", asked.disc.radius, length_text),
+        ParameterRow::of("depth", asked.disc.depth, length_text),
+        ParameterRow::of("width", asked.disc.width, length_text),
+    ];
+    let cut = vec![
+        ParameterRow::open("step", &asked.step, length_text(plan.step), FEWEST),
+        ParameterRow::open("lead", &asked.lead, angle_text(plan.lead), LEAST),
+        ParameterRow::of("relief", asked.relief, angle_text),
+        ParameterRow::of("over_hub", asked.over_hub, length_text),
+        ParameterRow::of("allowance", asked.allowance, length_text),
+    ];
+    let motion = vec![
+        ParameterRow::of("feed cut", asked.setup.cut_feed, speed),
+        ParameterRow::of("feed travel", asked.setup.travel_feed, speed),
+        ParameterRow::of("feed reorient", asked.setup.reorient_rate, |rate| {
+            format!("{} deg/s", show(rate.to_deg_per_s()))
+        }),
+        ParameterRow::of("clearance", asked.setup.clearance, length_text),
+        ParameterRow::of("run_out", asked.setup.run_out, length_text),
+    ];
+    [("Blade", blade), ("Cut", cut), ("Motion", motion)]
+        .map(|(caption, rows)| ParameterTable { caption, rows })
+        .to_vec()
+}
+
+pub(crate) fn parameters(planned: &Planned) -> Vec<ParameterFigure> {
+    let (asked, plan) = (&planned.asked, &planned.plan);
+    vec![
+        ParameterFigure::open("step", &asked.step, millimetres(plan.step)),
+        ParameterFigure::open("lead", &asked.lead, degrees(plan.lead)),
+        ParameterFigure::fixed("over_hub", &asked.over_hub, millimetres(asked.over_hub.value)),
+        ParameterFigure::fixed("allowance", &asked.allowance, millimetres(asked.allowance.value)),
+    ]
+}
+
+/// What was chosen, and the tracks.
+pub(crate) fn summary(planned: &Planned) -> Vec<(&'static str, String)> {
+    let open = [
+        ("step", planned.asked.step.value == Auto::Auto),
+        ("lead", planned.asked.lead.value == Auto::Auto),
+    ];
+    let chosen = open.into_iter().filter(|(_, is_open)| *is_open);
+    let chosen =
+        chosen.filter_map(|(field, _)| Some(format!("{field} = {}", self::chosen(planned, field)?.0)));
+    let chosen: Vec<String> = chosen.collect();
+    let mut lines = Vec::new();
+    if !chosen.is_empty() {
+        lines.push(("auto", chosen.join(", ")));
+    }
+    let steepest = planned.plan.tracks.iter().map(|track| track.roll.to_deg().abs());
+    lines.push((
+        "finish",
+        format!(
+            "{} tracks, {} mm apart, lead {} deg, rolled by up to {} deg",
+            planned.plan.tracks.len(),
+            show(planned.plan.step.to_mm()),
+            show(planned.plan.lead.to_deg()),
+            show(Angle::deg(steepest.fold(0.0, f64::max)).to_deg()),
+        ),
+    ));
+    lines
+}
+
+/// What was chosen for a field that was left open, and why.
+pub(crate) fn chosen(planned: &Planned, field: &str) -> Option<(String, String)> {
+    let (value, why) = match field {
+        "step" => (length_text(planned.plan.step), FEWEST),
+        "lead" => (angle_text(planned.plan.lead), LEAST),
+        _ => return None,
+    };
+    Some((value, why.to_owned()))
+}
+
+/// `tracks` and their measures.
+pub(crate) fn layout(planned: &Planned) -> [String; 2] {
+    let measures = format!(
+        "step {} mm, lead {} deg",
+        show(planned.plan.step.to_mm()),
+        show(planned.plan.lead.to_deg())
+    );
+    ["tracks".to_owned(), measures]
+}

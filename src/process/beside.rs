@@ -1,0 +1,239 @@
+//! Cuts along y, to and fro. Each begins and ends beside the work, far enough out that the blade may turn there; from one to the
+//! next the blade goes up, across and down beside the work.
+
+use crate::posture::{Feed, Holder};
+use vcutc_backend_api::builder::ProgramBuilder;
+use vcutc_backend_api::geometry::{Orientation, Point3};
+use vcutc_backend_api::ir::{Action, FeedId, Flank, Joint, OperationId, RateId, Site, Switch};
+use vcutc_backend_api::units::Length;
+use vcutc_geometry::curve::Point2;
+use vcutc_geometry::grid;
+use vcutc_job::Setup;
+
+/// What makes a blade cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drive {
+    Spindle,
+    Generator,
+}
+
+impl Drive {
+    const fn switched(self, state: Switch) -> Action {
+        match self {
+            Self::Spindle => Action::Spin { state },
+            Self::Generator => Action::Ultrasonic { state },
+        }
+    }
+}
+
+/// What the cuts with one blade have in common.
+#[derive(Clone, Copy, Debug)]
+pub struct Stage {
+    pub operation: OperationId,
+    /// The speed in the material.
+    pub feed: FeedId,
+    /// How far beside the work the blade turns.
+    pub extension: Length,
+    /// How far it reaches below its tip while it turns.
+    pub hang: Length,
+    /// What makes it cut, in the order in which it is started.
+    pub drives: &'static [Drive],
+}
+
+/// A cut along y: where its tip runs, and how the blade is held.
+#[derive(Clone, Copy, Debug)]
+pub struct Pass {
+    pub site: Site,
+    /// The tip in the section, in mm.
+    pub at: Point2,
+    pub holder: Holder,
+    /// The flank whose posture the blade has.
+    pub flank: Flank,
+    pub motion: Motion,
+}
+
+/// What a cut is in a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// A flank.
+    Cut,
+    /// A piece of a chain.
+    Follow,
+}
+
+/// Where the blade is between cuts.
+#[derive(Clone, Copy)]
+enum At {
+    Above,
+    /// Beside the work, about to cut this way.
+    Beside(Feed),
+}
+
+impl Pass {
+    fn posture(&self, feed: Feed) -> Orientation {
+        self.holder.cutting(self.flank, feed)
+    }
+}
+
+/// Writes the cuts with one blade.
+pub struct Writer<'b> {
+    builder: &'b mut ProgramBuilder,
+    stage: Stage,
+    travel: FeedId,
+    rate: RateId,
+    /// y of the tip in front of the stock and beyond it, and z of the safe plane.
+    front: f64,
+    back: f64,
+    safe: f64,
+    at: At,
+    tip: Point3,
+    layer: Option<Site>,
+}
+
+impl<'b> Writer<'b> {
+    pub fn new(stage: Stage, setup: &Setup, builder: &'b mut ProgramBuilder) -> Self {
+        let stock = builder.stock();
+        let out = stage.extension.to_mm();
+        let above = stock.height + setup.clearance.value + stage.hang;
+        let safe = grid::up(above.to_mm());
+        Self {
+            travel: builder.feed(setup.travel_feed.value),
+            rate: builder.rate(setup.reorient_rate.value),
+            front: -grid::up(out),
+            back: grid::up(stock.depth.to_mm() + out),
+            safe,
+            at: At::Above,
+            tip: Point3::new(0.0, -out, safe),
+            layer: None,
+            builder,
+            stage,
+        }
+    }
+
+    /// Cuts from wherever the blade is.
+    pub fn pass(&mut self, pass: &Pass) {
+        let feed = match self.at {
+            At::Above => {
+                self.come_down(pass);
+                Feed::Forward
+            }
+            At::Beside(feed) => {
+                self.go_beside(pass, feed);
+                feed
+            }
+        };
+        let y = match feed {
+            Feed::Forward => self.back,
+            Feed::Backward => self.front,
+        };
+        let to = Point3 { y, ..self.tip };
+        let orientation = self.builder.orientation(pass.posture(feed));
+        let action = match pass.motion {
+            Motion::Cut => Action::Cut {
+                flank: pass.flank,
+                to,
+                feed: self.stage.feed,
+            },
+            Motion::Follow => Action::Follow {
+                to,
+                orientation,
+                via: None,
+                feed: self.stage.feed,
+                rate: self.rate,
+                joint: Joint::Stop,
+            },
+        };
+        self.go(pass.site, to, action);
+        self.at = At::Beside(feed.reversed());
+        self.layer = layer_of(pass.site);
+    }
+
+    /// From wherever the program is to the start of the first cut of the stage.
+    fn come_down(&mut self, pass: &Pass) {
+        let way = layer_of(pass.site).unwrap_or(pass.site);
+        let above = Point3::new(pass.at.x, self.front, self.safe);
+        self.travel(way, above, pass, Feed::Forward);
+        for drive in self.stage.drives {
+            self.builder.op(way, drive.switched(Switch::On));
+        }
+        self.builder.op(way, Action::AwaitReady);
+        let start = Point3 {
+            z: pass.at.z,
+            ..above
+        };
+        let feed = self.travel;
+        self.go(pass.site, start, Action::Approach { to: start, feed });
+    }
+
+    /// Beside the work to the start of the next cut: up if it begins higher, across, and down if it begins lower.
+    fn go_beside(&mut self, pass: &Pass, feed: Feed) {
+        let travel = self.travel;
+        let level = self.tip.z.max(pass.at.z);
+        if level > self.tip.z {
+            let to = Point3 { z: level, ..self.tip };
+            self.go(pass.site, to, Action::Retract { to, feed: travel });
+        }
+        let across = Point3::new(pass.at.x, self.tip.y, level);
+        self.travel(pass.site, across, pass, feed);
+        if pass.at.z < level {
+            let to = Point3 {
+                z: pass.at.z,
+                ..across
+            };
+            self.go(pass.site, to, Action::Approach { to, feed: travel });
+        }
+    }
+
+    /// A straight way, with the blade turned for this feed. Where it comes near half a revolution it goes by a posture between.
+    fn travel(&mut self, site: Site, to: Point3, pass: &Pass, feed: Feed) {
+        let posture = pass.posture(feed);
+        if let Some(held) = self.builder.held()
+            && let Some(between) = pass.holder.by_way_of(held, posture)
+        {
+            let to = self.builder.orientation(between);
+            self.builder.op(site, Action::Turn { to, rate: self.rate });
+        }
+        let orientation = self.builder.orientation(posture);
+        let action = if self.builder.knows_tip() {
+            Action::Travel {
+                to,
+                orientation,
+                feed: self.travel,
+                rate: self.rate,
+            }
+        } else {
+            Action::AxisTravel { to, orientation }
+        };
+        self.go(site, to, action);
+    }
+
+    fn go(&mut self, site: Site, to: Point3, action: Action) {
+        self.builder.op(site, action);
+        self.tip = to;
+    }
+
+    /// Straight up to the safe plane; what drives the blade stops.
+    pub fn leave(&mut self) {
+        let site = self.layer.unwrap_or(Site::Operation(self.stage.operation));
+        if let At::Beside(_) = self.at {
+            let to = Point3 {
+                z: self.safe,
+                ..self.tip
+            };
+            let feed = self.travel;
+            self.go(site, to, Action::Retract { to, feed });
+        }
+        for drive in self.stage.drives {
+            let off = drive.switched(Switch::Off);
+            self.builder.op(Site::Operation(self.stage.operation), off);
+        }
+    }
+}
+
+/// The layer that a cut belongs to.
+const fn layer_of(site: Site) -> Option<Site> {
+    match site {
+        Site::Cut { operation, layer, .. } => Some(Site::Layer { operation, layer }),
+        Site::Program | Site::Operation(_) | Site::Layer { .. } => None,
+    }
+}
