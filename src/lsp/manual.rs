@@ -100,6 +100,7 @@ pub(super) fn rows(table: Table<'_>) -> impl Iterator<Item = Row> + Clone {
         Table::Residuals => headed("| `residual` | Such a cut is |"),
         Table::Auto(block) => match section(block) {
             "rough rect" => headed("| Field of `rough rect` | Chosen as |"),
+            "finish disc" => headed("| Field of `finish disc` | Chosen as |"),
             _ => headed("| Field | Chosen as |"),
         },
         Table::Formulas => headed("| Value | Enters |"),
@@ -217,6 +218,7 @@ mod tests {
             "rough vcut",
             "rough rect",
             "rough auto",
+            "finish disc",
             "machine",
             "cell",
         ];
@@ -300,6 +302,7 @@ mod tests {
             "rough vcut",
             "rough rect",
             "rough auto",
+            "finish disc",
             "machine",
             "cell",
             "let",

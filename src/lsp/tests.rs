@@ -62,6 +62,7 @@ fn heads() -> Vec<(&'static str, &'static BlockSpec)> {
         "rough vcut ",
         "rough rect ",
         "rough auto ",
+        "finish disc ",
         MACHINE,
         "cell ",
     ]
@@ -364,11 +365,11 @@ fn the_grammar_of_editors_has_every_word_and_no_other() {
         named_by("head", Some(0)),
         set(blades.into_iter().chain(["blade"]))
     );
-    let roughings = vocabulary::head_words("rough", OPERATIONS);
-    assert_eq!(
-        named_by("head", Some(2)),
-        set(roughings.into_iter().chain(["rough"]))
-    );
+    let firsts = ["rough", "finish"];
+    let seconds = firsts
+        .into_iter()
+        .flat_map(|first| vocabulary::head_words(first, OPERATIONS));
+    assert_eq!(named_by("head", Some(2)), set(seconds.chain(firsts)));
 }
 
 /// What a snippet of an editor writes if nothing is typed: `${1:a}` and a later `$1` are `a`, `${2|a,b|}` is `a`.

@@ -29,6 +29,8 @@ mod convert;
 mod curve;
 #[cfg(feature = "krl")]
 mod examples;
+#[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
+mod finish;
 #[cfg(feature = "krl")]
 mod five_axis;
 mod fmt;

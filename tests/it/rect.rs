@@ -33,6 +33,20 @@ const GANTRY: &str = "tool dagger { frame = frame(x = 0 mm, y = 0 mm, z = 160 mm
                       by = program }\n  ultrasonic = output(3)\n  gcode { dialect = sinumerik }";
 
 fn job(profile: &str, more: &str) -> String {
+    format!(
+        "job \"strips\"\n\nstock {{ size = (100 mm, 60 mm, 50 mm) }}\n\nprofile {{ {profile} }}\n\n\
+         blade dagger {{ cutting_length = 13 mm, half_apex = 7.13 deg, thickness = 0.5 mm, edges = double }}\n\
+         blade wheel = disc {{\n  radius = 25 mm, thickness = 1 mm, depth = 12 mm, width = 20 mm, spin = 3000 rev/min\n  \
+         body (1 mm, 8 mm) (60 mm, 25 mm)\n}}\n\n\
+         rough rect {{\n  blade = dagger\n  disc = wheel\n  rake = 60 deg\n  {more}\n  \
+         feed {{ cut = 150 mm/s, free = 100 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}\n  clearance = 10 mm\n}}\n\n\
+         {}",
+        machines()
+    )
+}
+
+/// A KUKA, an ABB and a gantry that change blades `dagger` and `wheel`.
+pub(crate) fn machines() -> String {
     let arm = |home: &str, change: &str| {
         format!(
             "{ROBOT}\n  home = joints({home})\n  change {{ at = joints({change}), time = 10 s, by = hand }}"
@@ -47,13 +61,7 @@ fn job(profile: &str, more: &str) -> String {
         "60 deg, 0 deg, 0 deg, 0 deg, 45 deg, 0 deg",
     );
     format!(
-        "job \"strips\"\n\nstock {{ size = (100 mm, 60 mm, 50 mm) }}\n\nprofile {{ {profile} }}\n\n\
-         blade dagger {{ cutting_length = 13 mm, half_apex = 7.13 deg, thickness = 0.5 mm, edges = double }}\n\
-         blade wheel = disc {{\n  radius = 25 mm, thickness = 1 mm, depth = 12 mm, width = 20 mm, spin = 3000 rev/min\n  \
-         body (1 mm, 8 mm) (60 mm, 25 mm)\n}}\n\n\
-         rough rect {{\n  blade = dagger\n  disc = wheel\n  rake = 60 deg\n  {more}\n  \
-         feed {{ cut = 150 mm/s, free = 100 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}\n  clearance = 10 mm\n}}\n\n\
-         machine kuka = robot \"kuka/kr210_r3100_ultra\" {{\n  {kuka}\n}}\n\n\
+        "machine kuka = robot \"kuka/kr210_r3100_ultra\" {{\n  {kuka}\n}}\n\n\
          machine abb = robot \"abb/irb6700_155_285\" {{\n  {abb}\n}}\n\n\
          machine gantry = five_axis \"shop/knife_gantry.toml\" {{\n  {GANTRY}\n}}\n\ncell {{ machine = kuka }}\n"
     )
