@@ -8,6 +8,8 @@
 //! | `--emit ast`, `plan`, `ir`, `joints` | standard output, or a file in the folder of `-o` |
 //! | the picture of `plot --what` | standard output, or the file of `-o` |
 //! | all pictures of `plot` | files in the folder of `-o` (the current one without it) |
+//! | the table of `tools`, its APT and CSV | standard output, or the file of `-o` |
+//! | tool bits and facets of `tools` | files in the folder of `-o` (the current one without it) |
 //! | the page of `report` | the file of `-o` (`JOB.html` without it), or standard output with `-o -` |
 //! | the job of `init` | a file in the current folder, never over one that is there |
 //! | manual pages of `man` | files in the folder of `-o` |
@@ -68,6 +70,7 @@ mod report;
 mod shell;
 mod snapshot;
 mod targets;
+mod tools;
 mod verify;
 mod watch;
 
@@ -137,6 +140,7 @@ pub fn run(linked: &Targets) -> ExitCode {
         Some(Command::Report(report)) => report::report(report, targets, &console),
         Some(Command::Targets { target: None }) => targets::list(linked, &outside, &console),
         Some(Command::Targets { target: Some(target) }) => targets::describe(targets, target, &console),
+        Some(Command::Tools(args)) => tools::tools(args, targets, &console),
         Some(Command::Verify(verify)) => verify::verify(verify, linked, targets, &console),
         Some(Command::Watch(args)) => watch::watch(args, targets, &console),
         None => compile::compile(&arguments.compile, targets, &console),

@@ -5,12 +5,14 @@ mod air;
 mod convert;
 mod examples;
 mod pictures;
+mod tools;
 
 #[cfg(feature = "krl")]
 pub(super) use convert::ConvertArgs;
 
 pub(super) use air::AirArgs;
 pub(super) use pictures::{PlotArgs, ReportArgs, What};
+pub(super) use tools::{ToolForm, ToolsArgs};
 
 use super::Targets;
 use super::console::Warnings;
@@ -259,6 +261,10 @@ pub(super) enum Command {
         /// A target [default: list all targets]
         target: Option<String>,
     },
+    /// List the tools that stand for the blades of a job in CAM, or write them for it
+    ///
+    /// For a straight blade a cylinder, and a cone for its V cuts; for a disc a cylinder. docs/tools.md explains them.
+    Tools(ToolsArgs),
     /// Write an HTML report of a job
     ///
     /// A single self-contained file with the cross-section, deviations, axes, times, parameters with their sources, and

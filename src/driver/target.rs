@@ -94,7 +94,7 @@ pub(super) fn objections(job: &CheckedJob, compiled: &Compiled, request: Request
         }
         issues.retain(is_of_program);
         all.extend(issues.iter().map(|issue| Objection {
-            told: objection(job, backend.id(), program, issue, &[]),
+            told: objection(job, backend, program, issue, &[]),
             off: speeds::Off::of(job, program, issue),
         }));
     }
@@ -320,7 +320,7 @@ pub(super) fn diagnose(
 ) -> Vec<Diagnostic> {
     issues
         .iter()
-        .map(|issue| objection(job, backend.id(), program, issue, drivers))
+        .map(|issue| objection(job, backend, program, issue, drivers))
         .collect()
 }
 
@@ -338,11 +338,12 @@ pub(super) fn drivers(job: &CheckedJob, targets: &[&'static dyn Backend]) -> Vec
 
 fn objection(
     job: &CheckedJob,
-    target: &str,
+    backend: &dyn Backend,
     program: &Program,
     issue: &BackendIssue,
     drivers: &[&str],
 ) -> Diagnostic {
+    let target = backend.id();
     let machine = job
         .machine
         .as_ref()
@@ -366,12 +367,13 @@ fn objection(
                 block.and_then(|block| said_by_profile(block, key)),
             ) {
                 (None, Some(profile)) => unfit_profile(target, key, why, profile),
-                (given, _) => Diagnostic::new(
+                (Some(given), _) => Diagnostic::new(
                     Code::BadOption,
                     format!("option `{key}` does not fit: {why}"),
-                    given.unwrap_or(machine),
+                    given,
                     "this option",
                 ),
+                (None, None) => unfit_default(backend, key, why, machine),
             }
         }
         BackendIssue::Profile { key, why } => {
@@ -545,6 +547,16 @@ fn unfit_profile(target: &str, key: &str, why: &str, profile: Span) -> Diagnosti
         profile,
         "this profile",
     )
+}
+
+/// What is said of an option that the machine's block does not give; of what is no option of the target, only why.
+fn unfit_default(backend: &dyn Backend, key: &str, why: &str, machine: Span) -> Diagnostic {
+    let message = format!("option `{key}` does not fit: {why}");
+    let Some(spec) = backend.options().iter().find(|spec| spec.key == key) else {
+        return Diagnostic::new(Code::BadOption, message, machine, "this machine");
+    };
+    let label = format!("no `{key}` in its block `{} {{ ... }}`", backend.id());
+    Diagnostic::new(Code::BadOption, message, machine, label).note(format!("`{key}`: {}", spec.help))
 }
 
 /// Where an option has a value of its own.

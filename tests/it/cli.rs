@@ -24,6 +24,7 @@ mod refusals;
 pub(crate) mod report;
 mod snapshot;
 #[cfg(unix)]
+mod tools;
 mod tour;
 #[cfg(all(feature = "gcode", feature = "rapid"))]
 mod usage;

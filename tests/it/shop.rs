@@ -18,6 +18,13 @@ pub(crate) const CELLS: &[(&str, &str)] = &[
     ("knife_gantry", "gcode"),
 ];
 
+/// The machines of the shop that change blades, with the target that drives each.
+pub(crate) const CHANGING_CELLS: &[(&str, &str)] = &[
+    ("changing_cell", "krl"),
+    ("abb_changing_cell", "rapid"),
+    ("changing_gantry", "gcode"),
+];
+
 /// What a machine of the shop cannot hold the blade for: half a turn of a single edge about itself.
 pub(crate) const NOT_ON: &[(&str, &str)] = &[("spoiler_rae2822.vcut", "gantry")];
 
@@ -61,19 +68,25 @@ pub(crate) fn compiling() -> Vec<(String, Vec<Pairing>)> {
         if is_meant_to_fail(&name) {
             return None;
         }
-        let machines = if text.contains("shop/cells.vcut") {
-            let able = CELLS
-                .iter()
-                .filter(|(machine, _)| !NOT_ON.contains(&(name.as_str(), machine)));
-            let pairing = |&(machine, target)| Pairing {
-                machine: Some(machine),
-                target,
-            };
-            able.map(pairing).collect()
+        let cells = if text.contains("shop/cells.vcut") {
+            CELLS
+        } else if text.contains("shop/changing_cells.vcut") {
+            CHANGING_CELLS
         } else {
-            let (machine, target) = (None, "krl");
-            vec![Pairing { machine, target }]
+            &[]
         };
+        let able = cells
+            .iter()
+            .filter(|(machine, _)| !NOT_ON.contains(&(name.as_str(), machine)));
+        let pairing = |&(machine, target)| Pairing {
+            machine: Some(machine),
+            target,
+        };
+        let mut machines: Vec<Pairing> = able.map(pairing).collect();
+        if cells.is_empty() {
+            let (machine, target) = (None, "krl");
+            machines.push(Pairing { machine, target });
+        }
         Some((name, machines))
     });
     with_machines.collect()
@@ -86,18 +99,20 @@ pub(crate) fn folder() -> Files {
 
 /// The files of the examples with gantries under that control.
 pub(crate) fn folder_for(dialect: &str) -> Files {
-    const CELLS: &str = "shop/cells.vcut";
     let (_, options) = DIALECTS.iter().find(|(name, _)| *name == dialect).unwrap();
-    let cells = files("examples", ".vcut")
-        .into_iter()
-        .find(|file| file.path.ends_with(CELLS))
-        .unwrap();
-    let mut blocks = cells.text.split("gcode {");
-    let head = blocks.next().unwrap().to_owned();
-    let text = blocks.fold(head, |text, block| {
-        let (_, rest) = block.split_once('}').unwrap();
-        text + "gcode { " + options + " }" + rest
-    });
-    assert_ne!(text, cells.text);
-    folder().with(CELLS, text)
+    let mut all = folder();
+    for name in ["shop/cells.vcut", "shop/changing_cells.vcut"] {
+        let path = format!("examples/{name}");
+        let mut found = files("examples", ".vcut").into_iter();
+        let cells = found.find(|file| file.path == path).unwrap();
+        let mut blocks = cells.text.split("gcode {");
+        let head = blocks.next().unwrap().to_owned();
+        let text = blocks.fold(head, |text, block| {
+            let (_, rest) = block.split_once('}').unwrap();
+            text + "gcode { " + options + " }" + rest
+        });
+        assert_ne!(text, cells.text);
+        all = all.with(name, text);
+    }
+    all
 }

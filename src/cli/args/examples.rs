@@ -36,6 +36,7 @@ Examples:
                                           Draw what the cuts leave on the part
   vcutc optimize rib.vcut                 See the cost of limits and of a finer surface
   vcutc targets                           List the targets and their options
+  vcutc tools rib.vcut --emit apt         Write the tools that stand for the blades in CAM
   vcutc watch rib.vcut --target krl --serve
                                           Compile again after every change, with the report in a browser
   vcutc convert rib_3x.src --rake 60deg --swing 34deg --extension 8mm --stock 85x50x50 --as-job

@@ -4,10 +4,11 @@ use crate::asked::RoughRect;
 use crate::plan::blades::WidthBound;
 use crate::plan::refusal::{Closed, Refusal, SizeField};
 use vcutc_backend_api::script::duration_words;
-use vcutc_backend_api::units::Length;
+use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_geometry::grid;
 use vcutc_job::{Auto, Sourced};
 
 /// A refusal as it is reported.
@@ -65,20 +66,7 @@ pub(crate) fn diagnostic(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
             "the edge of the straight blade",
         )
         .help("use a longer blade"),
-        Refusal::TooThick { layer, chip, depth } => Diagnostic::new(
-            Code::BladesTooSmall,
-            format!(
-                "layers of {} mm make chips of {} mm with this lead, `{}` takes {} mm",
-                mm(*layer),
-                mm(*chip),
-                asked.disc.name,
-                mm(*depth)
-            ),
-            place(asked, asked.layer.span),
-            "these layers",
-        )
-        .and(place(asked, asked.disc.depth.span), "the thickest chip that it takes")
-        .help("use thinner layers, or `layer = auto`"),
+        Refusal::TooThick { layer, chip, depth } => too_thick(asked, *layer, *chip, *depth),
         Refusal::SlitInPart { x, bottom, entry } => Diagnostic::new(
             Code::Overcut,
             format!(
@@ -100,13 +88,7 @@ pub(crate) fn diagnostic(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
         )
         .and(place(asked, asked.residual.span), "strips in other places in each layer")
         .help("use `through = 1`, or another `residual`"),
-        Refusal::Scallop { left, limit } => Diagnostic::new(
-            Code::ScallopOverLimit,
-            format!("{} mm would stay on the part, the limit is {} mm", mm(*left), mm(*limit)),
-            limit_place(asked, asked.limits.scallop),
-            "this limit",
-        )
-        .help("use smaller layers and steps, or a higher limit"),
+        Refusal::Scallop { left, limit } => scallop(asked, *left, *limit),
         Refusal::Changes { changes, limit } => over(
             asked,
             format!("the plan has {changes} changes of blade, the limit is {limit}"),
@@ -141,7 +123,7 @@ pub(crate) fn diagnostic(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
                 limit_place(asked, bounds.least),
                 "this bound",
             )
-            .help(format!("take a bound of at most {} mm", mm(*most)))
+            .help(format!("take a bound of at most {} mm", down(*most)))
         }
     }
 }
@@ -197,6 +179,92 @@ fn too_wide(asked: &RoughRect, widest: Length, limit: Length, bound: WidthBound)
     }
 }
 
+fn too_thick(asked: &RoughRect, layer: Length, chip: Length, depth: Length) -> Diagnostic {
+    let most = depth - (chip - layer);
+    let takes = "the thickest chip that it takes";
+    if most <= Length::ZERO {
+        let steepest = Angle::rad(libm::asin(
+            (depth.to_mm() / asked.disc.radius.value.to_mm()).min(1.0),
+        ));
+        return Diagnostic::new(
+            Code::BladesTooSmall,
+            format!(
+                "a lead of {} deg alone makes chips of {} mm, `{}` takes {} mm",
+                show(asked.lead.value.to_deg()),
+                mm(chip - layer),
+                asked.disc.name,
+                mm(depth)
+            ),
+            place(asked, asked.lead.span),
+            "this lead",
+        )
+        .and(place(asked, asked.disc.depth.span), takes)
+        .help(format!(
+            "use a smaller lead, such as 3 deg: it has to be less than {} deg, and the smaller it is, the thicker layers can be",
+            show(steepest.to_deg())
+        ));
+    }
+    Diagnostic::new(
+        Code::BladesTooSmall,
+        format!(
+            "layers of {} mm make chips of {} mm with this lead, `{}` takes {} mm",
+            mm(layer),
+            mm(chip),
+            asked.disc.name,
+            mm(depth)
+        ),
+        place(asked, asked.layer.span),
+        "these layers",
+    )
+    .and(place(asked, asked.disc.depth.span), takes)
+    .help(format!(
+        "use layers of at most {} mm, or `layer = auto`",
+        down(most)
+    ))
+}
+
+/// The least that was planned, and what of it no layer and no step changes.
+fn scallop(asked: &RoughRect, left: Length, limit: Length) -> Diagnostic {
+    let advice = match (asked.layer.value, asked.step.value) {
+        (Auto::Given(_), Auto::Given(_)) => {
+            format!(
+                "use smaller layers and steps, or a limit of at least {} mm",
+                up(left)
+            )
+        }
+        (Auto::Auto, _) | (_, Auto::Auto) => format!(
+            "use a limit of at least {} mm: this is the least of the layers and steps that were tried",
+            up(left)
+        ),
+    };
+    let sink = asked.disc.radius.value * asked.lead.value.sin();
+    let diagnostic = Diagnostic::new(
+        Code::ScallopOverLimit,
+        format!(
+            "{} mm would stay on the part, the limit is {} mm",
+            mm(left),
+            mm(limit)
+        ),
+        limit_place(asked, asked.limits.scallop),
+        "this limit",
+    );
+    let diagnostic = if asked.allowance.value > Length::ZERO || sink > Length::ZERO {
+        diagnostic.note(format!(
+            "in that are the allowance of {} mm, and up to {} mm where the edge of the disc rises towards its rim, by its lead",
+            mm(asked.allowance.value),
+            mm(sink)
+        ))
+    } else {
+        diagnostic
+    };
+    let diagnostic = if asked.down_to.value > Length::ZERO {
+        diagnostic.note("what `down_to` leaves counts too: a job that cuts it otherwise needs no limit here")
+    } else {
+        diagnostic
+    };
+    diagnostic.help(advice)
+}
+
 fn too_deep(
     asked: &RoughRect,
     (layer, through): (Length, u32),
@@ -221,7 +289,10 @@ fn too_deep(
         place(asked, asked.blade.cutting_length.span),
         "the edge of the straight blade",
     )
-    .help("use thinner layers, or `layer = auto`")
+    .help(format!(
+        "use layers of at most {} mm, or `layer = auto`",
+        down(layer * (edge.to_mm() / needed.to_mm()))
+    ))
 }
 
 fn closed(asked: &RoughRect, closed: &Closed) -> Diagnostic {
@@ -263,6 +334,16 @@ fn limit_place<T>(asked: &RoughRect, limit: Option<Sourced<T>>) -> Span {
 
 fn place(asked: &RoughRect, span: Option<Span>) -> Span {
     span.unwrap_or(asked.setup.head_span)
+}
+
+/// On the grid of what is offered, and no more.
+fn down(length: Length) -> String {
+    show(grid::down(length.to_mm()))
+}
+
+/// The same, and no less.
+fn up(length: Length) -> String {
+    show(grid::up(length.to_mm()))
 }
 
 fn mm(length: Length) -> String {

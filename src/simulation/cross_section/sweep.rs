@@ -173,7 +173,9 @@ impl<C: Iterator<Item = Crack>> Walk<'_, '_, C> {
                 continue;
             }
             let x = crack.x.max(above.from).min(above.to);
-            self.note_height(above, from, x);
+            if x - from > TOUCH {
+                self.note_height(above, from, x);
+            }
             from = x;
             if self.sweep.reaches(crack) {
                 self.close(x, End::Open);
@@ -190,7 +192,12 @@ impl<C: Iterator<Item = Crack>> Walk<'_, '_, C> {
                 }
             }
         }
-        self.note_height(above, from, above.to);
+        // Beside a crack at the edge of a wall nothing is left of a straight piece: what lies on the other side of the wall is as high as
+        // it is, and not as the wall.
+        let is_split = from > above.from;
+        if !is_split || above.to - from > TOUCH {
+            self.note_height(above, from, above.to);
+        }
     }
 
     fn note_height(&mut self, above: Above, from: f64, to: f64) {

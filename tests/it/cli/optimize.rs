@@ -165,3 +165,11 @@ fn operations_along_given_tips_are_named() {
         run.stdout
     );
 }
+
+#[test]
+fn a_job_without_lattices_is_no_job_to_optimize() {
+    let run = vcutc(root(), &["optimize", "examples/hill_rect.vcut"]);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""));
+    assert!(run.stderr.contains("has no `rough vcut`"), "{}", run.stderr);
+    assert!(run.stderr.contains("`vcutc check` shows"), "{}", run.stderr);
+}

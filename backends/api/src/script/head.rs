@@ -4,7 +4,7 @@
 //! has to heed. The compiler's version is not among them: a version that writes the same motions would change every program
 //! that a shop has under version control.
 
-use crate::ir::{Action, Crusher, Disc, Flank, Head, Program, Purpose, Shape, Straight};
+use crate::ir::{Action, Crusher, Disc, Flank, Head, Op, Program, Purpose, Shape, Straight};
 use crate::units::{AngularSpeed, Duration, Length};
 
 /// A comment: words of ours, and words that people wrote behind them.
@@ -97,18 +97,21 @@ fn shown(head: &Head) -> &str {
     head.job.get(..SHOWN_DIGITS).unwrap_or(&head.job)
 }
 
-/// Every V has one left flank.
+/// Every V has one left flank, and a slit is one; the pieces of a chain are of one cut.
 fn cuts(program: &Program) -> String {
-    let is_left = |action: &Action| {
-        matches!(
-            action,
-            Action::Cut {
-                flank: Flank::Left,
-                ..
-            }
-        )
+    let mut chain = None;
+    let mut is_first = |op: &Op| {
+        if let Action::Cut { flank, .. } = op.action {
+            return flank == Flank::Left;
+        }
+        let before = chain;
+        if let Action::Follow { .. } = op.action {
+            chain = Some(op.site);
+            return chain != before;
+        }
+        false
     };
-    match program.ops.iter().filter(|op| is_left(&op.action)).count() {
+    match program.ops.iter().filter(|&op| is_first(op)).count() {
         1 => "1 cut".to_owned(),
         cuts => format!("{cuts} cuts"),
     }
@@ -150,7 +153,8 @@ pub fn duration_words(duration: Duration) -> String {
 #[cfg(feature = "testkit")]
 mod tests {
     use super::*;
-    use crate::testkit::Recipe;
+    use crate::ir::{Changer, Spindle};
+    use crate::testkit::{Recipe, with_disc};
 
     fn lines(program: &Program) -> Vec<String> {
         let lines = head_lines(program, "cell 4");
@@ -180,6 +184,19 @@ mod tests {
             "{text}"
         );
         assert!(!text.contains("AIR"), "{text}");
+    }
+
+    #[test]
+    fn the_pass_of_a_disc_is_a_cut() {
+        let program = Recipe::default().program();
+        let count = |program: &Program| -> u32 {
+            let lines = lines(program);
+            let cuts = lines.last().unwrap().strip_suffix(" cuts").unwrap();
+            cuts.parse().unwrap()
+        };
+        let before = count(&program);
+        let program = with_disc(program, Changer::Hand, Spindle::Own);
+        assert_eq!(count(&program), before + 1);
     }
 
     #[test]

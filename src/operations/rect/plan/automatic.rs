@@ -72,14 +72,12 @@ impl Search<'_> {
                 break;
             }
             let further = self.through(through, down_to);
-            let is_faster = match (&best, &further) {
-                (Ok(best), Ok(further)) => further.time < best.time,
-                (Err(_), Ok(_)) => true,
-                (_, Err(_)) => false,
+            best = match (best, further) {
+                (Ok(best), Ok(further)) if further.time < best.time => Ok(further),
+                (Ok(best), _) => Ok(best),
+                (Err(_), Ok(further)) => Ok(further),
+                (Err(refusal), Err(other)) => Err(refusal.or_less(other)),
             };
-            if is_faster {
-                best = further;
-            }
         }
         best
     }
@@ -106,15 +104,20 @@ impl Search<'_> {
             let further = other.to_mm() * wide.to_mm();
             further.total_cmp(&section)
         });
-        let mut first = None;
+        let mut best: Option<Refusal> = None;
         for (layer, step) in tries {
             match self.tried(layer, step, through, down_to) {
                 Ok(plan) => return Ok(plan),
-                Err(refusal @ Refusal::Scallop { .. }) => first = first.or(Some(refusal)),
-                Err(refusal) => return Err(first.unwrap_or(refusal)),
+                Err(refusal @ Refusal::Scallop { .. }) => {
+                    best = Some(match best {
+                        Some(best) => best.or_less(refusal),
+                        None => refusal,
+                    });
+                }
+                Err(refusal) => return Err(best.unwrap_or(refusal)),
             }
         }
-        Err(first.unwrap_or(Refusal::Nothing))
+        Err(best.unwrap_or(Refusal::Nothing))
     }
 
     fn tried(
@@ -183,7 +186,8 @@ impl Search<'_> {
     /// The layers that are tried, the largest first.
     fn layers(&self, through: u32) -> Result<Vec<Length>, Refusal> {
         let (knife, wheel) = (&self.blades.knife, &self.blades.wheel);
-        let by_blades = (knife.deepest() * (1.0 / f64::from(through))).min(wheel.thickest_layer());
+        let deepest = knife.deepest() - wheel.slit_excess(Length::mm(self.wish.rounding.spacing()));
+        let by_blades = (deepest * (1.0 / f64::from(through))).min(wheel.thickest_layer());
         if let (Auto::Auto, true) = (self.wish.layer, by_blades <= Length::ZERO) {
             return Err(Refusal::TooThick {
                 layer: Length::ZERO,

@@ -185,6 +185,12 @@ impl Wheel {
         Length::mm((radius - chord) * self.lead.sin())
     }
 
+    /// How much deeper than what a strip leaves its slits may go, where the centre of the disc is rounded by so much: close to its
+    /// end the rim rises steeply.
+    pub(crate) fn slit_excess(&self, rounding: Length) -> Length {
+        self.rise() - self.rise_within(self.beyond + rounding)
+    }
+
     /// How far the disc extends from its centre along the feed: `R cos(lead)`.
     #[must_use]
     pub fn overhang(&self) -> Length {

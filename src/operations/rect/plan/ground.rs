@@ -224,7 +224,7 @@ impl<'w> Ground<'w> {
 }
 
 impl Rounding {
-    const fn spacing(self) -> f64 {
+    pub(crate) const fn spacing(self) -> f64 {
         match self {
             Self::Exact => 0.0,
             Self::Grid => grid::SPACING,

@@ -79,6 +79,18 @@ pub enum Refusal {
 }
 
 impl Refusal {
+    /// Of two plans that break the same limit, what is said of the one that breaks it less; else of the first.
+    pub(crate) fn or_less(self, other: Self) -> Self {
+        let is_less = match (&self, &other) {
+            (Self::Scallop { left, .. }, Self::Scallop { left: less, .. }) => less < left,
+            (Self::Changes { changes, .. }, Self::Changes { changes: fewer, .. }) => fewer < changes,
+            (Self::Cuts { cuts, .. }, Self::Cuts { cuts: fewer, .. }) => fewer < cuts,
+            (Self::Time { time, .. }, Self::Time { time: less, .. }) => less < time,
+            _ => false,
+        };
+        if is_less { other } else { self }
+    }
+
     /// Whether there is a plan, but one that is too long: other ones may be shorter.
     pub(crate) const fn is_about_the_whole(&self) -> bool {
         match self {

@@ -408,3 +408,27 @@ fn slits_in_the_air_do_nothing() {
         }]
     );
 }
+
+/// A slit through two layers is still there below the wall that the upper strip leaves. What the rim of the next pass shaves on the
+/// far side of it is as thick as it is, from either side.
+#[test]
+fn a_slit_below_a_wall_makes_no_sliver_as_high_as_the_wall() {
+    let disc = wheel();
+    for (side, slits) in [
+        (Side::Left, [48.0, 36.0, 24.0]),
+        (Side::Right, [12.0, 24.0, 36.0]),
+    ] {
+        let mut section = block(60.0, 40.0);
+        for x in slits {
+            section.slit(x, 22.0);
+        }
+        for x in slits {
+            let centre = beside(&disc, x, 33.0, side).centre;
+            let outcome = free(&mut section, &disc, pass(centre, side, 3.0));
+            assert_eq!(outcome.faults, [], "{side:?} {x}");
+            let heights = outcome.freed.iter().map(|freed| freed.stretch.height.to_mm());
+            let strips = heights.filter(|&height| height > 25.0 * libm::sin(3_f64.to_radians()));
+            assert_eq!(strips.count(), 1, "{side:?} {x}");
+        }
+    }
+}

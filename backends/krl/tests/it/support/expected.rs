@@ -102,6 +102,12 @@ fn target(action: &Action, at: Option<(Point3, OrientationId)>) -> Option<(Point
             Some((to, at.unwrap().1))
         }
         Action::Turn { to, .. } => Some((at.unwrap().0, to)),
+        Action::Follow {
+            to,
+            orientation,
+            via: None,
+            ..
+        } => Some((to, orientation)),
         _ => None,
     }
 }
@@ -115,7 +121,9 @@ fn speeds_of(
     let feed_of = |id: vcutc_backend_api::ir::FeedId| tables.feeds[usize::from(id.0)].to_m_per_s();
     let rate_of = |id: vcutc_backend_api::ir::RateId| Some(tables.rates[usize::from(id.0)].to_deg_per_s());
     match *action {
-        Action::Travel { feed, rate, .. } => (feed_of(feed), rate_of(rate)),
+        Action::Travel { feed, rate, .. } | Action::Follow { feed, rate, .. } => {
+            (feed_of(feed), rate_of(rate))
+        }
         Action::Approach { feed, .. } | Action::Retract { feed, .. } | Action::Cut { feed, .. } => {
             (feed_of(feed), rate)
         }
