@@ -73,9 +73,15 @@ fn area(outline: &[Point2]) -> f64 {
     strips.sum::<f64>() / 2.0
 }
 
+/// Whether an example is cut in Vs only.
+fn is_of_vs((example, _): &(String, Vec<crate::shop::Pairing>)) -> bool {
+    !example.ends_with("_rect.vcut")
+}
+
 #[test]
 fn chips_add_up_to_what_is_removed() {
-    for (example, pairings) in compiling() {
+    // Strips are no chips of a V.
+    for (example, pairings) in compiling().into_iter().filter(is_of_vs) {
         let outcome = compile_on(pairings[0].machine, &example, &folder());
         let material = Material::of(&outcome).unwrap();
         let program = material.compiled.program.verified();
@@ -134,7 +140,8 @@ fn what_is_marked_is_what_the_report_says() {
 /// its sheet.
 #[test]
 fn pictures_stay_within_their_sheets() {
-    for (example, pairings) in compiling() {
+    // The lattice shows a strip by the centre of its disc, which may run beside the stock and the sheet.
+    for (example, pairings) in compiling().into_iter().filter(is_of_vs) {
         let outcome = compile_on(pairings[0].machine, &example, &folder());
         for what in ALL {
             let svg = picture(what, &outcome, Prefix::new("here-"));
