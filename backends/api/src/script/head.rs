@@ -5,7 +5,9 @@
 //! that a shop has under version control.
 
 use crate::ir::{Action, Crusher, Disc, Flank, Head, Program, Purpose, Shape, Straight};
+use crate::state::State;
 use crate::units::{AngularSpeed, Duration, Length};
+use crate::verify::UPRIGHT;
 
 /// A comment: words of ours, and words that people wrote behind them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,6 +17,9 @@ pub struct HeadLine<'p> {
     /// Theirs.
     pub theirs: &'p str,
 }
+
+/// The most letters of ours in a line.
+const LONGEST: usize = 60;
 
 /// How many digits of the job's hash are shown: by chance two jobs of a million have the same with odds of one to ten million.
 const SHOWN_DIGITS: usize = 16;
@@ -60,10 +65,15 @@ pub fn head_lines<'p>(program: &'p Program, machine: &'p str) -> Vec<HeadLine<'p
     let stock = program.stock;
     let [width, depth, height] = [stock.width, stock.depth, stock.height].map(number);
     lines.push(ours(format!("stock {width} x {depth} x {height} mm")));
-    lines.push(ours(match &program.head {
-        Some(head) => format!("{}, {} as planned", cuts(program), duration_words(head.time)),
-        None => cuts(program),
-    }));
+    let counts = cuts(program);
+    let time = program.head.as_ref();
+    let time = time.map(|head| format!("{} as planned", duration_words(head.time)));
+    // Three kinds of cuts may need a line of their own.
+    lines.extend(match time {
+        Some(time) if counts.len() + time.len() + 2 <= LONGEST => vec![ours(format!("{counts}, {time}"))],
+        Some(time) => vec![ours(counts), ours(time)],
+        None => vec![ours(counts)],
+    });
     lines
 }
 
@@ -97,21 +107,69 @@ fn shown(head: &Head) -> &str {
     head.job.get(..SHOWN_DIGITS).unwrap_or(&head.job)
 }
 
-/// Every V has one left flank.
+/// How many cuts, slits and strips there are. Programs of one blade have cuts only, of several what is there.
 fn cuts(program: &Program) -> String {
-    let is_left = |action: &Action| {
-        matches!(
-            action,
-            Action::Cut {
-                flank: Flank::Left,
-                ..
-            }
-        )
-    };
-    match program.ops.iter().filter(|op| is_left(&op.action)).count() {
-        1 => "1 cut".to_owned(),
-        cuts => format!("{cuts} cuts"),
+    let mut counts = Counts::default();
+    for (_, op, after) in program.ends() {
+        counts.add(program, &op.action, after);
     }
+    let Counts {
+        cuts, slits, strips, ..
+    } = counts;
+    let kinds = [(cuts, "cut"), (slits, "slit"), (strips, "strip")];
+    let had = kinds.into_iter().filter(|(count, _)| *count > 0);
+    let words: Vec<String> = had.map(|(count, what)| counted(count, what)).collect();
+    if words.is_empty() {
+        return counted(0, "cut");
+    }
+    words.join(", ")
+}
+
+fn counted(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        count => format!("{count} {what}s"),
+    }
+}
+
+#[derive(Default)]
+struct Counts {
+    cuts: usize,
+    slits: usize,
+    strips: usize,
+    /// Whether the op before was a piece of a chain.
+    in_chain: bool,
+}
+
+impl Counts {
+    /// Every V has one left flank; upright beside a disc it is a slit. A chain of a disc is a strip.
+    fn add(&mut self, program: &Program, action: &Action, after: State) {
+        let in_chain = matches!(action, Action::Follow { .. });
+        let starts = in_chain && !core::mem::replace(&mut self.in_chain, in_chain);
+        let several = program.blades.len() > 1;
+        match action {
+            Action::Cut {
+                flank: Flank::Left, ..
+            } if several && is_upright(program, after) => self.slits += 1,
+            Action::Cut {
+                flank: Flank::Left, ..
+            } => self.cuts += 1,
+            Action::Follow { .. } if starts && several => {
+                let shape = program.blade(after.tool).map(|blade| &blade.shape);
+                self.strips += usize::from(matches!(shape, Some(Shape::Disc(_))));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Whether the blade leans to no side.
+fn is_upright(program: &Program, after: State) -> bool {
+    let held = after
+        .place
+        .pose()
+        .and_then(|pose| program.orientation(pose.orientation));
+    held.is_some_and(|held| held.matrix()[0][2].abs() <= UPRIGHT)
 }
 
 /// A length in mm with up to three decimals, and none that say nothing.
