@@ -22,13 +22,6 @@ pub(super) fn optimize(args: &OptimizeArgs, targets: &Targets, console: &Console
     let optimised = vcutc_vcut_optimize::optimise(request, args.points, &mut |stage| progress.enter(stage));
     progress.finish();
     match optimised {
-        Ok(optimisation) if optimisation.operations.is_empty() && optimisation.given.is_empty() => {
-            let failure = Failure::new(format!(
-                "{} has no `rough vcut`, and other operations have no lattices to compare",
-                args.job
-            ));
-            console.failure(&failure.help("`vcutc check` shows what `auto` chose in them"))
-        }
         Ok(optimisation) => tell(&optimisation, picture.as_ref(), console),
         Err(Refusal::Unreadable(reason)) => console.failure(&Failure::new(format!(
             "cannot read the job {}: {reason}",

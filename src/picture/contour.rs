@@ -1,8 +1,8 @@
 //! What the cuts leave: the part, the machined contour above it, the chips that were taken out, and the highest scallop.
 
 use super::chart::FRAME;
-use super::lattice::{EDGE, PART, SHADES, is_many, shades, surfaces};
-use super::palette::{INK, ORANGE};
+use super::lattice::{PART, is_many, shades, surfaces};
+use super::palette::{EDGE, INK, ORANGE, SHADES};
 use super::section::{BELOW, Section};
 use super::sheet::{self, Entry, HALO};
 use super::svg::{Anchor, Svg};
@@ -29,7 +29,7 @@ pub struct Contour<'a> {
     pub highest: Highest,
 }
 
-/// The chip of a V.
+/// What a V, a single flank or a pass of a disc takes out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chip {
     /// The layer it belongs to: neighbouring layers are shaded differently.

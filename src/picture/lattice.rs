@@ -3,9 +3,10 @@
 use super::Point;
 use super::band::MANY;
 use super::chart::FRAME;
-use super::palette::{BLUE, GREEN, PURPLE, VERMILION};
+use super::palette::{BLUE, EDGE, GREEN, PURPLE, SHADES, VERMILION};
 use super::section::{BELOW, Section};
 use super::sheet::{self, Entry};
+use super::strips::Strips;
 use super::svg::{Anchor, Svg};
 use super::trace::Trace;
 use std::collections::BTreeSet;
@@ -28,6 +29,8 @@ pub struct Lattice<'a> {
     /// The Vs: where the left flank comes out, the tip, where the right one does. From a hundred on they are not drawn one by
     /// one.
     pub vees: &'a [[[f64; 2]; 3]],
+    /// Slits and strips, of which the tips say how they came to be there only. They count as the Vs do.
+    pub strips: Strips<'a>,
     /// The surface when each layer is cut, in their order, from left to right: what is drawn of many cuts.
     pub surfaces: &'a [Vec<[f64; 2]>],
     /// The layers from the top: what they are called, and the height of their tips.
@@ -117,11 +120,12 @@ pub fn draw(lattice: &Lattice<'_>) -> String {
     let bottom = section.bottom + BELOW;
     let (description, legend) = (description(lattice), legend(lattice));
     let mut svg = sheet::sheet(lattice.heading, section.room, &description, bottom, &legend);
-    if is_many(lattice.vees.len()) {
+    if lattice.is_many() {
         surfaces(&mut svg, lattice.surfaces, &section);
         section.below(&mut svg, lattice.part, PART);
     } else {
         section.stock(&mut svg, STAYS);
+        lattice.strips.rectangles(&mut svg, &section);
         section.below(&mut svg, lattice.part, PART);
         let vees = lattice.vees.iter().map(|vee| vee.map(|point| section.at(point)));
         let width = (fineness(lattice, &section) * 0.28).max(0.2);
@@ -133,6 +137,11 @@ pub fn draw(lattice: &Lattice<'_>) -> String {
         svg.open(section.curve(bound), BOUND);
     }
     section.stock(&mut svg, FRAME);
+    lattice.strips.slits(&mut svg, &section);
+    if !lattice.is_many() {
+        lattice.strips.discs(&mut svg, &section);
+        lattice.strips.numbers(&mut svg, &section);
+    }
     tips(&mut svg, lattice, &section);
     layers(&mut svg, lattice, &section);
     section.axes(&mut svg);
@@ -149,13 +158,22 @@ fn description(lattice: &Lattice<'_>) -> String {
         1 => format!("1 {one}"),
         count => format!("{count} {one}s"),
     };
+    let what = match lattice.strips.words() {
+        Some(words) => {
+            let others = lattice.tips.len().saturating_sub(lattice.strips.strips.len());
+            match others {
+                0 => format!("with {words}"),
+                others => format!("with {words}, and the tips of {},", of(others, "cut")),
+            }
+        }
+        None => format!("with the tips of {}", of(lattice.tips.len(), "cut")),
+    };
     let counts: Vec<String> = origins(lattice).map(|(_, words)| words).collect();
     format!(
-        "{}. Section of a stock {:.1} mm wide and {:.1} mm high with the tips of {} in {} above the part: {}.",
+        "{}. Section of a stock {:.1} mm wide and {:.1} mm high {what} in {} above the part: {}.",
         lattice.heading.subtitle,
         lattice.stock[0],
         lattice.stock[1],
-        of(lattice.tips.len(), "cut"),
         of(lattice.layers.len(), "layer"),
         counts.join(", ")
     )
@@ -176,10 +194,11 @@ fn legend(lattice: &Lattice<'_>) -> Vec<Entry> {
             svg.path(trace.text(), &origin.paint(5.0));
         })
     };
-    let mut legend: Vec<Entry> = origins(lattice).map(mark).collect();
-    if is_many(lattice.vees.len()) {
+    let mut legend = lattice.strips.legend(lattice.is_many());
+    legend.extend(origins(lattice).map(mark));
+    if lattice.is_many() {
         legend.extend([shades(), Entry::area(STAYS, "stays")]);
-    } else {
+    } else if !lattice.vees.is_empty() || lattice.strips == Strips::default() {
         let line = format!("stroke=\"{VEE}\" stroke-width=\"1.5\"");
         legend.push(Entry::line(line, "flanks, as far as they cut"));
     }
@@ -190,15 +209,17 @@ fn legend(lattice: &Lattice<'_>) -> Vec<Entry> {
     legend
 }
 
+impl Lattice<'_> {
+    /// Whether chips are not drawn one by one.
+    fn is_many(&self) -> bool {
+        is_many(self.vees.len() + self.strips.strips.len())
+    }
+}
+
 /// Whether so many cuts are drawn together, layer by layer.
 pub(super) const fn is_many(cuts: usize) -> bool {
     cuts >= MANY
 }
-
-/// What odd and even layers take.
-pub(super) const SHADES: [&str; 2] = ["#f7f2e4", "#e8dec4"];
-/// Outlines of chips.
-pub(super) const EDGE: &str = "#8f7f57";
 
 /// Layers in a legend.
 pub(super) fn shades() -> Entry {
@@ -222,7 +243,7 @@ pub(super) fn surfaces(svg: &mut Svg, surfaces: &[Vec<Point>], section: &Section
 /// Lines and marks become finer where there are many; where they are drawn together, they do not touch.
 fn fineness(lattice: &Lattice<'_>, section: &Section) -> f64 {
     let (width, tips) = (section.x.length(), lattice.tips.len().max(1) as f64);
-    if is_many(lattice.vees.len()) {
+    if lattice.is_many() {
         let each = width * lattice.layers.len().max(1) as f64 / tips;
         (each * 0.3).clamp(0.35, 3.0)
     } else {

@@ -24,6 +24,7 @@ mod scale;
 mod section;
 pub mod setup;
 mod sheet;
+pub mod strips;
 mod svg;
 pub mod thin;
 pub mod times;

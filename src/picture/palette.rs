@@ -13,6 +13,11 @@ pub(super) const ORANGE: &str = "#e69f00";
 pub(super) const SKY: &str = "#56b4e9";
 pub(super) const PURPLE: &str = "#cc79a7";
 
+/// What odd and even layers take.
+pub(super) const SHADES: [&str; 2] = ["#f7f2e4", "#e8dec4"];
+/// Outlines of chips.
+pub(super) const EDGE: &str = "#8f7f57";
+
 /// Colours on a light ground, and on a dark one: what is light becomes dark, what stands out stands out.
 const PARTNERS: [(&str, &str); 32] = [
     // Ground, letters, plots, grid.

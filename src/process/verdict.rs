@@ -23,9 +23,8 @@ use vcutc_job::search::{RouteSet, SearchSpace};
 use vcutc_job::{CheckedJob, PlannedJob, PlannedOperation, Sourced};
 use vcutc_simulation::body::{self, Bodies};
 use vcutc_simulation::disc::{Hold, PassFault, Stretch};
-use vcutc_simulation::prove::{self, Bound, CutFault, Finding, Findings, Release, Replay};
+use vcutc_simulation::prove::{self, Bound, CutFault, Finding, Findings, Replay};
 use vcutc_simulation::report::{Report, report};
-use vcutc_simulation::surface::Surface;
 use vcutc_simulation::timing::{timing, total};
 
 /// A program with its proof, good or bad.
@@ -79,16 +78,6 @@ pub fn bodies(plan: &PlannedJob, program: &VerifiedProgram) -> Bodies {
 #[must_use]
 pub fn replay(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
     prove::replay(program, &bounds(plan))
-}
-
-/// As [`replay`], and shows the surface before each V is released from it.
-#[must_use]
-pub fn watched(
-    plan: &PlannedJob,
-    program: &VerifiedProgram,
-    watch: &mut dyn FnMut(&mut Surface, Release),
-) -> Replay {
-    prove::watched(program, &bounds(plan), watch)
 }
 
 /// What each operation must stay out of.

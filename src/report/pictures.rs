@@ -5,8 +5,10 @@
 
 mod blade;
 mod joints;
+mod machined;
 mod paths;
 mod process;
+mod strips;
 mod time;
 
 pub use blade::blade;
@@ -16,9 +18,10 @@ pub use process::process;
 pub use time::time;
 
 use super::Material;
+use machined::{By, Machined, Taken, machined};
+use strips::Rectangles;
 use vcutc_geometry::curve::Point2;
-use vcutc_job::planned::TipOrigin;
-use vcutc_picture::thin::Thinned;
+use vcutc_job::planned::{CutShape, PlannedTip};
 use vcutc_picture::{Prefix, contour, correlation, deviation, lattice};
 use vcutc_process::verdict;
 use vcutc_simulation::contour::{SAMPLES, Sampled, sampled};
@@ -27,7 +30,8 @@ use vcutc_simulation::contour::{SAMPLES, Sampled, sampled};
 #[must_use]
 pub fn lattice(material: &Material<'_>, ids: Prefix) -> String {
     let Machined { chips, surfaces, .. } = machined(material);
-    let vees: Vec<[[f64; 2]; 3]> = chips.iter().filter_map(|chip| vee(&chip.outline)).collect();
+    let vees: Vec<[[f64; 2]; 3]> = chips.iter().filter_map(vee).collect();
+    let strips = Rectangles::of(material.plan);
     let part = &material.plan.profile;
     let bounds = material
         .plan
@@ -48,8 +52,9 @@ pub fn lattice(material: &Material<'_>, ids: Prefix) -> String {
         stock: stock(material),
         part: &pairs(material.plan.profile.points()),
         bounds: &bounds,
-        tips: &tips(material),
+        tips: &strips.tips,
         vees: &vees,
+        strips: strips.shown(),
         surfaces: &surfaces,
         layers: &layers(material),
     })
@@ -86,7 +91,7 @@ pub fn contour(material: &Material<'_>, ids: Prefix) -> String {
         stock: stock(material),
         part: &pairs(material.plan.profile.points()),
         machined: &machined,
-        chips: &chips,
+        chips: &chips.into_iter().map(|chip| chip.shown).collect::<Vec<_>>(),
         surfaces: &surfaces,
         highest: contour::Highest {
             peak: pair(report.scallop.peak),
@@ -185,68 +190,13 @@ fn corners(material: &Material<'_>) -> Vec<Point2> {
         .collect()
 }
 
-/// What the cuts make, as the proof replays them.
-struct Machined {
-    /// The machined contour, from left to right.
-    contour: Vec<[f64; 2]>,
-    /// The chips in the order in which they come free.
-    chips: Vec<contour::Chip>,
-    /// The surface after each layer, or after every few layers of many.
-    surfaces: Vec<Vec<[f64; 2]>>,
-}
-
-/// Most surfaces that are kept: more layers could not be distinguished.
-const MOST_SURFACES: usize = 60;
-/// Columns in which a surface is looked at.
-const COLUMNS: u32 = 2400;
-
-fn machined(material: &Material<'_>) -> Machined {
-    let mut chips = Vec::new();
-    let mut surfaces = Vec::new();
-    let mut layer = None;
-    let mut passed = 0_usize;
-    let every = material
-        .compiled
-        .report
-        .layers
-        .len()
-        .div_ceil(MOST_SURFACES)
-        .max(1);
-    let program = material.compiled.program.verified();
-    let replay = verdict::watched(material.plan, program, &mut |surface, release| {
-        if layer
-            .replace(release.layer)
-            .is_some_and(|before| before != release.layer)
-        {
-            passed += 1;
-            if passed.is_multiple_of(every) {
-                surfaces.push(seen(surface.corners()));
-            }
-        }
-        if let Some(outline) = surface.chip(release.vee) {
-            chips.push(contour::Chip {
-                layer: release.layer.get(),
-                outline: pairs(&outline),
-            });
-        }
-    });
-    surfaces.push(seen(replay.surface.corners()));
-    Machined {
-        contour: replay.surface.corners().map(pair).collect(),
-        chips,
-        surfaces,
-    }
-}
-
-/// A surface, of no more points than can be seen.
-fn seen(corners: impl Iterator<Item = Point2>) -> Vec<[f64; 2]> {
-    let corners: Vec<[f64; 2]> = corners.map(pair).collect();
-    Thinned::of(&corners, COLUMNS)
-}
-
-/// Where the left flank comes out, the tip, and where the right flank comes out: the ends of a chip's outline.
-fn vee(outline: &[[f64; 2]]) -> Option<[[f64; 2]; 3]> {
-    let (&[right, tip], &left) = (outline.last_chunk()?, outline.first()?);
+/// Where the left flank comes out, the tip, and where the right flank comes out: the ends of a chip's outline. None of a strip,
+/// which no flanks rise from.
+fn vee(chip: &Taken) -> Option<[[f64; 2]; 3]> {
+    let (&[right, tip], &left) = match chip.by {
+        By::Flanks => (chip.shown.outline.last_chunk()?, chip.shown.outline.first()?),
+        By::Disc => return None,
+    };
     Some([left, tip, right])
 }
 
@@ -263,21 +213,8 @@ fn pairs(points: &[Point2]) -> Vec<[f64; 2]> {
     points.iter().copied().map(pair).collect()
 }
 
-fn tips(material: &Material<'_>) -> Vec<lattice::Tip> {
-    let cuts = material.plan.operations.iter().flat_map(|planned| planned.tips());
-    cuts.map(|cut| lattice::Tip {
-        at: pair(cut.tip),
-        origin: match cut.origin {
-            TipOrigin::Lattice | TipOrigin::Given => lattice::Origin::Lattice,
-            TipOrigin::Lifted => lattice::Origin::Lifted,
-            TipOrigin::Shifted => lattice::Origin::Shifted,
-            TipOrigin::Relieved => lattice::Origin::Relieved,
-        },
-    })
-    .collect()
-}
-
-/// Layers by number, those of several operations as `operation.layer`, at the height of their lowest tip.
+/// Layers by number, those of several operations as `operation.layer`, at the height of their lowest tip. Slits may reach
+/// through more than their layer.
 fn layers(material: &Material<'_>) -> Vec<(String, f64)> {
     let several = material.plan.operations.len() > 1;
     let mut layers = Vec::new();
@@ -289,7 +226,11 @@ fn layers(material: &Material<'_>) -> Vec<(String, f64)> {
             } else {
                 number.to_string()
             };
-            let lowest = layer.iter().map(|cut| cut.tip.z).fold(f64::INFINITY, f64::min);
+            let is_slit = |cut: &&PlannedTip| matches!(cut.shape, CutShape::Slit { .. });
+            let floors = layer.iter().filter(|cut| !is_slit(cut)).map(|cut| cut.tip.z);
+            let lowest = floors.reduce(f64::min);
+            let lowest = lowest.or_else(|| layer.iter().map(|cut| cut.tip.z).reduce(f64::min));
+            let Some(lowest) = lowest else { continue };
             layers.push((name, lowest));
         }
     }

@@ -9,14 +9,16 @@
 pub mod bodies;
 mod document;
 mod packing;
+pub mod taken;
 pub mod timeline;
 pub mod track;
 
 use bodies::{Body, bodies};
+use taken::Taken;
 use timeline::Timeline;
 use track::Track;
 use vcutc_backend_api::geometry::{Orientation, Point3};
-use vcutc_backend_api::ir::{self, Axis, Blade, Stock};
+use vcutc_backend_api::ir::{self, Action, Axis, Blade, Program, Stock, ToolId};
 use vcutc_driver::{Compiled, Finished};
 use vcutc_geometry::curve::Point2;
 use vcutc_job::PlannedJob;
@@ -34,8 +36,14 @@ pub struct Playback<'a> {
     pub stock: Stock,
     /// The part's contour, from left to right, in W.
     pub part: &'a [Point2],
-    /// The blade of each operation.
-    pub blades: Vec<&'a Blade>,
+    /// The blades of the program, of which the first is at hand when it starts.
+    pub blades: &'a [Blade],
+    /// The ops that change the blade, and the blade that is at hand after each.
+    pub changes: Vec<(usize, ToolId)>,
+    /// How many operations the program has.
+    pub operations: usize,
+    /// What slits and discs take, where there are any: of Vs it follows from their poses.
+    pub taken: Option<Taken>,
     /// How the blade is held.
     pub orientations: &'a [Orientation],
     /// What happens when.
@@ -50,7 +58,7 @@ pub struct Cell<'a> {
     pub axes: &'a [Axis],
     /// How they move it.
     pub linkage: Linkage,
-    /// The blade frame T of each operation, seen from the flange.
+    /// The frame T of each blade, seen from the flange.
     pub blades_in_flange: Vec<Pose>,
     /// The workpiece frame W seen from where the work is mounted.
     pub work_in_mount: Pose,
@@ -70,14 +78,24 @@ impl<'a> Playback<'a> {
         Self {
             stock: program.stock,
             part: plan.profile.points(),
-            blades: (program.operations.iter())
-                .filter_map(|operation| program.blade(*operation.tools.first()?))
-                .collect(),
+            blades: &program.blades,
+            changes: changes(program),
+            operations: program.operations.len(),
+            taken: Taken::of(compiled.program.verified()),
             orientations: &program.orientations,
             timeline: Timeline::of(program, &compiled.op_times),
             cell,
         }
     }
+}
+
+fn changes(program: &Program) -> Vec<(usize, ToolId)> {
+    let ops = program.ops.iter().enumerate();
+    let changes = ops.filter_map(|(op, made)| match made.action {
+        Action::ToolChange { tool } => Some((op, tool)),
+        _ => None,
+    });
+    changes.collect()
 }
 
 fn cell<'a>(plan: &'a PlannedJob, reached: &'a Reached) -> Option<Cell<'a>> {
@@ -91,11 +109,10 @@ fn cell<'a>(plan: &'a PlannedJob, reached: &'a Reached) -> Option<Cell<'a>> {
     Some(Cell {
         axes: &model.axes,
         linkage,
-        blades_in_flange: (program.operations.iter())
-            .filter_map(|operation| {
-                let tool = operation.tools.first()?;
-                Some(rigs.with(*tool).flange_in_blade.inverse())
-            })
+        blades_in_flange: (0..)
+            .map(ToolId)
+            .take(program.blades.len())
+            .map(|tool| rigs.with(tool).flange_in_blade.inverse())
             .collect(),
         work_in_mount: rig.work_in_root,
         bodies,
@@ -128,13 +145,6 @@ fn corners(stock: Stock, work_in_mount: &Pose) -> Vec<Point3> {
 #[must_use]
 pub fn section(plan: &PlannedJob, compiled: &Compiled) -> String {
     let program = compiled.program.verified().program();
-    if program
-        .operations
-        .iter()
-        .any(|operation| operation.tools.len() > 1)
-    {
-        return "<p class=\"vcut-playback-absent\">The playback does not show operations that change the blade yet.</p>\n".to_owned();
-    }
     let ops = program.ops.len();
     if ops > MOST_OPS {
         return format!(

@@ -16,11 +16,13 @@ mod pass;
 mod skin;
 mod sorted;
 mod sweep;
+mod taken;
 #[cfg(test)]
 mod tests;
 
 pub use crack::Crack;
 pub use guard::Guard;
+pub use taken::{Chip, Taken};
 
 use super::surface::{Side, Single, Surface, Vee};
 use crack::Undercut;
@@ -42,6 +44,8 @@ pub struct CrossSection {
     /// No undercut is wider, in mm.
     widest: f64,
     scratch: Scratch,
+    /// What cuts take, where somebody wants to see it.
+    taken: Option<Vec<Taken>>,
 }
 
 /// Lists that are filled for each pass.
@@ -69,6 +73,7 @@ impl CrossSection {
             undercuts: Sorted::new(),
             widest: 0.0,
             scratch: Scratch::default(),
+            taken: None,
         }
     }
 
@@ -120,6 +125,7 @@ impl CrossSection {
         }
         if left.min(right) - bottom > TOUCH {
             self.insert(Crack { x, bottom });
+            self.note(|_| Some(Taken::Slit(Crack { x, bottom })));
             self.free_undercuts(x, x);
         }
         Some(Length::mm(depth))
@@ -166,6 +172,7 @@ impl CrossSection {
         let span = (!self.undercuts.is_empty())
             .then(|| self.chip_span(vee))
             .flatten();
+        self.note(|surface| Some(Taken::Chip(Chip::of(vee, surface.chip(vee)?))));
         self.surface.release(vee);
         if let Some([from, to]) = span {
             self.free_undercuts(from, to);

@@ -22,7 +22,7 @@ mod strip;
 mod tests;
 
 use super::course::Course;
-use super::cross_section::{CrossSection, Guard};
+use super::cross_section::{CrossSection, Guard, Taken};
 use super::disc::PassFault;
 use super::surface::{Side, Single, Surface, Vee};
 use core::num::NonZeroU32;
@@ -147,37 +147,15 @@ pub struct Replay {
 /// Replays a program's cuts. `bounds` are the operations' own, in order.
 #[must_use]
 pub fn replay(program: &VerifiedProgram, bounds: &[Bound<'_>]) -> Replay {
-    watched(program, bounds, &mut |_, _| {})
-}
-
-/// As [`replay`], and shows the surface before each chip is released from it.
-#[must_use]
-pub fn watched(
-    program: &VerifiedProgram,
-    bounds: &[Bound<'_>],
-    watch: &mut dyn FnMut(&mut Surface, Release),
-) -> Replay {
-    let stock = program.program().stock;
-    let untouched = Surface::untouched(stock);
-    played(untouched, program, bounds, watch)
+    let untouched = Surface::untouched(program.program().stock);
+    replay_on(untouched, program, bounds)
 }
 
 /// Replays the cuts of a program on what others have left of the stock.
 #[must_use]
 pub fn replay_on(surface: Surface, program: &VerifiedProgram, bounds: &[Bound<'_>]) -> Replay {
-    played(surface, program, bounds, &mut |_, _| {})
-}
-
-fn played(
-    surface: Surface,
-    program: &VerifiedProgram,
-    bounds: &[Bound<'_>],
-    watch: &mut dyn FnMut(&mut Surface, Release),
-) -> Replay {
-    let verified = program;
-    let program = verified.program();
-    let mut player = Player::new(surface, program, bounds);
-    player.play(verified, watch, &mut |_, _| {});
+    let mut player = Player::new(surface, program.program(), bounds);
+    player.play(program, &mut |_, _| {});
     player.finish()
 }
 
@@ -189,22 +167,25 @@ const fn is_piece(op: &Op) -> bool {
 /// Shows the surface before every op as the cuts before it have left it. A chip counts as material until all of its flanks are
 /// cut.
 pub fn accompanied(program: &VerifiedProgram, show: &mut dyn FnMut(OpId, &mut Surface)) {
-    let verified = program;
-    let program = verified.program();
-    let mut player = Player::new(Surface::untouched(program.stock), program, &[]);
-    player.play(verified, &mut |_, _| {}, show);
+    let untouched = Surface::untouched(program.program().stock);
+    let mut player = Player::new(untouched, program.program(), &[]);
+    player.play(program, &mut |op, section| show(op, section.surface()));
 }
 
-/// A cut whose chip comes free: its last flank has just been cut.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Release {
-    pub operation: OperationId,
-    /// Its layer, from the top.
-    pub layer: NonZeroU32,
-    /// The cut in its layer.
-    pub cut: NonZeroU32,
-    /// Its flanks.
-    pub vee: Vee,
+/// As [`accompanied`], with what each op takes: before an op `show` sees what the one before it has taken. Returns what the last
+/// one takes, and the machined surface.
+pub fn watched(
+    program: &VerifiedProgram,
+    show: &mut dyn FnMut(OpId, &mut Surface, Vec<Taken>),
+) -> (Vec<Taken>, Surface) {
+    let untouched = Surface::untouched(program.program().stock);
+    let mut player = Player::new(untouched, program.program(), &[]);
+    player.section.keep_taken();
+    player.play(program, &mut |op, section| {
+        let taken = section.taken();
+        show(op, section.surface(), taken);
+    });
+    (player.section.taken(), player.section.into_surface())
 }
 
 /// Depth below which an overcut is rounding: a nanometre.
@@ -343,19 +324,14 @@ impl<'p> Player<'p> {
         }
     }
 
-    /// Plays all cuts. `show` sees the surface before every op, `watch` before each chip of a V or a single flank is released.
-    fn play(
-        &mut self,
-        verified: &VerifiedProgram,
-        watch: &mut dyn FnMut(&mut Surface, Release),
-        show: &mut dyn FnMut(OpId, &mut Surface),
-    ) {
+    /// Plays all cuts. `show` sees the section before every op.
+    fn play(&mut self, verified: &VerifiedProgram, show: &mut dyn FnMut(OpId, &mut CrossSection)) {
         // Looked at where there is one, so that programs without chains take no time for them.
         let mut pieces = self.program.segments().filter(|segment| is_piece(segment.op));
         for (id, op, after) in self.program.ends() {
-            show(id, self.section.surface());
+            show(id, &mut self.section);
             if let Some(cut) = Cut::of(op, after) {
-                self.cut(&cut, verified.is_single(id), watch);
+                self.cut(&cut, verified.is_single(id));
             } else if is_piece(op)
                 && let Some(segment) = pieces.next()
             {
@@ -365,14 +341,14 @@ impl<'p> Player<'p> {
     }
 
     /// `is_single` says that the cut has no other flank.
-    fn cut(&mut self, cut: &Cut, is_single: bool, watch: &mut dyn FnMut(&mut Surface, Release)) {
+    fn cut(&mut self, cut: &Cut, is_single: bool) {
         self.enter(cut.operation, cut.tool);
         let Some(&geometry) = self.flanks.get(cut.held.0 as usize) else {
             return;
         };
         let side = cut.side();
         if is_single {
-            self.single(cut, geometry, watch);
+            self.single(cut, geometry);
             return;
         }
         let blocked_at = if let Some(run) = self.section.surface().flank_from(cut.tip, side, geometry.slope) {
@@ -393,13 +369,13 @@ impl<'p> Player<'p> {
             }
             Some(other) => {
                 let vee = Vee::one(cut.tip, side, geometry.slope).with(side.opposite(), other);
-                self.release(cut, vee, watch);
+                self.release(cut, vee);
             }
         }
     }
 
     /// A cut of one flank.
-    fn single(&mut self, cut: &Cut, geometry: FlankGeometry, watch: &mut dyn FnMut(&mut Surface, Release)) {
+    fn single(&mut self, cut: &Cut, geometry: FlankGeometry) {
         let vee = Vee::one(cut.tip, cut.side(), geometry.slope);
         self.count(cut);
         match self.section.single(vee) {
@@ -420,7 +396,7 @@ impl<'p> Player<'p> {
                 self.note_blocked(run.blocked_at, cut);
             }
         }
-        self.release(cut, vee, watch);
+        self.release(cut, vee);
     }
 
     /// Notes how much edge a flank uses.
@@ -466,14 +442,7 @@ impl<'p> Player<'p> {
     }
 
     /// Takes the chip of a cut out, all of whose flanks are cut.
-    fn release(&mut self, cut: &Cut, vee: Vee, watch: &mut dyn FnMut(&mut Surface, Release)) {
-        let release = Release {
-            operation: cut.operation,
-            layer: cut.layer,
-            cut: cut.cut,
-            vee,
-        };
-        watch(self.section.surface(), release);
+    fn release(&mut self, cut: &Cut, vee: Vee) {
         self.section.release(vee);
         let index = usize::from(cut.operation.0);
         let (Some(guard), Some(bound)) = (self.guards.get_mut(index), self.bounds.get(index)) else {

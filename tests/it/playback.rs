@@ -251,11 +251,11 @@ fn chain(joints: &Value, axes: &[f64], ends: [&Value; 2]) -> Rows {
 }
 
 /// The tip in W by products of the page's matrices: seen from the work, whose frame is brought to the machine's.
-fn tip(cell: &Value, axes: &[f64], operation: usize) -> [f64; 3] {
+fn tip(cell: &Value, axes: &[f64], tool: usize) -> [f64; 3] {
     let blade = chain(
         &cell["tool"],
         axes,
-        [&cell["flangeAtZero"], &cell["bladesInFlange"][operation]],
+        [&cell["flangeAtZero"], &cell["bladesInFlange"][tool]],
     );
     let work = chain(&cell["work"], axes, [&cell["mountAtZero"], &cell["workInMount"]]);
     let away: Vec<f64> = (0..3).map(|i| blade[i][3] - work[i][3]).collect();
@@ -275,8 +275,7 @@ fn the_pages_machine_brings_the_blade_where_the_program_has_it() {
                     continue;
                 };
                 let wanted = pose.tip;
-                let operation = segment.op.site.operation().map_or(0, |id| usize::from(id.0));
-                let [x, y, z] = tip(&data["cell"], &axes.0, operation);
+                let [x, y, z] = tip(&data["cell"], &axes.0, usize::from(segment.before.tool.0));
                 let off = (x - wanted.x)
                     .abs()
                     .max((y - wanted.y).abs())

@@ -4,11 +4,13 @@ use crate::pipeline::Files;
 use crate::repository::root;
 use vcutc::diagnostics::{Code, has_errors};
 use vcutc::driver::{self, Outcome, Request, Typed};
+use vcutc::picture::Prefix;
 use vcutc::readback::{Fresh, Reference};
 use vcutc::rect::Planned;
 use vcutc::registry;
-use vcutc::report;
 use vcutc::report::page::Further;
+use vcutc::report::playback::taken::Taken;
+use vcutc::report::{self, Material, pictures};
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::ir::{Action, Program};
 use vcutc_backend_api::readback::ProgramFile;
@@ -288,7 +290,10 @@ fn pages_show_both_blades() {
     let page = report::page::page(&outcome, Further::NOTHING).unwrap();
     for words in [
         "<caption>Blades</caption>",
-        "does not show operations that change the blade",
+        "<caption>Time by blade</caption>",
+        "7 changes",
+        "id=\"vcut-playback-data\"",
+        "\"body\":[[1.0,8.0],[60.0,25.0]]",
     ] {
         assert!(page.contains(words), "no {words}");
     }
@@ -297,6 +302,65 @@ fn pages_show_both_blades() {
         summary.iter().any(|line| line.contains("27 slits, 28 strips")),
         "{summary:?}"
     );
+}
+
+/// Chips of strips add up to what is removed, and below each lies what the page's viewer is given.
+#[test]
+fn pictures_and_playback_take_what_the_proof_takes() {
+    for (profile, more) in [
+        (SLOPE, TENS),
+        (
+            SLOPE,
+            "residual = discard, layer = 5 mm, step = 8 mm, through = 2",
+        ),
+        (HILL, "lead = 3 deg, allowance = 2 mm"),
+    ] {
+        let outcome = compiled(job(profile, more), "kuka");
+        let material = Material::of(&outcome).unwrap();
+        let taken = Taken::of(material.compiled.program.verified()).unwrap();
+        let counts = planned(&outcome).plan.counts();
+        assert_eq!(taken.slits.len(), counts.slits, "{more}");
+        assert!(taken.chips.len() >= counts.strips, "{more}");
+        let mut columns = vec![50.0_f64; 1000];
+        for (_, floor) in &taken.chips {
+            for (number, column) in columns.iter_mut().enumerate() {
+                let x = (number as f64 + 0.5) * 0.1;
+                let over = floor.windows(2).find(|pair| pair[0].x <= x && x < pair[1].x);
+                if let Some(pair) = over {
+                    let share = (x - pair[0].x) / (pair[1].x - pair[0].x);
+                    let z = pair[0].z + (pair[1].z - pair[0].z) * share;
+                    assert!(z <= *column + 1e-6, "{more}: {x} {z} {column}");
+                    *column = z;
+                }
+            }
+        }
+        let stands: f64 = columns.iter().map(|z| z * 0.1).sum();
+        let removed = 100.0 * 50.0 - stands;
+        let proven = material.compiled.report.removed.to_mm2();
+        assert!((removed - proven).abs() < 1.0, "{more}: {removed} {proven}");
+        let lattice = pictures::lattice(&material, Prefix::NONE);
+        for words in [
+            format!("{} slits", counts.slits),
+            "the disc comes from the arrow".to_owned(),
+            "the disc at a strip of each layer".to_owned(),
+        ] {
+            let is_many = counts.strips >= 100;
+            assert!(is_many || lattice.contains(&words), "{more}: no {words}");
+        }
+        assert!(!lattice.contains("flanks, as far as they cut"), "{more}");
+    }
+}
+
+/// Programs name all blades of an operation, and count what there is.
+#[test]
+fn programs_name_both_blades_and_all_kinds_of_cuts() {
+    let outcome = compiled(job(SLOPE, TENS), "kuka");
+    let written = driver::write(&outcome, registry::backend("krl").unwrap());
+    let written = written.unwrap().unwrap();
+    let text: String = written.files.iter().map(|file| file.text.as_str()).collect();
+    for words in ["27 slits, 28 strips, ", "with blades dagger, wheel"] {
+        assert!(text.contains(words), "no {words}");
+    }
 }
 
 #[test]
@@ -316,6 +380,18 @@ fn what_blades_cannot_do_is_refused() {
     assert_eq!(refused(SLOPE, "beyond = 30 mm"), [Code::OutOfRange]);
 }
 
+/// A valley: strips down to a height, and Vs below.
+fn with_vs(height: &str) -> String {
+    let vcut = "\nrough vcut {\n  blade = dagger\n  lattice = interlaced\n  rake = 60 deg\n  swing = 30 deg\n  \
+                feed { cut = 150 mm/s, travel = 200 mm/s, reorient = 90 deg/s }\n  clearance = 10 mm\n}\n";
+    job(VALLEY, &format!("{TENS}\n  down_to = {height}")) + vcut
+}
+
+/// Strips of a disc above, Vs of the straight blade below.
+pub(crate) fn both_blades() -> Outcome {
+    compiled(with_vs("40 mm"), "kuka")
+}
+
 /// The offer of a closed valley is tried: above it the strips come out, and Vs below.
 #[test]
 fn the_offer_for_a_valley_works_and_vs_cut_the_rest() {
@@ -329,10 +405,7 @@ fn the_offer_for_a_valley_works_and_vs_cut_the_rest() {
         "{height}: {:?}",
         above.diagnostics
     );
-    let vcut = "\nrough vcut {\n  blade = dagger\n  lattice = interlaced\n  rake = 60 deg\n  swing = 30 deg\n  \
-                feed { cut = 150 mm/s, travel = 200 mm/s, reorient = 90 deg/s }\n  clearance = 10 mm\n}\n";
-    let both = job(VALLEY, &format!("{TENS}\n  down_to = {height}")) + vcut;
-    let both = compiled(both, "kuka");
+    let both = compiled(with_vs(&height), "kuka");
     assert!(!has_errors(&both.diagnostics), "{:?}", both.diagnostics);
     let removed = |outcome: &Outcome| outcome.compiled.as_ref().unwrap().report.removed.to_mm2();
     assert!(removed(&both) > removed(&above) + 100.0);

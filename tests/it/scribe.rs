@@ -16,7 +16,7 @@ use vcutc::geometry::grid;
 use vcutc::geometry::profile::Profile;
 use vcutc::job::description::{ParameterRow, ParameterTable, length_text};
 use vcutc::job::operation::{Ground, Laid, Operation, Trials, Unplanned, WorksThere};
-use vcutc::job::planned::{Estimate, PlannedTip, TipOrigin};
+use vcutc::job::planned::{CutShape, Estimate, PlannedTip, TipOrigin};
 use vcutc::job::sema::field_ranges::{SIZE, SWING};
 use vcutc::job::sema::fields::{BlockSpec, Fields, Inner, value};
 use vcutc::job::sema::kind::{Kind, Operations};
@@ -200,6 +200,7 @@ impl PlannedOperation for Marked {
             layer: 1,
             tip: self.vee.tip,
             origin,
+            shape: CutShape::Plain,
         }]
     }
 

@@ -11,7 +11,7 @@ use vcutc::geometry::curve::Point2;
 use vcutc::geometry::profile::Profile;
 use vcutc::job::description::{ParameterRow, ParameterTable, length_text};
 use vcutc::job::operation::{Ground, Laid, Operation, Trials, Unplanned, WorksThere};
-use vcutc::job::planned::{Estimate, PlannedTip, TipOrigin};
+use vcutc::job::planned::{CutShape, Estimate, PlannedTip, TipOrigin};
 use vcutc::job::sema::field_ranges::SIZE;
 use vcutc::job::sema::fields::{BlockSpec, Fields, Inner, value};
 use vcutc::job::sema::kind::{Kind, Operations};
@@ -141,6 +141,7 @@ impl PlannedOperation for Skimmed {
             layer: 1,
             tip: self.centre,
             origin,
+            shape: CutShape::Plain,
         }]
     }
 

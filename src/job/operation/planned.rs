@@ -14,6 +14,7 @@ use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 use vcutc_simulation::prove::{Bound, Finding};
 use vcutc_simulation::report::Report;
+use vcutc_simulation::surface::Side;
 
 /// A job with every choice made.
 #[derive(Clone, Debug, PartialEq)]
@@ -250,6 +251,35 @@ pub struct PlannedTip {
     pub tip: Point2,
     /// Why the tip is there.
     pub origin: TipOrigin,
+    /// What it does to the cross-section.
+    pub shape: CutShape,
+}
+
+/// What a cut does to the cross-section, as far as pictures of plans show it. Lengths are in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CutShape {
+    /// What its tip does not say follows from the cuts before it: flanks up to the surface, a rim through it.
+    Plain,
+    /// A slit from its tip straight up.
+    Slit {
+        /// The height of the surface.
+        top: f64,
+    },
+    /// A disc with the centre of its edge at the tip frees a strip.
+    Strip(PlannedStrip),
+}
+
+/// A strip as it is planned, in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlannedStrip {
+    /// Its lower left corner.
+    pub low: Point2,
+    /// Its upper right corner.
+    pub high: Point2,
+    /// The side that the disc comes from.
+    pub open: Side,
+    /// The radius of the disc's edge.
+    pub radius: f64,
 }
 
 /// Why a tip is where it is.

@@ -12,7 +12,7 @@ use vcutc_geometry::profile::Profile;
 use vcutc_job::PlannedOperation;
 use vcutc_job::description::{ParameterFigure, ParameterTable};
 use vcutc_job::operation::{Operation, Trials, WorksThere};
-use vcutc_job::planned::{Estimate, PlannedTip, TipOrigin};
+use vcutc_job::planned::{CutShape, Estimate, PlannedTip, TipOrigin};
 use vcutc_process::verdict::explained;
 use vcutc_simulation::prove::{Bound, Finding, Passes, Skin};
 use vcutc_simulation::report::{Report, area_under};
@@ -44,6 +44,7 @@ impl PlannedOperation for Planned {
             layer: 1,
             tip: track.centre,
             origin: TipOrigin::Lattice,
+            shape: CutShape::Plain,
         });
         tips.collect()
     }

@@ -14,7 +14,7 @@ use vcutc_geometry::profile::Profile;
 use vcutc_job::PlannedOperation;
 use vcutc_job::description::{ParameterFigure, ParameterTable};
 use vcutc_job::operation::{Operation, Trials, WorksThere};
-use vcutc_job::planned::{Estimate, PlannedTip, TipOrigin};
+use vcutc_job::planned::{CutShape, Estimate, PlannedStrip, PlannedTip, TipOrigin};
 use vcutc_simulation::prove::{Bound, Finding, Passes, Strips};
 use vcutc_simulation::report::Report;
 
@@ -38,6 +38,7 @@ impl PlannedOperation for Planned {
             layer,
             tip: Point2::new(slit.x, slit.bottom),
             origin: TipOrigin::Lattice,
+            shape: CutShape::Slit { top: slit.top },
         });
         let strips = self.plan.strips().map(|strip| PlannedTip {
             layer: strip.layer,
@@ -47,6 +48,12 @@ impl PlannedOperation for Planned {
                 StripOrigin::Lifted => TipOrigin::Lifted,
                 StripOrigin::Shifted => TipOrigin::Shifted,
             },
+            shape: CutShape::Strip(PlannedStrip {
+                low: Point2::new(strip.left, strip.floor),
+                high: Point2::new(strip.right, strip.top),
+                open: strip.open,
+                radius: self.asked.disc.radius.value.to_mm(),
+            }),
         });
         let kinds = slits.map(|tip| (0, tip)).chain(strips.map(|tip| (1, tip)));
         let mut all: Vec<(u8, PlannedTip)> = kinds.collect();

@@ -14,7 +14,7 @@ use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::description::{ParameterFigure, ParameterTable};
 use vcutc_job::operation::{Operation, Trials, WorksThere};
-use vcutc_job::planned::{Balance, Compile, Estimate, PlannedTip};
+use vcutc_job::planned::{Balance, Compile, CutShape, Estimate, PlannedTip};
 use vcutc_job::search::RouteSet;
 use vcutc_job::{Auto, Order, PlannedOperation};
 use vcutc_simulation::prove::{Bound, Finding};
@@ -49,6 +49,7 @@ impl PlannedOperation for PlannedVcut {
             layer: cut.layer,
             tip: cut.tip,
             origin: cut.origin,
+            shape: CutShape::Plain,
         })
         .collect()
     }

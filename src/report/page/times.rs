@@ -2,11 +2,12 @@
 
 use super::figure::{Ids, Zoom, figure};
 use super::{Section, Subject};
+use crate::Material;
 use crate::html::{Column, Html, paragraph, percent, table};
 use crate::pictures;
+use vcutc_backend_api::ir::Action;
 use vcutc_backend_api::units::Duration;
 use vcutc_driver::summary::time;
-use vcutc_simulation::report::Report;
 use vcutc_simulation::timing::Timing;
 
 pub(super) fn section(subject: Subject<'_>) -> Section {
@@ -25,7 +26,8 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
         &|ids| pictures::time(&subject.material, ids),
     );
     body += by_kind(whole);
-    body += by_layer(report);
+    body += by_blade(&subject.material).unwrap_or_default();
+    body += by_layer(&subject.material);
     Section {
         id: "time",
         title: "Time",
@@ -54,7 +56,7 @@ fn by_kind(whole: &Timing) -> Html {
         Column::Numbers("time"),
         Column::Numbers("share"),
     ];
-    let total = whole.total().to_s();
+    let total = whole.total();
     let kinds = [
         ("cutting", whole.cutting),
         ("turning about the still tip", whole.turning),
@@ -65,21 +67,62 @@ fn by_kind(whole: &Timing) -> Html {
     let rows = kinds
         .into_iter()
         .chain([("all", whole.total())])
-        .map(|(kind, spent)| {
-            let share = if total > 0.0 {
-                percent(spent.to_s() / total)
-            } else {
-                String::new()
-            };
-            vec![kind.to_owned(), time(spent), share]
-        });
+        .map(|(kind, spent)| vec![kind.to_owned(), time(spent), share(spent, total)]);
     table("Time by kind", &columns, rows)
 }
 
-fn by_layer(report: &Report) -> Html {
+/// How long each blade of several is at hand, and how long it takes to change them.
+fn by_blade(material: &Material<'_>) -> Option<Html> {
+    let program = material.compiled.program.verified().program();
+    if program.blades.len() < 2 {
+        return None;
+    }
+    let (mut spent, mut changing) = (vec![Duration::ZERO; program.blades.len()], Duration::ZERO);
+    let mut changes = 0;
+    for (segment, time) in program.segments().zip(&material.compiled.op_times) {
+        if matches!(segment.op.action, Action::ToolChange { .. }) {
+            changes += 1;
+            changing += *time;
+        } else if let Some(spent) = spent.get_mut(usize::from(segment.before.tool.0)) {
+            *spent += *time;
+        }
+    }
+    let total = spent.iter().copied().sum::<Duration>() + changing;
+    let columns = [
+        Column::Words("Blade"),
+        Column::Numbers("time"),
+        Column::Numbers("share"),
+    ];
+    let names = program.blades.iter().map(|blade| blade.name.clone());
+    let changed = match changes {
+        1 => "1 change".to_owned(),
+        changes => format!("{changes} changes"),
+    };
+    let rows = names.zip(spent).chain([(changed, changing)]);
+    let rows = rows.map(|(name, spent)| vec![name, time(spent), share(spent, total)]);
+    Some(table("Time by blade", &columns, rows))
+}
+
+fn share(spent: Duration, total: Duration) -> String {
+    if total > Duration::ZERO {
+        percent(spent / total)
+    } else {
+        String::new()
+    }
+}
+
+fn by_layer(material: &Material<'_>) -> Html {
+    let report = &material.compiled.report;
+    let ops = &material.compiled.program.verified().program().ops;
+    // A V has two flanks, slits and strips are not counted in flanks.
+    let (what, each) = if ops.iter().any(|op| matches!(op.action, Action::Follow { .. })) {
+        ("cuts", 1)
+    } else {
+        ("flanks", 2)
+    };
     let columns = [
         Column::Words("Layer"),
-        Column::Numbers("flanks"),
+        Column::Numbers(what),
         Column::Numbers("cutting"),
         Column::Numbers("turning"),
         Column::Numbers("travel"),
@@ -112,7 +155,7 @@ fn by_layer(report: &Report) -> Html {
         } else {
             layer.layer.to_string()
         };
-        row(name, 2 * cuts, &layer.timing)
+        row(name, each * cuts, &layer.timing)
     });
     let rows = core::iter::once(row("no layer".to_owned(), 0, &report.times.rest)).chain(of_layers);
     html!(in "<div class=\"long\">{table}</div>\n", table = table("Time by layer", &columns, rows))

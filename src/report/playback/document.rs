@@ -2,23 +2,30 @@
 
 use super::bodies::{Body, Carrier, Shape};
 use super::packing::column;
+use super::taken::Taken;
 use super::timeline::Timeline;
 use super::track::Track;
 use super::{Cell, Playback};
 use serde_json::{Value, json};
 use vcutc_backend_api::geometry::{Orientation, Point3};
-use vcutc_backend_api::ir::{ActionKind, Axis, AxisKind, Blade, Edges, Shape as BladeShape, Stock, Straight};
+use vcutc_backend_api::ir::{
+    ActionKind, Axis, AxisKind, Blade, BodyStage, Edges, Shape as BladeShape, Stock, Straight,
+};
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 use vcutc_machine::kinematics::linkage::{Joint, Linkage};
 use vcutc_machine::kinematics::pose::Pose;
+use vcutc_simulation::cross_section::Crack;
 
 /// The data as JSON text. What could end the element that holds it is written as an escape: a `<` can stand in strings only.
 pub(super) fn text(playback: &Playback<'_>) -> String {
     let value = json!({
         "stock": stock(playback.stock),
         "part": playback.part.iter().map(corner).collect::<Vec<_>>(),
-        "blades": playback.blades.iter().copied().map(blade).collect::<Vec<_>>(),
+        "blades": playback.blades.iter().map(blade).collect::<Vec<_>>(),
+        "changes": playback.changes.iter().map(|(op, tool)| json!([op, tool.0])).collect::<Vec<_>>(),
+        "several": playback.operations > 1,
+        "taken": playback.taken.as_ref().map(taken),
         "orientations": playback.orientations.iter().map(quaternion).collect::<Vec<_>>(),
         "kinds": ActionKind::NAMES,
         "timeline": timeline(&playback.timeline),
@@ -40,8 +47,26 @@ fn corner(corner: &Point2) -> Value {
     json!([corner.x, corner.z])
 }
 
-/// The player shows the blade up to its shank.
+fn taken(taken: &Taken) -> Value {
+    let slit = |(op, slit): &(usize, Crack)| json!([op, slit.x, slit.bottom]);
+    let chip = |(op, floor): &(usize, Vec<Point2>)| json!([op, floor.iter().map(corner).collect::<Vec<_>>()]);
+    json!({
+        "slits": taken.slits.iter().map(slit).collect::<Vec<_>>(),
+        "chips": taken.chips.iter().map(chip).collect::<Vec<_>>(),
+    })
+}
+
+/// The edge, and the stages of the body as far as they are stated: where each begins above the tip, and its radius.
 fn blade(blade: &Blade) -> Value {
+    let mut shown = shape(blade);
+    if let Some(body) = &blade.body {
+        let stage = |stage: &BodyStage| json!([stage.from.to_mm(), stage.radius.to_mm()]);
+        shown["body"] = body.iter().map(stage).collect();
+    }
+    shown
+}
+
+fn shape(blade: &Blade) -> Value {
     match blade.shape {
         BladeShape::Straight(straight) => dagger(straight),
         BladeShape::Disc(disc) => drum(disc.radius, disc.thickness),
@@ -179,7 +204,10 @@ mod tests {
                 height: Length::mm(1.0),
             },
             part: &[],
-            blades: Vec::new(),
+            blades: &[],
+            changes: Vec::new(),
+            operations: 1,
+            taken: None,
             orientations: &[],
             timeline: Timeline::default(),
             cell: Some(Cell {

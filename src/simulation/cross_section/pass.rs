@@ -3,7 +3,7 @@
 use super::body::{self, Stand};
 use super::crack::{Crack, Undercut};
 use super::sweep::{End, Piece, Sweep};
-use super::{CrossSection, Guard, TOUCH};
+use super::{Chip, CrossSection, Guard, TOUCH, Taken};
 use crate::disc::{Disc, DiscPass, Freed, PassFault, PassOutcome};
 use crate::rim::Rim;
 use crate::surface::Side;
@@ -109,6 +109,12 @@ impl CrossSection {
         rim.chords(from, to, BEND, &mut floor);
         let above = area(self.surface.stretch(from, to));
         let area = above - area(floor.iter().copied());
+        self.note(|surface| {
+            Some(Taken::Chip(Chip {
+                top: surface.stretch(from, to).collect(),
+                floor: floor.clone(),
+            }))
+        });
         self.surface.lower(&floor);
         floor.clear();
         self.scratch.floor = floor;

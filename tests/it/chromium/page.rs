@@ -4,11 +4,13 @@ use super::browser::{Browser, Tab};
 use crate::cli::report::hostile_rib;
 use crate::cli::vcutc;
 use crate::pipeline::{Files, compile_on};
+use crate::rect::both_blades;
 use crate::repository::root;
 use serde_json::json;
 use std::path::PathBuf;
 use tempfile::TempDir;
 use vcutc::process::verdict;
+use vcutc::report::page::Further;
 
 /// The report of an example, in a folder of its own.
 fn report(example: &str, more: &[&str]) -> (TempDir, PathBuf) {
@@ -364,6 +366,37 @@ fn height(line: &[[f64; 2]], x: f64) -> f64 {
     } else {
         z1
     }
+}
+
+/// Slits, strips and the Vs below them: what the page shows is what is proven, between its walls.
+#[test]
+fn operations_that_change_the_blade_are_played_back() {
+    let Some(browser) = Browser::start() else { return };
+    let outcome = both_blades();
+    let page = vcutc::report::page::page(&outcome, Further::NOTHING).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("strips.html");
+    std::fs::write(&file, page).unwrap();
+    let tab = browser.open(&file, 1280, 900);
+    let (plan, compiled) = (outcome.plan.unwrap(), outcome.compiled.unwrap());
+    let surface = verdict::replay(&plan, compiled.program.verified()).surface;
+    let proven: Vec<[f64; 2]> = surface.corners().map(|corner| [corner.x, corner.z]).collect();
+    for _ in 0..2 {
+        tab.value("vcutPlayback.seek(vcutPlayback.duration())");
+        let shown = polyline(&tab, "vcutPlayback.section()");
+        for number in 0..2000 {
+            let x = (f64::from(number) + 0.5) * 0.05;
+            let (shown, proven) = (height(&shown, x), height(&proven, x));
+            assert!((shown - proven).abs() < 1e-3, "x {x}: {shown}, not {proven}");
+        }
+        tab.value("vcutPlayback.seek(0)");
+        let start = polyline(&tab, "vcutPlayback.section()");
+        assert!(start.iter().all(|[_, z]| (z - 50.0).abs() < 1e-9), "{start:?}");
+    }
+    // Cut by cut: slits, passes and first flanks are stepped through.
+    tab.value("vcutPlayback.stepCut(1)");
+    assert!(tab.holds("vcutPlayback.momentAt(vcutPlayback.time() + 0.01).words.includes('cut')"));
+    assert_is_calm(&tab);
 }
 
 #[test]

@@ -4,8 +4,10 @@
 //! has to heed. The compiler's version is not among them: a version that writes the same motions would change every program
 //! that a shop has under version control.
 
-use crate::ir::{Action, Crusher, Disc, Flank, Head, Op, Program, Purpose, Shape, Straight};
+use crate::ir::{Action, Crusher, Disc, Flank, Head, Op, Program, Purpose, Shape, Site, Straight};
+use crate::state::State;
 use crate::units::{AngularSpeed, Duration, Length};
+use crate::verify::UPRIGHT;
 
 /// A comment: words of ours, and words that people wrote behind them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,6 +17,9 @@ pub struct HeadLine<'p> {
     /// Theirs.
     pub theirs: &'p str,
 }
+
+/// The most letters of ours in a line.
+const LONGEST: usize = 60;
 
 /// How many digits of the job's hash are shown: by chance two jobs of a million have the same with odds of one to ten million.
 const SHOWN_DIGITS: usize = 16;
@@ -60,10 +65,15 @@ pub fn head_lines<'p>(program: &'p Program, machine: &'p str) -> Vec<HeadLine<'p
     let stock = program.stock;
     let [width, depth, height] = [stock.width, stock.depth, stock.height].map(number);
     lines.push(ours(format!("stock {width} x {depth} x {height} mm")));
-    lines.push(ours(match &program.head {
-        Some(head) => format!("{}, {} as planned", cuts(program), duration_words(head.time)),
-        None => cuts(program),
-    }));
+    let counts = cuts(program);
+    let time = program.head.as_ref();
+    let time = time.map(|head| format!("{} as planned", duration_words(head.time)));
+    // Three kinds of cuts may need a line of their own.
+    lines.extend(match time {
+        Some(time) if counts.len() + time.len() + 2 <= LONGEST => vec![ours(format!("{counts}, {time}"))],
+        Some(time) => vec![ours(counts), ours(time)],
+        None => vec![ours(counts)],
+    });
     lines
 }
 
@@ -97,24 +107,68 @@ fn shown(head: &Head) -> &str {
     head.job.get(..SHOWN_DIGITS).unwrap_or(&head.job)
 }
 
-/// Every V has one left flank, and a slit is one; the pieces of a chain are of one cut.
+/// How many cuts, slits and strips there are. Programs of one blade have cuts only, of several what is there.
 fn cuts(program: &Program) -> String {
-    let mut chain = None;
-    let mut is_first = |op: &Op| {
-        if let Action::Cut { flank, .. } = op.action {
-            return flank == Flank::Left;
-        }
-        let before = chain;
-        if let Action::Follow { .. } = op.action {
-            chain = Some(op.site);
-            return chain != before;
-        }
-        false
-    };
-    match program.ops.iter().filter(|&op| is_first(op)).count() {
-        1 => "1 cut".to_owned(),
-        cuts => format!("{cuts} cuts"),
+    let mut counts = Counts::default();
+    for (_, op, after) in program.ends() {
+        counts.add(program, op, after);
     }
+    let Counts {
+        cuts, slits, strips, ..
+    } = counts;
+    let kinds = [(cuts, "cut"), (slits, "slit"), (strips, "strip")];
+    let had = kinds.into_iter().filter(|(count, _)| *count > 0);
+    let words: Vec<String> = had.map(|(count, what)| counted(count, what)).collect();
+    if words.is_empty() {
+        return counted(0, "cut");
+    }
+    words.join(", ")
+}
+
+fn counted(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        count => format!("{count} {what}s"),
+    }
+}
+
+#[derive(Default)]
+struct Counts {
+    cuts: usize,
+    slits: usize,
+    strips: usize,
+    /// Of the latest chain. Its pieces are of one cut.
+    chain: Option<Site>,
+}
+
+impl Counts {
+    /// Every V has one left flank; upright beside a disc it is a slit. A chain is a cut, and of a disc beside other blades a strip.
+    fn add(&mut self, program: &Program, op: &Op, after: State) {
+        let several = program.blades.len() > 1;
+        let shape = program.blade(after.tool).map(|blade| &blade.shape);
+        match op.action {
+            Action::Cut {
+                flank: Flank::Left, ..
+            } if several && is_upright(program, after) => self.slits += 1,
+            Action::Cut {
+                flank: Flank::Left, ..
+            } => self.cuts += 1,
+            Action::Follow { .. } if self.chain.replace(op.site) != Some(op.site) => match shape {
+                Some(Shape::Disc(_)) if several => self.strips += 1,
+                Some(Shape::Disc(_) | Shape::Straight(_) | Shape::Crusher(_)) | None => self.cuts += 1,
+            },
+            _ => {}
+        }
+    }
+}
+
+/// Whether the blade leans to no side.
+fn is_upright(program: &Program, after: State) -> bool {
+    let held = after
+        .place
+        .pose()
+        .and_then(|pose| program.orientation(pose.orientation));
+    held.is_some_and(|held| held.matrix()[0][2].abs() <= UPRIGHT)
 }
 
 /// A length in mm with up to three decimals, and none that say nothing.

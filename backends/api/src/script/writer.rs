@@ -207,8 +207,8 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
             self.dialect.layer_ends(layer)?;
         }
         if let Some(operation) = operation {
-            let (ours, blade) = operation_heading(self.source.program(), operation)?;
-            self.dialect.comment(&ours, blade)?;
+            let (ours, blades) = operation_heading(self.source.program(), operation)?;
+            self.dialect.comment(&ours, &blades)?;
         }
         if let Some(layer) = open {
             self.dialect.layer_begins(layer, cut.map(|(_, cut)| cut))?;

@@ -9,8 +9,9 @@
  * @property {number[]} axes in rad and mm
  * @property {{tool: Matrix[], work: Matrix[]} | null} machine
  * @property {{kerf: Kerf, from: number, to: number}[]} kerfs
+ * @property {{slit: Slit, from: number, to: number}[]} slits
  * @property {number} layer as the timeline numbers them; 0 is none
- * @property {number} operation from 0
+ * @property {number} tool the blade at hand
  * @property {Moment} moment
  */
 
@@ -32,10 +33,13 @@ const CALLED = {
   retract: "away from the work",
   cut_left: "cut, left flank",
   cut_right: "cut, right flank",
+  follow: "cut along a path",
   turn: "turn about the tip",
   ultrasonic: "ultrasonic switched",
+  spin: "spindle switched",
   await_ready: "wait for the generator",
   dwell: "wait",
+  change_place: "all axes to where blades are changed",
   tool_change: "tool change",
 };
 
@@ -128,7 +132,7 @@ class Player {
    */
   stepCut(way) {
     const { starts } = this.program;
-    const begins = this.timeline.kerfs.filter(({ op }) => this.isSelected(op)).map(({ op }) => starts[op]);
+    const begins = this.timeline.cuts.filter(({ op }) => this.isSelected(op)).map(({ op }) => starts[op]);
     const next = way > 0 ? begins.find((time) => time > this.time + 1e-9) : begins.findLast((time) => time < this.time - 1e-9);
     if (next !== undefined) this.seek(next);
     else this.seek(way > 0 ? this.end : this.begin);
@@ -154,16 +158,6 @@ class Player {
     return op === moment.op ? moment : { op, done: 1 };
   }
 
-  /**
-   * The operation whose blade is at hand: that of the op, or of the last one before it that belongs to one.
-   * @param {number} op
-   */
-  operationAt(op) {
-    let last = op;
-    while (last > 0 && this.program.operations[last] === 0) last -= 1;
-    return Math.max(0, this.program.operations[last] - 1);
-  }
-
   /** @returns {Picture} */
   picture() {
     const { program, timeline } = this;
@@ -171,8 +165,8 @@ class Player {
     const { op, done } = moment;
     const { cell } = program;
     const axes = cell === null ? [] : axesDuring(cell.track, op, done);
-    const operation = this.operationAt(op);
-    const machine = cell === null ? null : posed(cell, axes, operation);
+    const tool = timeline.toolAt(op);
+    const machine = cell === null ? null : posed(cell, axes, tool);
     const workpiece = machine === null ? identity() : product(this.scene, machine.workpiece);
     const known = timeline.bladeAt(moment);
     const inWork = known || (machine ? product(inverse(machine.workpiece), machine.blade) : timeline.nearestBlade(op));
@@ -184,8 +178,9 @@ class Player {
       axes,
       machine,
       kerfs: this.kerfs(moment, origin(inWork)[1]),
+      slits: this.slits(moment, origin(inWork)[1]),
       layer: timeline.layerOf[op],
-      operation,
+      tool,
       moment,
     };
   }
@@ -199,10 +194,32 @@ class Player {
     const { kinds, stock, ops } = this.program;
     const whole = this.timeline.kerfsAt(this.time).map((kerf) => ({ kerf, from: 0, to: stock[1] }));
     const cuts = kinds[op] === CUT_LEFT || kinds[op] === CUT_RIGHT;
-    if (op === 0 || op >= ops || !cuts || done >= 1) return whole;
+    if (op === 0 || op >= ops || !cuts || done >= 1 || this.timeline.slits.some((slit) => slit.op === op)) return whole;
+    return whole.concat([{ kerf: this.timeline.kerfOf(op), ...this.come(op, y) }]);
+  }
+
+  /**
+   * The slits that are cut, and the one that is being cut.
+   * @param {Moment} moment
+   * @param {number} y where the tip is
+   */
+  slits({ op, done }, y) {
+    const { stock } = this.program;
+    const whole = this.timeline.slitsAt(this.time).map((slit) => ({ slit, from: 0, to: stock[1] }));
+    const slit = this.timeline.slits.find((slit) => slit.op === op);
+    if (op === 0 || slit === undefined || done >= 1) return whole;
+    return whole.concat([{ slit, ...this.come(op, y) }]);
+  }
+
+  /**
+   * From where to where a cut has come.
+   * @param {number} op
+   * @param {number} y where the tip is
+   */
+  come(op, y) {
+    const { stock } = this.program;
     const forward = tipAfter(this.program, op)[1] >= tipAfter(this.program, op - 1)[1];
-    const come = Math.max(0, Math.min(stock[1], y));
-    return whole.concat([{ kerf: this.timeline.kerfOf(op), from: forward ? 0 : stock[1], to: come }]);
+    return { from: forward ? 0 : stock[1], to: Math.max(0, Math.min(stock[1], y)) };
   }
 
   /** Brings the stock to the time that is shown. Tells whether it changed. */
@@ -235,7 +252,7 @@ class Player {
    */
   nameOfLayer(operation, layer) {
     if (layer === 0) return "";
-    return this.program.blades.length > 1 ? `${operation}.${layer}` : String(layer);
+    return this.program.several ? `${operation}.${layer}` : String(layer);
   }
 
   /**
@@ -244,10 +261,10 @@ class Player {
    * @returns {number | null}
    */
   timeOfCutAt(x) {
-    let [best, distance] = [/** @type {Kerf | null} */ (null), Infinity];
-    for (const kerf of this.timeline.kerfs) {
-      const away = Math.abs(kerf.vee.tip.x - x);
-      if (away <= distance + 1e-6) [best, distance] = [kerf, Math.min(away, distance)];
+    let [best, distance] = [/** @type {{op: number} | null} */ (null), Infinity];
+    for (const cut of this.timeline.cuts) {
+      const away = Math.abs(cut.x - x);
+      if (away <= distance + 1e-6) [best, distance] = [cut, Math.min(away, distance)];
     }
     return best === null ? null : this.program.starts[best.op];
   }
@@ -274,7 +291,7 @@ class Player {
   words() {
     const { program, timeline, now } = this;
     const { op } = now.moment;
-    const several = program.blades.length > 1;
+    const { several } = program;
     const parts = [
       `${clock(this.time)} of ${clock(timeline.duration)} (${this.time.toFixed(2)} s)`,
       `motion ${op} of ${program.ops}: ${CALLED[program.names[program.kinds[op]]]}`,
@@ -376,7 +393,7 @@ function stepCut(player, way) {
  */
 function listLayers(player) {
   const { layers, layerOf } = player.timeline;
-  const several = player.program.blades.length > 1;
+  const { several } = player.program;
   const firsts = new Map();
   layerOf.forEach((layer, op) => firsts.has(layer) || firsts.set(layer, op));
   layers.forEach(({ operation, layer }, i) => {

@@ -4,7 +4,10 @@
  * @typedef {object} Program
  * @property {Vector} stock width, depth, height in mm
  * @property {[number, number][]} part corners of the part's contour
- * @property {Blade[]} blades the first of each operation
+ * @property {Blade[]} blades the first is at hand at the start
+ * @property {[number, number][]} changes ops that change the blade, and the blade after each
+ * @property {boolean} several whether there are more operations than one
+ * @property {Taken | null} taken what slits and discs take; of Vs it follows from their poses
  * @property {number[][]} orientations quaternions
  * @property {string[]} names of the kinds of op
  * @property {number} ops how many there are
@@ -25,12 +28,13 @@
  * @property {Joint[]} work
  * @property {Matrix} flangeAtZero
  * @property {Matrix} mountAtZero
- * @property {Matrix[]} bladesInFlange the blade of each operation
+ * @property {Matrix[]} bladesInFlange
  * @property {Matrix} workInMount
  * @property {Body[]} bodies
  * @property {Track} track
  */
 
+/** @typedef {{slits: {op: number, x: number, bottom: number}[], chips: {op: number, floor: Point[]}[]}} Taken */
 /** @typedef {{kind: "rotary" | "linear", point: Vector, direction: Vector, weights: number[]}} Joint */
 /** @typedef {{chain: "tool" | "work", joints: number, shape: "bar" | "block", from: Vector, to: Vector, radius?: number}} Body */
 /** @typedef {{start: number[], firsts: Uint32Array, done: Uint16Array, values: Uint16Array, low: number[], step: number[]}} Track */
@@ -40,6 +44,7 @@ const HOME = 0;
 const AXIS_TRAVEL = 2;
 const CUT_LEFT = 5;
 const CUT_RIGHT = 6;
+const FOLLOW = 7;
 
 /**
  * The bytes of a column. Its numbers have their least significant byte first, as every machine has it that runs browsers.
@@ -74,6 +79,9 @@ function unpack(raw) {
     stock: raw.stock,
     part: raw.part,
     blades: raw.blades,
+    changes: raw.changes,
+    several: raw.several,
+    taken: raw.taken && unpackTaken(raw.taken),
     orientations: raw.orientations,
     names: raw.kinds,
     ops: seconds.length,
@@ -85,6 +93,18 @@ function unpack(raw) {
     held: new Uint32Array(bytesOf(columns.held)),
     starts: summed(seconds, new Float64Array(seconds.length + 1)),
     cell: raw.cell && { ...raw.cell, track: unpackTrack(raw.cell.track) },
+  };
+}
+
+/**
+ * @param {any} raw
+ * @returns {Taken}
+ */
+function unpackTaken({ slits, chips }) {
+  const corner = (/** @type {[number, number]} */ [x, z]) => ({ x, z });
+  return {
+    slits: slits.map((/** @type {[number, number, number]} */ [op, x, bottom]) => ({ op, x, bottom })),
+    chips: chips.map((/** @type {[number, [number, number][]]} */ [op, floor]) => ({ op, floor: floor.map(corner) })),
   };
 }
 

@@ -67,15 +67,15 @@ function motionOf(joint, axes) {
  * The machine at some axis values, in its own frame.
  * @param {Cell} cell
  * @param {number[]} axes
- * @param {number} operation whose blade is at hand
+ * @param {number} tool the blade at hand
  */
-function posed(cell, axes, operation) {
-  const tool = carried(cell.tool, axes);
+function posed(cell, axes, tool) {
+  const links = carried(cell.tool, axes);
   const work = carried(cell.work, axes);
   return {
-    tool,
+    tool: links,
     work,
-    blade: product(product(last(tool), cell.flangeAtZero), cell.bladesInFlange[operation]),
+    blade: product(product(last(links), cell.flangeAtZero), cell.bladesInFlange[tool]),
     workpiece: product(product(last(work), cell.mountAtZero), cell.workInMount),
   };
 }

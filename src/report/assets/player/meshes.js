@@ -132,8 +132,9 @@ function onCircle(i) {
 
 /**
  * A straight blade, or one that spins.
- * @typedef {{length: number, halfApex: number, thickness: number, edges: 1 | 2}} Dagger
- * @typedef {{radius: number, height: number}} Drum
+ * @typedef {[number, number][]} Stages heights above the tip at which stages begin, and their radii
+ * @typedef {{length: number, halfApex: number, thickness: number, edges: 1 | 2, body?: Stages}} Dagger
+ * @typedef {{radius: number, height: number, body?: Stages}} Drum
  * @typedef {Dagger | Drum} Blade
  */
 

@@ -41,6 +41,7 @@ class Scene {
     this.tube = canvas.mesh(unitTube());
     this.ball = canvas.mesh(unitBall());
     this.box = canvas.mesh(unitBox());
+    this.stage = canvas.mesh(drum({ radius: 1, height: 1 }));
     this.kerfs = canvas.mesh(new Float32Array(0));
     this.triad = canvas.mesh(triad());
     this.floor = canvas.mesh(floorOf(program));
@@ -58,7 +59,7 @@ class Scene {
       if (layerOf[op] === 0 || program.held[op - 1] === 0 || program.kinds[op] === AXIS_TRAVEL) continue;
       const [from, to] = [tipAfter(program, op - 1), tipAfter(program, op)];
       if (from.every((at, i) => at === to[i])) continue;
-      const cuts = program.kinds[op] === CUT_LEFT || program.kinds[op] === CUT_RIGHT;
+      const cuts = program.kinds[op] === CUT_LEFT || program.kinds[op] === CUT_RIGHT || program.kinds[op] === FOLLOW;
       const colour = cuts ? COLOURS.cut : COLOURS.way;
       parts[layerOf[op] - 1].push(...from, ...colour, ...to, ...colour);
     }
@@ -85,7 +86,7 @@ class Scene {
     canvas.begin(camera.view(clientWidth / Math.max(1, clientHeight)), camera.axes().eye);
     const { workpiece, blade } = picture;
     if (shown.part) canvas.body(this.part, workpiece, COLOURS.part);
-    this.drawBlade(picture.operation, blade);
+    this.drawBlade(picture.tool, blade);
     const length = Math.max(...this.timeline.program.stock);
     this.canvas.lines(this.floor, picture.machine ? picture.scene : workpiece, 0.35);
     this.drawTriad(workpiece, length * 0.3);
@@ -107,20 +108,28 @@ class Scene {
   }
 
   /** @param {Picture} picture */
-  drawKerfs({ kerfs, workpiece }) {
-    const numbers = kerfs.flatMap(({ kerf, from, to }) => kerfLines(kerf, this.workpiece.surface, from, to));
+  drawKerfs({ kerfs, slits, workpiece }) {
+    const numbers = slits.flatMap(({ slit, from, to }) => slitLines(slit, this.workpiece.surface, from, to));
+    numbers.push(...kerfs.flatMap(({ kerf, from, to }) => kerfLines(kerf, this.workpiece.surface, from, to)));
     this.canvas.refill(this.kerfs, new Float32Array(numbers));
     this.canvas.lines(this.kerfs, workpiece);
   }
 
   /**
-   * @param {number} operation
+   * @param {number} tool
    * @param {Matrix} blade
    */
-  drawBlade(operation, blade) {
+  drawBlade(tool, blade) {
     const { canvas } = this;
-    const { from, neck, slim, to, radius } = this.shanks[operation];
-    canvas.body(this.blades[operation], blade, COLOURS.blade);
+    const { from, neck, slim, to, radius, stages } = this.shanks[tool];
+    canvas.body(this.blades[tool], blade, COLOURS.blade);
+    if (stages.length > 0) {
+      for (const { begin, end, radius } of stages) {
+        const stage = [radius, 0, 0, 0, 0, radius, 0, 0, 0, 0, end - begin, 0, 0, 0, -begin, 1];
+        canvas.body(this.stage, product(blade, stage), COLOURS.shank);
+      }
+      return;
+    }
     this.bar(blade, [0, 0, from], [0, 0, neck], slim, COLOURS.shank);
     this.bar(blade, [0, 0, neck], to, radius, COLOURS.shank);
   }
@@ -217,24 +226,54 @@ function floorOf({ stock, cell }) {
 }
 
 /**
- * The shank between blade and flange, seen from the blade; without a machine it is drawn a few blades long.
+ * The shank between blade and flange, seen from the blade; without a machine it is drawn a few blades long. A body that is stated
+ * is drawn instead, stage by stage, the last one up to the flange.
  * @param {Blade} blade
  * @param {Cell | null} cell
- * @param {number} operation
+ * @param {number} tool
  */
-function shankOf(blade, cell, operation) {
-  const flange = cell === null ? null : origin(inverse(cell.bladesInFlange[operation]));
+function shankOf(blade, cell, tool) {
+  const flange = cell === null ? null : origin(inverse(cell.bladesInFlange[tool]));
   if ("radius" in blade) {
     const { radius, height } = blade;
     const to = /** @type {Vector} */ (flange !== null && flange[2] < -height ? flange : [0, 0, -height - 4 * radius]);
     const neck = -height + (to[2] + height) * 0.3;
-    return { from: -height, neck, slim: radius * 0.3, to, radius: Math.max(radius * 0.5, -to[2] * 0.05) };
+    return { from: -height, neck, slim: radius * 0.3, to, radius: Math.max(radius * 0.5, -to[2] * 0.05), stages: stagesOf(blade, -to[2]) };
   }
   const { half, top } = daggerSize(blade);
   const to = /** @type {Vector} */ (flange !== null && flange[2] < top * 2.5 ? flange : [0, 0, top * 6]);
-  const from = top * 1.5;
+  const from = blade.body && blade.body.length > 0 ? Math.min(top, -blade.body[0][0]) : top * 1.5;
   const neck = from + (to[2] - from) * 0.3;
-  return { from, neck, slim: half * 1.3, to, radius: Math.max(half * 1.6, -to[2] * 0.05) };
+  return { from, neck, slim: half * 1.3, to, radius: Math.max(half * 1.6, -to[2] * 0.05), stages: stagesOf(blade, -to[2]) };
+}
+
+/**
+ * The stages of a body, each up to where the next one begins; none where no body is stated.
+ * @param {Blade} blade
+ * @param {number} flange height above the tip
+ */
+function stagesOf({ body }, flange) {
+  if (body === undefined) return [];
+  return body.map(([begin, radius], i) => {
+    const end = i + 1 < body.length ? body[i + 1][0] : Math.max(flange, begin + radius);
+    return { begin, end, radius };
+  });
+}
+
+/**
+ * The lines of a slit as far as it is still there: on the faces of the stock it has passed, and along the top.
+ * @param {Slit} slit
+ * @param {Surface} surface
+ * @param {number} from y where the cut begins
+ * @param {number} to y how far it has come
+ */
+function slitLines({ x, bottom }, surface, from, to) {
+  const top = Math.min(...surface.sides(x));
+  // A disc that leads leaves less of a slit below its strip.
+  if (bottom > top - 0.05 || to === from) return [];
+  const line = (/** @type {Vector} */ a, /** @type {Vector} */ b) => [...a, ...COLOURS.kerf, ...b, ...COLOURS.kerf];
+  const across = (/** @type {number} */ y) => line([x, y, bottom], [x, y, top]);
+  return [...across(from), ...across(to), ...line([x, from, top], [x, to, top])];
 }
 
 /**

@@ -59,6 +59,39 @@ class Surface {
   }
 
   /**
+   * Lowers a stretch to what lies below a chip. Where its ends lie below the surface, walls stay: two corners at one x.
+   * @param {Point[]} floor from left to right
+   */
+  lower(floor) {
+    const [first, end] = [floor[0], last(floor)];
+    if (end.x - first.x <= TOUCH) return;
+    const [before] = this.sides(first.x);
+    const [, after] = this.sides(end.x);
+    this.goTo(first.x - TOUCH);
+    while (this.right.length > 0 && last(this.right).x <= end.x + TOUCH) this.right.pop();
+    // Beside the stock nothing stands.
+    if (this.left.length > 0) pushDistinct(this.left, { x: first.x, z: before });
+    for (const corner of floor) pushDistinct(this.left, corner);
+    if (this.right.length > 0 && Math.abs(after - end.z) > TOUCH) this.right.push({ x: end.x, z: after });
+  }
+
+  /**
+   * The heights just left and just right of x, which differ at a wall.
+   * @param {number} x
+   * @returns {[number, number]}
+   */
+  sides(x) {
+    this.goTo(x + TOUCH);
+    let at = this.left.length - 1;
+    if (at < 0 || last(this.left).x < x - TOUCH) {
+      const height = this.heightHere(x);
+      return [height, height];
+    }
+    while (at > 0 && this.left[at - 1].x >= x - TOUCH) at -= 1;
+    return [this.left[at].z, last(this.left).z];
+  }
+
+  /**
    * Whether a V with this tip would cut anything at its tip.
    * @param {Point} tip
    */
@@ -120,6 +153,16 @@ class Surface {
     const b = last(this.right);
     return b.x - a.x > TOUCH ? a.z + (b.z - a.z) * ((x - a.x) / (b.x - a.x)) : a.z;
   }
+}
+
+/**
+ * Pushes a corner unless it is the last one.
+ * @param {Point[]} stack
+ * @param {Point} corner
+ */
+function pushDistinct(stack, corner) {
+  const top = stack[stack.length - 1];
+  if (top === undefined || Math.abs(top.x - corner.x) > TOUCH || Math.abs(top.z - corner.z) > TOUCH) stack.push(corner);
 }
 
 /**

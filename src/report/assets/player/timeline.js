@@ -1,6 +1,7 @@
 // What happens when: ops, poses, layers, and the cuts that free chips.
 
 /** @typedef {{op: number, done: number}} Moment */
+/** @typedef {{op: number, x: number, bottom: number}} Slit */
 /** @typedef {{op: number, layer: number, vee: Vee, side: "left" | "right", freedBy: number}} Kerf */
 
 class Timeline {
@@ -10,6 +11,7 @@ class Timeline {
     this.duration = program.starts[program.ops];
     this.findLayers();
     this.findChips();
+    this.findCuts();
   }
 
   /** Numbers the layers of all operations in the order in which they are first worked on, from 1; 0 is none. */
@@ -36,10 +38,13 @@ class Timeline {
     /** @type {Kerf[]} first flanks in order */
     this.kerfs = [];
     /** @type {{op: number, vee: Vee}[]} */
-    this.chips = [];
+    this.vees = [];
+    /** @type {Slit[]} */
+    this.slits = this.program.taken === null ? [] : this.program.taken.slits;
+    const slits = new Set(this.slits.map(({ op }) => op));
     const open = new Map();
     for (let op = 0; op < ops; op += 1) {
-      if (kinds[op] !== CUT_LEFT && kinds[op] !== CUT_RIGHT) continue;
+      if ((kinds[op] !== CUT_LEFT && kinds[op] !== CUT_RIGHT) || slits.has(op)) continue;
       const key = this.layerOf[op] * 2 ** 32 + cuts[op];
       const first = open.get(key);
       if (first === undefined) {
@@ -49,9 +54,41 @@ class Timeline {
       } else {
         open.delete(key);
         first.freedBy = op;
-        this.chips.push({ op, vee: this.veeOf(op) });
+        this.vees.push({ op, vee: this.veeOf(op) });
       }
     }
+    /** @type {{op: number, vee?: Vee, floor?: Point[]}[]} */
+    this.chips = this.program.taken === null ? this.vees : this.program.taken.chips;
+  }
+
+  /** Where cuts begin, in order: first flanks, slits, and passes of discs. */
+  findCuts() {
+    const { ops, kinds } = this.program;
+    /** @type {{op: number, x: number}[]} */
+    this.cuts = this.kerfs.map(({ op, vee }) => ({ op, x: vee.tip.x }));
+    if (this.program.taken === null) return;
+    this.cuts.push(...this.slits);
+    for (let op = 1; op < ops; op += 1) {
+      if (kinds[op] === FOLLOW && kinds[op - 1] !== FOLLOW) this.cuts.push({ op, x: tipAfter(this.program, op)[0] });
+    }
+    this.cuts.sort((a, b) => a.op - b.op);
+  }
+
+  /**
+   * The blade at hand during an op.
+   * @param {number} op
+   */
+  toolAt(op) {
+    const done = countWhile(this.program.changes, ([change]) => change < op);
+    return done === 0 ? 0 : this.program.changes[done - 1][1];
+  }
+
+  /**
+   * The slits that are cut at a time, whether they are still there or not.
+   * @param {number} time
+   */
+  slitsAt(time) {
+    return this.slits.slice(0, countWhile(this.slits, ({ op }) => this.endOf(op) <= time));
   }
 
   /**
@@ -106,7 +143,7 @@ class Timeline {
    */
   kerfsAt(time) {
     const cut = countWhile(this.kerfs, (kerf) => this.endOf(kerf.op) <= time);
-    const wanted = cut - this.chipsFreeAt(time);
+    const wanted = cut - countWhile(this.vees, (vee) => this.endOf(vee.op) <= time);
     const found = [];
     for (let i = cut - 1; i >= 0 && found.length < wanted; i -= 1) {
       const kerf = this.kerfs[i];

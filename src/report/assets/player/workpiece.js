@@ -25,7 +25,9 @@ class Workpiece {
       this.taken = kept * BETWEEN_KEPT;
     }
     while (this.taken < count) {
-      this.surface.release(this.chips[this.taken].vee);
+      const { vee, floor } = this.chips[this.taken];
+      if (floor !== undefined) this.surface.lower(floor);
+      else this.surface.release(vee);
       this.taken += 1;
       if (this.taken === this.kept.length * BETWEEN_KEPT) this.kept.push(this.surface.clone());
     }
