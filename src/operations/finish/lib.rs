@@ -5,12 +5,13 @@
 //! | what is asked, and its check | [`asked`], `check` |
 //! | the plan: tracks, lead, order | [`plan`] |
 //! | why there is no plan | `refused` |
-//! | every choice made, and what stages ask of it | `planned` |
+//! | every choice made, and what stages ask of it | `decided`, `planned` |
 //! | motions | `lower` |
 //! | words for summary, report and editor | `words` |
 
 pub mod asked;
 mod check;
+mod decided;
 mod lower;
 mod operation;
 pub mod plan;
@@ -20,4 +21,4 @@ mod words;
 
 pub use asked::FinishDisc;
 pub use check::{Finish, SPEC};
-pub use planned::Planned;
+pub use decided::Planned;

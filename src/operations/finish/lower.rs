@@ -1,8 +1,8 @@
 //! The moves of finishing (`docs/process.md`, "Finishing with a disc"): tracks to and fro along y, with turns beside the work.
 
 use crate::asked::FinishDisc;
+use crate::decided::Planned;
 use crate::plan::Track;
-use crate::planned::Planned;
 use core::num::NonZeroU32;
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::ir::{Edges, Flank, OperationKind, Site, SourceRef};

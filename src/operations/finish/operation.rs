@@ -1,8 +1,8 @@
 //! Finishing with a disc as an operation of a job.
 
 use crate::asked::{AIR, FinishDisc};
+use crate::decided::Planned;
 use crate::plan::{self, Wish, Work};
-use crate::planned::Planned;
 use crate::refused;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::Span;

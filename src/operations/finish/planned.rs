@@ -1,7 +1,7 @@
 //! The plan of finishing as the stages after planning see it.
 
-use crate::asked::{AIR, FinishDisc};
-use crate::plan::PlannedFinish;
+use crate::asked::AIR;
+use crate::decided::Planned;
 use crate::{lower, words};
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::ir::SourceRef;
@@ -16,15 +16,6 @@ use vcutc_job::planned::{CutShape, Estimate, PlannedTip, TipOrigin};
 use vcutc_process::verdict::explained;
 use vcutc_simulation::prove::{Bound, Finding, Passes, Skin};
 use vcutc_simulation::report::{Report, area_under};
-
-/// Finishing with a disc, planned.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Planned {
-    pub asked: FinishDisc,
-    pub plan: PlannedFinish,
-    /// The part with its allowance.
-    pub bound: Profile,
-}
 
 impl PlannedOperation for Planned {
     fn asked(&self) -> &dyn Operation {

@@ -1,6 +1,6 @@
 //! What a plan of finishing says of itself: parameters, lines of the summary, and values of fields that were left open.
 
-use crate::planned::Planned;
+use crate::decided::Planned;
 use vcutc_backend_api::units::Angle;
 use vcutc_diagnostics::number::show;
 use vcutc_job::Auto;

@@ -48,6 +48,14 @@ pub struct Strips {
     pub clearance: Length,
 }
 
+/// For who replays a pass without asking what is wrong with it.
+const UNLIMITED: Skin = Skin {
+    depth: Length::mm(f64::INFINITY),
+    width: Length::mm(f64::INFINITY),
+    over_hub: Length::mm(f64::INFINITY),
+    clearance: Length::ZERO,
+};
+
 /// Coordinates this close are equal, in mm.
 const SAME: f64 = 1e-6;
 
@@ -75,7 +83,8 @@ impl Through {
         let (lead, roll) = lean(held, &line).filter(|_| is_through(&line, program.stock))?;
         let is_taken = match passes {
             Some(Passes::Skin(_)) => lead > Angle::ZERO,
-            Some(Passes::Strips(_)) | None => roll == Angle::ZERO,
+            Some(Passes::Strips(_)) => roll == Angle::ZERO,
+            None => roll == Angle::ZERO || lead > Angle::ZERO,
         };
         is_taken.then(|| Self {
             disc: disc(blade, edge, passes),
@@ -221,9 +230,14 @@ impl<'p> Player<'p> {
                 let pass = through.strip(Some(strips), self.section.surface());
                 self.section.pass_unguarded(&through.disc, &pass)
             }
-            None => {
+            // What a pass takes off does not depend on what it is for.
+            None if through.roll == Angle::ZERO => {
                 let pass = through.strip(None, self.section.surface());
                 self.section.pass_unguarded(&through.disc, &pass);
+                return;
+            }
+            None => {
+                self.section.skim(&through.disc, &through.skin(UNLIMITED));
                 return;
             }
         };

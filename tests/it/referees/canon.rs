@@ -93,11 +93,14 @@ const SETTINGS: &[&str] = &[
     "SET_G92_OFFSET",
     "SET_NAIVECAM_TOLERANCE",
     "SET_SPINDLE_MODE",
+    "SET_SPINDLE_SPEED",
     "SET_XY_ROTATION",
     "START_CHANGE",
-    "STOP_SPINDLE_TURNING",
     "USE_LENGTH_UNITS",
 ];
+
+/// The output that stands for the control's own spindle.
+pub(super) const SPINDLE: u32 = u32::MAX;
 
 /// The largest motion that counts as none: half of what is printed.
 pub(super) const NOTHING: f64 = 0.000_05;
@@ -106,6 +109,7 @@ pub(super) const NOTHING: f64 = 0.000_05;
 pub(super) fn read(text: &str) -> Result<Vec<Canon>, String> {
     let mut canon = Vec::new();
     let (mut feed, mut plane) = (0.0, None);
+    let mut spins = false;
     for line in text.lines() {
         let fault = || format!("cannot read `{line}`");
         // A number of the line, the N word of the block or dots, and the function.
@@ -117,6 +121,14 @@ pub(super) fn read(text: &str) -> Result<Vec<Canon>, String> {
         let (name, arguments) = call.trim().split_once('(').ok_or_else(fault)?;
         let arguments = arguments.strip_suffix(')').ok_or_else(fault)?;
         if SETTINGS.contains(&name) {
+            continue;
+        }
+        if matches!(name, "START_SPINDLE_CLOCKWISE" | "STOP_SPINDLE_TURNING") {
+            // The interpreter stops it at the end of every program, whether it turns or not.
+            let on = name == "START_SPINDLE_CLOCKWISE";
+            if core::mem::replace(&mut spins, on) != on {
+                canon.push(Canon::Output { number: SPINDLE, on });
+            }
             continue;
         }
         if name == "SET_MOTION_CONTROL_MODE" {

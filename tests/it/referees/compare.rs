@@ -1,9 +1,11 @@
 //! An intermediate program against what an interpreter makes of the emitted text.
 
-use super::canon::{Canon, Control, Kinematics, NOTHING, Position};
+use super::canon::{Canon, Control, Kinematics, NOTHING, Position, SPINDLE};
 use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, AxisKind, AxisValues, Cell, Changer, Joint, OpId, Ready, Switch};
+use vcutc_backend_api::ir::{
+    Action, AxisKind, AxisValues, Cell, Changer, Joint, OpId, Ready, Spindle, Switch,
+};
 use vcutc_backend_api::motion::ReachableProgram;
 
 /// What has to happen.
@@ -99,6 +101,13 @@ pub(super) fn deeds(program: &ReachableProgram) -> Vec<(OpId, Deed)> {
             }
             (Action::Ultrasonic { state }, None) => {
                 Deed::Switch(cell.ultrasonic.unwrap(), matches!(state, Switch::On))
+            }
+            (Action::Spin { state }, None) => {
+                let output = match cell.spindle.unwrap() {
+                    Spindle::Own => SPINDLE,
+                    Spindle::Output(number) => number,
+                };
+                Deed::Switch(output, matches!(state, Switch::On))
             }
             (Action::AwaitReady, None) => match cell.ready {
                 Ready::After(time) => Deed::Wait(time.to_s()),

@@ -21,9 +21,9 @@ pub struct OtherOperation {
 }
 
 pub(super) fn of(plan: &PlannedJob, compiled: &Compiled, sources: &SourceMap) -> Vec<OtherOperation> {
-    let numbered = (1..).zip(&plan.operations);
-    let others = numbered.filter(|(_, planned)| PlannedVcut::of(&***planned).is_none());
-    let other = |(number, planned): (u16, &Box<dyn PlannedOperation>)| OtherOperation {
+    let numbered = (1..).zip(plan.operations.iter().map(|planned| &**planned));
+    let others = numbered.filter(|(_, planned)| PlannedVcut::of(*planned).is_none());
+    let other = |(number, planned): (u16, &dyn PlannedOperation)| OtherOperation {
         number,
         place: bounds::place(sources, planned.asked().setup().head_span),
         lines: planned.summary(&compiled.report),
