@@ -13,7 +13,7 @@ use vcutc::registry;
 use vcutc_backend_api::backend::{OptionValue, Options};
 use vcutc_backend_api::bundle::Bundle;
 use vcutc_backend_api::geometry::{Orientation, Zyx};
-use vcutc_backend_api::ir::OpId;
+use vcutc_backend_api::ir::{Cell, OpId};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::units::{Angle, Length};
 
@@ -53,10 +53,25 @@ fn is_installed() -> bool {
 
 /// What the interpreter makes of files, of which the first is the main program.
 fn carry_out(files: &[(String, Vec<u8>)]) -> Result<Vec<Canon>, String> {
+    carry_out_with(TOOL_TABLE, files)
+}
+
+/// A line for each tool of a cell, in its place; `rs274` counts in inches.
+fn tool_table(cell: &Cell) -> String {
+    let lines = (1..).zip(cell.tools.iter()).map(|(number, (_, tool))| {
+        let number = tool.place.unwrap_or(number);
+        let length = tool.frame.frame.origin.z / 25.4;
+        format!("T{number} P{number} Z{length:.6}\n")
+    });
+    lines.collect()
+}
+
+/// The same with a table of tools.
+fn carry_out_with(tools: &str, files: &[(String, Vec<u8>)]) -> Result<Vec<Canon>, String> {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &[u8]| fs::write(folder.path().join(name), text).unwrap();
     write("machine.ini", CONFIGURATION.as_bytes());
-    write("tool.tbl", TOOL_TABLE.as_bytes());
+    write("tool.tbl", tools.as_bytes());
     for (number, name) in [(0, "kinematics_of_axes"), (1, "kinematics_of_the_tip")] {
         write(
             &format!("{name}.ngc"),
@@ -103,8 +118,9 @@ fn judge_examples(dialect: &str, words: &[(&str, &str)], within: Tolerance) {
                 .map(|file| translated(file, words))
                 .collect();
             let reached = outcome.compiled.as_ref().unwrap().program.reached().unwrap();
-            let judged =
-                carry_out(&translated).and_then(|canon| compare(&deeds(&reached.program), &canon, within));
+            let tools = tool_table(reached.program.program().cell.as_ref().unwrap());
+            let judged = carry_out_with(&tools, &translated)
+                .and_then(|canon| compare(&deeds(&reached.program), &canon, within));
             assert_eq!(judged, Ok(()), "{name} on {machine:?} for {dialect}");
             programs += 1;
         }
