@@ -40,6 +40,16 @@ pub trait Operation: OperationValue + Any + Debug + Send + Sync {
         None
     }
 
+    /// What must stay on the part, measured along its normal.
+    fn allowance(&self) -> Option<Sourced<Length>> {
+        None
+    }
+
+    /// The same with another allowance, if it has one.
+    fn with_allowance(&self, _allowance: Length) -> Option<Box<dyn Operation>> {
+        None
+    }
+
     /// What its open parameters are to make least.
     fn aim(&self) -> Aim {
         Aim::Time

@@ -1,5 +1,5 @@
 //! Cuts along y, to and fro. Each begins and ends beside the work, far enough out that the blade may turn there; from one to the
-//! next the blade goes up, across and down beside the work.
+//! next the blade goes up, across and down beside the work. With one feed direction only, it goes back over the safe plane.
 
 use crate::posture::{Feed, Holder};
 use vcutc_backend_api::builder::ProgramBuilder;
@@ -8,7 +8,7 @@ use vcutc_backend_api::ir::{Action, FeedId, Flank, Joint, OperationId, RateId, S
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::grid;
-use vcutc_job::Setup;
+use vcutc_job::{Direction, Setup};
 
 /// What makes a blade cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,6 +85,7 @@ pub struct Writer<'b> {
     front: f64,
     back: f64,
     safe: f64,
+    direction: Direction,
     at: At,
     tip: Point3,
     layer: Option<Site>,
@@ -102,6 +103,7 @@ impl<'b> Writer<'b> {
             front: -grid::up(out),
             back: grid::up(stock.depth.to_mm() + out),
             safe,
+            direction: setup.direction.value,
             at: At::Above,
             tip: Point3::new(0.0, -out, safe),
             layer: None,
@@ -112,16 +114,15 @@ impl<'b> Writer<'b> {
 
     /// Cuts from wherever the blade is.
     pub fn pass(&mut self, pass: &Pass) {
-        let feed = match self.at {
-            At::Above => {
-                self.come_down(pass);
-                Feed::Forward
+        let feed = self.feed();
+        match self.at {
+            At::Above => self.begin(pass, feed),
+            At::Beside(here) if here == feed => self.go_beside(pass, feed),
+            At::Beside(_) => {
+                self.rise();
+                self.come_down(pass, feed);
             }
-            At::Beside(feed) => {
-                self.go_beside(pass, feed);
-                feed
-            }
-        };
+        }
         let y = match feed {
             Feed::Forward => self.back,
             Feed::Backward => self.front,
@@ -148,21 +149,48 @@ impl<'b> Writer<'b> {
         self.layer = layer_of(pass.site);
     }
 
+    /// The way of the next cut.
+    fn feed(&self) -> Feed {
+        match (self.direction, self.at) {
+            (Direction::Alternate, At::Beside(feed)) => feed,
+            (Direction::Alternate, At::Above) | (Direction::Forward, _) => Feed::Forward,
+            (Direction::Backward, _) => Feed::Backward,
+        }
+    }
+
     /// From wherever the program is to the start of the first cut of the stage.
-    fn come_down(&mut self, pass: &Pass) {
+    fn begin(&mut self, pass: &Pass, feed: Feed) {
         let way = layer_of(pass.site).unwrap_or(pass.site);
-        let above = Point3::new(pass.at.x, self.front, self.safe);
-        self.travel(way, above, pass, Feed::Forward);
+        self.travel(way, self.above(pass, feed), pass, feed);
         for drive in self.stage.drives {
             self.builder.op(way, drive.switched(Switch::On));
         }
         self.builder.op(way, Action::AwaitReady);
-        let start = Point3 {
+        self.approach(pass);
+    }
+
+    /// On the safe plane to the start of a cut.
+    fn come_down(&mut self, pass: &Pass, feed: Feed) {
+        self.travel(pass.site, self.above(pass, feed), pass, feed);
+        self.approach(pass);
+    }
+
+    /// The place on the safe plane above the start of a cut.
+    const fn above(&self, pass: &Pass, feed: Feed) -> Point3 {
+        let y = match feed {
+            Feed::Forward => self.front,
+            Feed::Backward => self.back,
+        };
+        Point3::new(pass.at.x, y, self.safe)
+    }
+
+    fn approach(&mut self, pass: &Pass) {
+        let to = Point3 {
             z: pass.at.z,
-            ..above
+            ..self.tip
         };
         let feed = self.travel;
-        self.go(pass.site, start, Action::Approach { to: start, feed });
+        self.go(pass.site, to, Action::Approach { to, feed });
     }
 
     /// Beside the work to the start of the next cut: up if it begins higher, across, and down if it begins lower.
@@ -212,16 +240,21 @@ impl<'b> Writer<'b> {
         self.tip = to;
     }
 
+    /// Straight up to the safe plane.
+    fn rise(&mut self) {
+        let site = self.layer.unwrap_or(Site::Operation(self.stage.operation));
+        let to = Point3 {
+            z: self.safe,
+            ..self.tip
+        };
+        let feed = self.travel;
+        self.go(site, to, Action::Retract { to, feed });
+    }
+
     /// Straight up to the safe plane; what drives the blade stops.
     pub fn leave(&mut self) {
-        let site = self.layer.unwrap_or(Site::Operation(self.stage.operation));
         if let At::Beside(_) = self.at {
-            let to = Point3 {
-                z: self.safe,
-                ..self.tip
-            };
-            let feed = self.travel;
-            self.go(site, to, Action::Retract { to, feed });
+            self.rise();
         }
         for drive in self.stage.drives {
             let off = drive.switched(Switch::Off);

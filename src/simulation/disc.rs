@@ -50,6 +50,8 @@ impl DiscPass {
 pub struct SkinPass {
     /// The centre of the edge, in mm.
     pub centre: Point2,
+    /// The x at which the disc stands on the part, in mm: what stands there has to come free.
+    pub contact: f64,
     /// How far the axis leans along the feed.
     pub lead: Angle,
     /// By how much it leans towards -x.

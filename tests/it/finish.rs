@@ -3,10 +3,12 @@
 use crate::pipeline::Files;
 use crate::rect::machines;
 use crate::repository::root;
-use vcutc::diagnostics::{Code, has_errors};
+use vcutc::diagnostics::{Code, Diagnostic, has_errors};
 use vcutc::driver::{self, Outcome, Request, Typed};
+use vcutc::geometry::curve::Point2;
 use vcutc::readback::{Fresh, Reference};
 use vcutc::registry;
+use vcutc::simulation::cross_section::Taken;
 use vcutc::simulation::prove::watched;
 use vcutc_backend_api::ir::{Action, Program};
 use vcutc_backend_api::readback::ProgramFile;
@@ -33,12 +35,21 @@ fn job(profile: &str, finish: &str) -> String {
 const USUAL: &str = "limits { scallop <= 0.1 mm, lead <= 12 deg }\n  over_hub = 9 mm";
 
 fn compiled(text: String, machine: &str) -> Outcome {
+    compiled_on(text, Some(machine))
+}
+
+/// As [`compiled`], as far as a job without a machine is.
+fn proven(text: &str) -> Outcome {
+    compiled_on(text.replace(&machines(), ""), None)
+}
+
+fn compiled_on(text: String, machine: Option<&str>) -> Outcome {
     let files = Files::of(root().join("examples")).with("cap.vcut", text);
     let request = Request {
         path: "cap.vcut",
         loader: &files,
         overrides: &[],
-        machine: Some(machine),
+        machine,
         options: Typed::default(),
         operations: registry::OPERATIONS,
         targets: &registry::backends(),
@@ -130,54 +141,174 @@ fn all_targets_write_tracks_and_read_them_back() {
 }
 
 fn codes(finish: &str) -> Vec<Code> {
-    let outcome = compiled(job(CAP, finish), "kuka");
+    let outcome = proven(&job(CAP, finish));
     outcome.diagnostics.iter().map(|one| one.code).collect()
+}
+
+/// Applies the change that a refusal offers to the text of the job.
+fn mended(text: &str, refused: &Diagnostic) -> String {
+    let [fix] = refused.fixes.as_slice() else {
+        panic!("{refused:?}");
+    };
+    let mut edits = fix.edits.clone();
+    edits.sort_by_key(|edit| core::cmp::Reverse(edit.span.start));
+    let mut text = text.to_owned();
+    for edit in edits {
+        let range = edit.span.start as usize..edit.span.end as usize;
+        text.replace_range(range, &edit.replacement);
+    }
+    text
+}
+
+/// Compiles a job that is refused with a code and one change, and compiles it with that change.
+fn assert_mended(text: &str, code: Code, change: &str) {
+    let text = text.replace(&machines(), "");
+    let outcome = proven(&text);
+    let [refused] = outcome.diagnostics.as_slice() else {
+        panic!("{change}: {:?}", outcome.diagnostics);
+    };
+    assert_eq!(refused.code, code, "{change}");
+    assert!(
+        refused.fixes.iter().any(|fix| fix.title.contains(change)),
+        "{change}: {refused:?}"
+    );
+    let outcome = proven(&mended(&text, refused));
+    assert!(
+        !has_errors(&outcome.diagnostics),
+        "{change}: {:?}",
+        outcome.diagnostics
+    );
 }
 
 #[test]
 fn what_does_not_go_is_refused_with_what_does() {
-    // Strips run over the hub.
-    let outcome = compiled(job(CAP, "limits { scallop <= 0.1 mm }"), "kuka");
-    let [refused] = outcome.diagnostics.as_slice() else {
-        panic!("{:?}", outcome.diagnostics);
-    };
-    assert_eq!(refused.code, Code::BladesTooSmall);
-    let offered = refused.help[0].split("over_hub = ").nth(1).unwrap();
-    let height = offered.split(" mm").next().unwrap();
-    let with = |over_hub: &str| {
-        codes(&format!(
-            "limits {{ scallop <= 0.1 mm }}\n  over_hub = {over_hub} mm"
-        ))
-    };
-    assert_eq!(with(height), []);
-    let less: f64 = height.parse::<f64>().unwrap() - 1.0;
-    assert_eq!(with(&less.to_string()), [Code::BladesTooSmall]);
+    // Strips run over the hub, which has to let them pass.
+    let at_hub = job(CAP, "limits { scallop <= 0.1 mm }");
+    assert_mended(&at_hub, Code::BladesTooSmall, "over_hub = ");
+    // A side tilt that is given carries no strip past the hub.
+    let upright = finely_roughed("side = 0 deg, limits { scallop <= 0.1 mm }");
+    assert_mended(&upright, Code::BladesTooSmall, "`side = auto`");
+    let little = finely_roughed("side = 1 deg, limits { scallop <= 0.1 mm }");
+    assert_mended(&little, Code::BladesTooSmall, "`side = auto`");
+    // Tracks go the other way.
+    let uphill = finely_roughed("sequence = descending, limits { scallop <= 0.1 mm }");
+    assert_mended(&uphill, Code::BladesTooSmall, "`sequence = auto`");
     // Grooves end too high for so little lead.
-    let thick = |lead: &str| {
-        let finish = format!("lead = {lead} deg, limits {{ scallop <= 0.1 mm }}\n  over_hub = 9 mm");
-        compiled(
-            job(CAP, &finish).replace("allowance = 0.3 mm", "allowance = 2 mm"),
-            "kuka",
-        )
-    };
-    let outcome = thick("3");
-    let refused = &outcome.diagnostics[0];
-    assert_eq!(refused.code, Code::ChipNotFreed);
-    let lead = refused.help[0].split("lead = ").nth(1).unwrap();
-    let lead = lead.split(" deg").next().unwrap();
-    assert!(!has_errors(&thick(lead).diagnostics), "{lead}");
+    let high = job(
+        CAP,
+        "lead = 3 deg, limits { scallop <= 0.1 mm }\n  over_hub = 9 mm",
+    )
+    .replace("allowance = 0.3 mm", "allowance = 2 mm");
+    assert_mended(&high, Code::ChipNotFreed, "`lead = auto`");
+    // With more lead they are refused all the same: roughing has to come nearer.
+    let higher = job(
+        CAP,
+        "limits { scallop <= 0.1 mm, lead <= 4 deg }\n  over_hub = 9 mm",
+    )
+    .replace("allowance = 0.3 mm", "allowance = 2 mm");
+    assert_mended(&higher, Code::ChipNotFreed, "`allowance = ");
     // Tracks too far apart for the limit.
-    assert_eq!(
-        codes("step = 30 mm, limits { scallop <= 0.1 mm }\n  over_hub = 9 mm"),
-        [Code::ScallopOverLimit]
+    let apart = job(
+        CAP,
+        "step = 30 mm, limits { scallop <= 0.1 mm }\n  over_hub = 9 mm",
     );
-    assert_eq!(
-        codes("limits { scallop <= 0.1 mm, lead <= 2 deg }"),
-        [Code::LimitsConflict]
+    assert_mended(&apart, Code::ScallopOverLimit, "`step = auto`");
+    // A hollow with a radius of 150 mm asks for 9.59 deg [Yang 10]: with less, the disc stands on its sides.
+    let hollow = job(
+        TROUGH,
+        "limits { scallop <= 0.1 mm, lead <= 5 deg }\n  over_hub = 9 mm",
     );
-    assert_eq!(
-        codes("lead = 0 deg, limits { scallop <= 0.1 mm }"),
-        [Code::OutOfRange]
-    );
-    assert_eq!(codes("over_hub = 9 mm"), [Code::MissingField]);
+    assert_mended(&hollow, Code::ChipNotFreed, "`lead <= ");
+    for (finish, code) in [
+        (
+            "limits { scallop <= 0.1 mm, lead <= 2 deg }",
+            Code::LimitsConflict,
+        ),
+        ("lead = 0 deg, limits { scallop <= 0.1 mm }", Code::OutOfRange),
+        ("side = 31 deg, limits { scallop <= 0.1 mm }", Code::OutOfRange),
+        ("over_hub = 9 mm", Code::MissingField),
+    ] {
+        assert_eq!(codes(finish), [code]);
+    }
+}
+
+/// A job whose roughing ends its grooves so near to the part that a rim with side tilt comes out in them.
+fn finely_roughed(finish: &str) -> String {
+    job(CAP, finish).replace("scallop <= 6 mm", "scallop <= 2 mm")
+}
+
+/// Without `over_hub` every strip passes the hub: what comes free lies beside it, by points along the program's own ways.
+#[test]
+fn strips_pass_the_hub_of_a_disc_that_leans_to_the_side() {
+    let outcome = compiled(finely_roughed("limits { scallop <= 0.1 mm }"), "kuka");
+    assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
+    let compiled = outcome.compiled.unwrap();
+    let program = compiled.program.verified().program();
+    let part = |x: f64| 30.0 - (x - 60.0) * (x - 60.0) / 300.0;
+    let points = edge(program, 25.0);
+    for &(x, z) in points.iter().filter(|(x, _)| (0.0..=120.0).contains(x)) {
+        assert!(z >= part(x) - 0.011, "{z} at x {x}");
+    }
+    let mut chips = Vec::new();
+    let mut op_before = None;
+    let (last, _) = watched(compiled.program.verified(), &mut |op, _, taken| {
+        if let Some(before) = op_before.replace(op) {
+            chips.push((before, taken));
+        }
+    });
+    chips.extend(op_before.map(|op| (op, last)));
+    let mut strips = 0;
+    for (op, taken) in chips {
+        let Action::Follow { to, orientation, .. } = program.ops[op.0 as usize].action else {
+            continue;
+        };
+        // The axis leans to +x of the normal: tracks go that way.
+        let axis = program.orientation(orientation).unwrap().matrix();
+        let [aside, up] = [-axis[0][2], -axis[2][2]];
+        for chip in taken {
+            let Taken::Chip(chip) = chip else { continue };
+            strips += 1;
+            for place in 0..=200_u32 {
+                let share = f64::from(place) / 200.0;
+                let (first, last) = (chip.floor[0], chip.floor[chip.floor.len() - 1]);
+                let x = first.x + (last.x - first.x) * share;
+                let thick = height(&chip.top, x) - height(&chip.floor, x);
+                // How far it is from the axis, seen along the feed, at the height of the rim.
+                let off = (x - to.x) * up - (height(&chip.floor, x) - to.z) * aside;
+                assert!(
+                    off.abs() > 8.0 || thick < 1.0,
+                    "{thick} mm at x {x} of op {}",
+                    op.0
+                );
+            }
+        }
+    }
+    assert!(strips >= 15, "{strips}");
+}
+
+/// The height of a polyline over x.
+fn height(line: &[Point2], x: f64) -> f64 {
+    let next = line.partition_point(|point| point.x < x).clamp(1, line.len() - 1);
+    let (from, to) = (line[next - 1], line[next]);
+    if to.x > from.x {
+        from.z + (to.z - from.z) * ((x - from.x) / (to.x - from.x)).clamp(0.0, 1.0)
+    } else {
+        from.z.max(to.z)
+    }
+}
+
+#[test]
+fn tracks_keep_to_a_direction() {
+    for (direction, forwards, backwards) in [("forward", 13, 0), ("backward", 0, 13), ("alternate", 7, 6)] {
+        let outcome = compiled(job(CAP, &format!("{USUAL}\n  direction = {direction}")), "kuka");
+        assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
+        let compiled = outcome.compiled.unwrap();
+        let program = compiled.program.verified().program();
+        let ways = program.ops.iter().filter_map(|op| match op.action {
+            Action::Follow { to, .. } => Some(to.y > 100.0),
+            _ => None,
+        });
+        let (there, back): (Vec<bool>, Vec<bool>) = ways.partition(|there| *there);
+        assert_eq!((there.len(), back.len()), (forwards, backwards), "{direction}");
+    }
 }

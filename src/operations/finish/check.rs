@@ -1,6 +1,6 @@
 //! `finish disc { ... }`: finishing with a disc.
 
-use crate::asked::{FinishDisc, Limits};
+use crate::asked::{FinishDisc, Limits, Sequence};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -9,7 +9,7 @@ use vcutc_job::sema::dimension::Dimension;
 use vcutc_job::sema::field_ranges::{DISTANCE, Range, SIZE};
 use vcutc_job::sema::fields::{BlockSpec, Fields, Inner, Takes, block, limit, value};
 use vcutc_job::sema::kind::Kind;
-use vcutc_job::sema::read::Reader;
+use vcutc_job::sema::read::{Reader, words_of};
 use vcutc_job::sema::report::Checked;
 use vcutc_job::sema::session::Session;
 use vcutc_job::sema::setup::{self, inner_place};
@@ -29,6 +29,9 @@ const LEADS: Range = Range::new(
     core::ops::Bound::Excluded(90.0),
 );
 
+/// How far the disc may lean to a side: a judgement, from no source.
+const SIDES: Range = Range::closed(Dimension::ANGLE, 0.0, 30.0);
+
 /// Its fields.
 pub const SPEC: BlockSpec = BlockSpec {
     title: "`finish disc`",
@@ -36,12 +39,17 @@ pub const SPEC: BlockSpec = BlockSpec {
         value("blade", "finisher").required().takes(Takes::Blade),
         value("step", "auto").within(SIZE).or_auto(),
         value("lead", "auto").within(LEADS).or_auto(),
+        value("side", "auto").within(SIDES).or_auto(),
         value("relief", "3 deg").within(LEADS),
         value("over_hub", "0 mm").within(DISTANCE),
         block("limits", "{ scallop <= 0.1 mm, lead <= 12 deg }")
             .required()
             .takes(Takes::Fields(&LIMITS)),
         value("allowance", "0 mm").within(DISTANCE),
+        value("sequence", "auto")
+            .takes(Takes::Words(|| words_of(Sequence::WORDS)))
+            .or_auto(),
+        setup::DIRECTION,
         setup::FEED,
         setup::CLEARANCE,
         setup::RUN_OUT_FIELD,
@@ -88,6 +96,8 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<FinishDisc>
     let mut reader = Reader::new(scope, &mut session.reports);
     let step = reader.auto(&fields, "step");
     let lead = reader.auto(&fields, "lead");
+    let side = reader.auto(&fields, "side");
+    let sequence = reader.auto_choice(&fields, "sequence", Sequence::WORDS);
     let relief = reader.defaulted(&fields, "relief", RELIEF);
     let over_hub = reader.defaulted(&fields, "over_hub", Length::ZERO);
     let allowance = reader.defaulted(&fields, "allowance", Length::ZERO);
@@ -111,6 +121,8 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<FinishDisc>
         disc: disc?,
         step: step?,
         lead,
+        side: side?,
+        sequence: sequence?,
         relief,
         over_hub: over_hub?,
         allowance: allowance?,

@@ -3,7 +3,7 @@
 //! | Stage | Here |
 //! | --- | --- |
 //! | what is asked, and its check | [`asked`], `check` |
-//! | the plan: tracks, lead, order | [`plan`] |
+//! | the plan: tracks, lead, side tilt, order | [`plan`] |
 //! | why there is no plan | `refused` |
 //! | every choice made, and what stages ask of it | `decided`, `planned` |
 //! | motions | `lower` |

@@ -3,7 +3,7 @@
 use crate::asked::{AIR, FinishDisc};
 use crate::decided::Planned;
 use crate::plan::{self, Wish, Work};
-use crate::refused;
+use crate::refused::Refused;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::Span;
 use vcutc_geometry::offset::offset_up;
@@ -28,6 +28,8 @@ impl Operation for FinishDisc {
         self.disc.forget_places(place);
         self.step.forget_place(place);
         self.lead.forget_place(place);
+        self.side.forget_place(place);
+        self.sequence.forget_place(place);
         self.relief.forget_place(place);
         self.over_hub.forget_place(place);
         self.allowance.forget_place(place);
@@ -39,6 +41,16 @@ impl Operation for FinishDisc {
         Some(self.limits.scallop)
     }
 
+    fn allowance(&self) -> Option<Sourced<Length>> {
+        Some(self.allowance)
+    }
+
+    fn with_allowance(&self, allowance: Length) -> Option<Box<dyn Operation>> {
+        let mut other = self.clone();
+        other.allowance.value = allowance;
+        Some(Box::new(other))
+    }
+
     fn plan<'j>(&'j self, ground: Ground<'j>) -> Result<Laid, Box<dyn Unplanned + 'j>> {
         let bound = offset_up(&ground.job.profile, self.allowance.value);
         let work = Work {
@@ -47,19 +59,24 @@ impl Operation for FinishDisc {
             before: &ground.before,
         };
         let wish = self.wish();
-        let (plan, after) = plan::plan(work, &wish).map_err(|refusal| {
-            let offer = refused::offer(work, &wish, &refusal);
-            Box::new(refused::diagnostic(self, &refusal, offer)) as Box<dyn Unplanned>
-        })?;
-        let planned = Planned {
-            asked: self.clone(),
-            plan,
-            bound,
-        };
-        Ok(Laid {
-            planned: Box::new(planned),
-            after,
-        })
+        match plan::plan(work, &wish) {
+            Ok((plan, after)) => {
+                let planned = Planned {
+                    asked: self.clone(),
+                    plan,
+                    bound,
+                };
+                Ok(Laid {
+                    planned: Box::new(planned),
+                    after,
+                })
+            }
+            Err(refusal) => Err(Box::new(Refused {
+                asked: self,
+                ground,
+                refusal,
+            })),
+        }
     }
 }
 
@@ -74,6 +91,8 @@ impl FinishDisc {
             },
             step: self.step.value,
             lead: self.lead.value,
+            side: self.side.value,
+            sequence: self.sequence.value,
             relief: self.relief.value,
             steepest: self.limits.lead.value,
             over_hub: self.over_hub.value,

@@ -1,14 +1,21 @@
 //! The plan of finishing: tracks along y, one beside the other, on each of which the disc stands on the part.
 //!
-//! On a track the disc is rolled to the slope of the part there and leans along its feed. It is let down until its rim touches
-//! the part with its allowance, so no track enters it (exact, `simulation::cross_section::Guard`). What tracks leave, and whether
-//! all strips come free, is not computed by formulas but by passing them through the section of the work as it is
-//! (`CrossSection::skim`).
+//! On a track the disc is rolled to the slope of the part there and leans along its feed, and if need be to the side that tracks
+//! step to (`tracks`). It is let down until its rim touches the part with its allowance, so no track enters it (exact,
+//! `simulation::cross_section::Guard`). What tracks leave, and whether all strips come free, is not computed by formulas but by
+//! passing them through the section of the work as it is (`CrossSection::skim`).
 //!
 //! More lead makes the rim rise more at its ends, so that strips come free between grooves that end higher; and it makes the rim more
 //! pointed, so that more tracks are needed for the same scallop, `R / sin(lead)` being the radius under the disc. So the least lead
-//! with which everything comes free has the fewest tracks, and is taken.
+//! with which everything comes free has the fewest tracks, and is taken. A disc without side tilt takes its strips over the hub. Where
+//! they are too thick for that it leans to the side, so that they pass the hub; the rim is then lower on that side.
 
+pub mod model;
+mod order;
+mod tracks;
+
+use crate::asked::Sequence;
+use tracks::{Hold, Tilt};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
@@ -16,7 +23,6 @@ use vcutc_job::Auto;
 use vcutc_simulation::contour::farthest;
 use vcutc_simulation::cross_section::{CrossSection, Guard};
 use vcutc_simulation::disc::{Disc, PassFault, SkinPass};
-use vcutc_simulation::rim::Rim;
 use vcutc_simulation::surface::Surface;
 
 /// Most tracks that are planned.
@@ -44,6 +50,8 @@ pub struct Wish {
     pub disc: Disc,
     pub step: Auto<Length>,
     pub lead: Auto<Angle>,
+    pub side: Auto<Angle>,
+    pub sequence: Auto<Sequence>,
     pub relief: Angle,
     pub steepest: Angle,
     pub over_hub: Length,
@@ -54,11 +62,11 @@ pub struct Wish {
 /// One way of the disc along y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Track {
-    /// Where it stands on the part, before it is let down, in mm.
+    /// Where it stands on the part with its allowance, in mm.
     pub contact: Point2,
     /// The centre of its edge.
     pub centre: Point2,
-    /// The slope angle of the part there.
+    /// By how much the axis leans towards -x, seen along the feed.
     pub roll: Angle,
 }
 
@@ -68,6 +76,9 @@ pub struct PlannedFinish {
     /// In the order in which they are cut.
     pub tracks: Vec<Track>,
     pub lead: Angle,
+    /// How far the axis leans to the side that tracks step to.
+    pub side: Angle,
+    pub sequence: Sequence,
     /// Distance of tracks over x.
     pub step: Length,
 }
@@ -95,11 +106,8 @@ pub enum Refusal {
 /// # Errors
 /// Why there is no plan; of several leads that were tried, for the greatest.
 pub fn plan(work: Work<'_>, wish: &Wish) -> Result<(PlannedFinish, Surface), Refusal> {
-    if work
-        .before
-        .corners()
-        .all(|corner| corner.z <= work.bound.height(corner.x) + 1e-6)
-    {
+    let mut corners = work.before.corners();
+    if corners.all(|corner| corner.z <= work.bound.height(corner.x) + 1e-6) {
         return Err(Refusal::Nothing);
     }
     let mut refusal = Refusal::Nothing;
@@ -125,12 +133,55 @@ fn leads(wish: &Wish) -> Vec<Angle> {
     }
 }
 
+/// With a lead, and without side tilt where strips may run over the hub.
 fn with_lead(work: Work<'_>, wish: &Wish, lead: Angle) -> Result<(PlannedFinish, Surface), Refusal> {
+    let tilts = match wish.side {
+        Auto::Given(side) => vec![Tilt::Fixed(side)],
+        Auto::Auto => vec![
+            Tilt::Fixed(Angle::ZERO),
+            Tilt::PastHub { share: 1.05 },
+            Tilt::PastHub { share: 1.5 },
+        ],
+    };
+    let mut refusal = None;
+    for tilt in tilts {
+        match with_tilt(work, wish, lead, tilt) {
+            Ok(planned) => return Ok(planned),
+            Err(why) => {
+                let is_at_hub = is_over_body(&why);
+                // What keeps an upright disc from cutting is what a user can mend.
+                let why = refusal.get_or_insert(why);
+                if !is_at_hub {
+                    return Err(why.clone());
+                }
+            }
+        }
+    }
+    Err(refusal.unwrap_or(Refusal::Nothing))
+}
+
+fn is_over_body(refusal: &Refusal) -> bool {
+    matches!(
+        refusal,
+        Refusal::Fault {
+            fault: PassFault::OverBody { .. },
+            ..
+        }
+    )
+}
+
+/// As many tracks as the limit on scallop asks for.
+fn with_tilt(
+    work: Work<'_>,
+    wish: &Wish,
+    lead: Angle,
+    tilt: Tilt,
+) -> Result<(PlannedFinish, Surface), Refusal> {
     let (from, to) = work.part.span();
     let width = to - from;
     let mut count = match wish.step {
         Auto::Given(step) => (width / step.to_mm() - 1e-9).ceil(),
-        Auto::Auto => (width / first_step(wish, lead)).ceil(),
+        Auto::Auto => (width / tracks::first_step(wish, lead, tilt)).ceil(),
     }
     .max(1.0);
     let mut found = Err(Refusal::Nothing);
@@ -140,8 +191,7 @@ fn with_lead(work: Work<'_>, wish: &Wish, lead: Angle) -> Result<(PlannedFinish,
                 tracks: count as usize,
             });
         }
-        let tracks = tracks(work, wish, lead, count as u32);
-        found = passed(work, wish, lead, tracks, Length::mm(width / count));
+        found = passed(work, wish, lead, tilt, count as u32);
         match (&found, wish.step) {
             (Err(Refusal::Scallop { .. }), Auto::Auto) => count = (count * 1.05).ceil().max(count + 1.0),
             (Ok(_) | Err(_), _) => break,
@@ -150,76 +200,49 @@ fn with_lead(work: Work<'_>, wish: &Wish, lead: Angle) -> Result<(PlannedFinish,
     found
 }
 
-/// The distance of tracks that leave the limit on a plane: `2 sqrt(R^2 - (R - h / sin(lead))^2)`, in mm.
-fn first_step(wish: &Wish, lead: Angle) -> f64 {
-    let radius = wish.disc.radius.to_mm();
-    let rest = (radius - wish.scallop.to_mm() / lead.sin()).max(0.0);
-    2.0 * (radius * radius - rest * rest).sqrt()
-}
-
-/// So many tracks, from left to right.
-fn tracks(work: Work<'_>, wish: &Wish, lead: Angle, count: u32) -> Vec<Track> {
-    let guard = Guard::new(work.bound);
-    let (from, to) = work.part.span();
-    let step = (to - from) / f64::from(count);
-    let at = |number: u32| {
-        let x = step.mul_add(f64::from(number) + 0.5, from);
-        track(work.bound, &guard, wish.disc.radius, lead, [x, step])
-    };
-    (0..count).map(at).collect()
-}
-
-/// The track at an x: rolled to the slope of the part over its step, and let down on the part.
-fn track(bound: &Profile, guard: &Guard<'_>, radius: Length, lead: Angle, [x, step]: [f64; 2]) -> Track {
-    let (from, to) = bound.span();
-    let ends = [(x - step / 2.0).max(from), (x + step / 2.0).min(to)];
-    let [left, right] = ends.map(|x| bound.height(x));
-    let slope = (right - left) / (ends[1] - ends[0]).max(f64::MIN_POSITIVE);
-    let roll = Angle::rad(libm::atan(slope));
-    let contact = Point2::new(x, bound.height(x));
-    let below = Rim::rolled(Point2::new(0.0, 0.0), radius, lead, roll).touching(slope);
-    let centre = Point2::new(contact.x - below.x, contact.z - below.z);
-    let lift = guard.deepest(&Rim::rolled(centre, radius, lead, roll));
-    let centre = Point2::new(centre.x, centre.z + lift.map_or(0.0, |(_, depth)| depth));
-    Track {
-        contact,
-        centre,
-        roll,
-    }
-}
-
-/// Passes tracks through the work: those over high places first, or from side to side where only that frees all strips.
+/// So many tracks in the first order in which all strips come free.
 fn passed(
     work: Work<'_>,
     wish: &Wish,
     lead: Angle,
-    tracks: Vec<Track>,
-    step: Length,
+    tilt: Tilt,
+    count: u32,
 ) -> Result<(PlannedFinish, Surface), Refusal> {
-    let mut descending = tracks.clone();
-    descending.sort_by(|a, b| b.contact.z.total_cmp(&a.contact.z));
-    let backwards: Vec<Track> = tracks.iter().rev().copied().collect();
-    let mut refusal = Refusal::Nothing;
-    for tracks in [descending, tracks, backwards] {
-        match in_order(work, wish, lead, tracks, step) {
-            Err(why @ Refusal::Fault { .. }) => refusal = why,
-            other => return other,
+    let sequences = match wish.sequence {
+        Auto::Given(sequence) => vec![sequence],
+        Auto::Auto => Sequence::WORDS.iter().map(|(_, sequence)| *sequence).collect(),
+    };
+    let guard = Guard::new(work.bound);
+    let (from, to) = work.part.span();
+    let step = Length::mm((to - from) / f64::from(count));
+    let side = tracks::side(work, wish, lead, tilt, step);
+    let hold = Hold { lead, side };
+    let mut refusal = None;
+    for sequence in sequences {
+        let planned = PlannedFinish {
+            tracks: tracks::laid(work, &guard, wish, hold, sequence, count),
+            lead,
+            side,
+            sequence,
+            step,
+        };
+        match simulated(work, wish, &planned) {
+            Ok(after) => return Ok((planned, after)),
+            Err(why @ Refusal::Fault { .. }) => refusal = Some(why),
+            Err(why) => return Err(why),
         }
     }
-    Err(refusal)
+    Err(refusal.unwrap_or(Refusal::Nothing))
 }
 
-fn in_order(
-    work: Work<'_>,
-    wish: &Wish,
-    lead: Angle,
-    tracks: Vec<Track>,
-    step: Length,
-) -> Result<(PlannedFinish, Surface), Refusal> {
+/// What tracks leave, if all strips come free and no more than the limit stays.
+fn simulated(work: Work<'_>, wish: &Wish, planned: &PlannedFinish) -> Result<Surface, Refusal> {
     let mut section = CrossSection::new(work.before.clone());
-    for &track in &tracks {
+    let lead = planned.lead;
+    for &track in &planned.tracks {
         let pass = SkinPass {
             centre: track.centre,
+            contact: track.contact.x,
             lead,
             roll: track.roll,
             over_hub: wish.over_hub,
@@ -235,6 +258,5 @@ fn in_order(
     if left > wish.scallop {
         return Err(Refusal::Scallop { left });
     }
-    let planned = PlannedFinish { tracks, lead, step };
-    Ok((planned, surface))
+    Ok(surface)
 }

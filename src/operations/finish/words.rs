@@ -10,6 +10,8 @@ use vcutc_job::description::{
 
 const FEWEST: &str = "the fewest tracks that keep the limit on scallop, as simulated";
 const LEAST: &str = "the least with which all strips come free and nothing is entered";
+const PAST: &str = "the least with which strips pass the hub, or none where they may run over it";
+const FREES: &str = "the first of crests, descending, rightwards and leftwards in which all strips come free";
 
 /// The tables: blade, cut, motion.
 pub(crate) fn tables(planned: &Planned) -> Vec<ParameterTable> {
@@ -24,6 +26,13 @@ pub(crate) fn tables(planned: &Planned) -> Vec<ParameterTable> {
     let cut = vec![
         ParameterRow::open("step", &asked.step, length_text(plan.step), FEWEST),
         ParameterRow::open("lead", &asked.lead, angle_text(plan.lead), LEAST),
+        ParameterRow::open("side", &asked.side, angle_text(plan.side), PAST),
+        ParameterRow::open(
+            "sequence",
+            &asked.sequence,
+            plan.sequence.word().to_owned(),
+            FREES,
+        ),
         ParameterRow::of("relief", asked.relief, angle_text),
         ParameterRow::of("over_hub", asked.over_hub, length_text),
         ParameterRow::of("allowance", asked.allowance, length_text),
@@ -47,6 +56,7 @@ pub(crate) fn parameters(planned: &Planned) -> Vec<ParameterFigure> {
     vec![
         ParameterFigure::open("step", &asked.step, millimetres(plan.step)),
         ParameterFigure::open("lead", &asked.lead, degrees(plan.lead)),
+        ParameterFigure::open("side", &asked.side, degrees(plan.side)),
         ParameterFigure::fixed("over_hub", &asked.over_hub, millimetres(asked.over_hub.value)),
         ParameterFigure::fixed("allowance", &asked.allowance, millimetres(asked.allowance.value)),
     ]
@@ -57,6 +67,8 @@ pub(crate) fn summary(planned: &Planned) -> Vec<(&'static str, String)> {
     let open = [
         ("step", planned.asked.step.value == Auto::Auto),
         ("lead", planned.asked.lead.value == Auto::Auto),
+        ("side", planned.asked.side.value == Auto::Auto),
+        ("sequence", planned.asked.sequence.value == Auto::Auto),
     ];
     let chosen = open.into_iter().filter(|(_, is_open)| *is_open);
     let chosen =
@@ -85,6 +97,8 @@ pub(crate) fn chosen(planned: &Planned, field: &str) -> Option<(String, String)>
     let (value, why) = match field {
         "step" => (length_text(planned.plan.step), FEWEST),
         "lead" => (angle_text(planned.plan.lead), LEAST),
+        "side" => (angle_text(planned.plan.side), PAST),
+        "sequence" => (planned.plan.sequence.word().to_owned(), FREES),
         _ => return None,
     };
     Some((value, why.to_owned()))

@@ -53,6 +53,16 @@ impl Operation for RoughRect {
         self.limits.scallop
     }
 
+    fn allowance(&self) -> Option<Sourced<Length>> {
+        Some(self.allowance)
+    }
+
+    fn with_allowance(&self, allowance: Length) -> Option<Box<dyn Operation>> {
+        let mut other = self.clone();
+        other.allowance.value = allowance;
+        Some(Box::new(other))
+    }
+
     fn plan<'j>(&'j self, ground: Ground<'j>) -> Result<Laid, Box<dyn Unplanned + 'j>> {
         let stock = ground.job.stock;
         if !is_untouched(&ground.before, stock) {

@@ -106,6 +106,16 @@ impl Operation for RoughVcut {
         self.limits.scallop
     }
 
+    fn allowance(&self) -> Option<Sourced<Length>> {
+        Some(self.allowance)
+    }
+
+    fn with_allowance(&self, allowance: Length) -> Option<Box<dyn Operation>> {
+        let mut other = self.clone();
+        other.allowance.value = allowance;
+        Some(Box::new(other))
+    }
+
     fn aim(&self) -> Aim {
         match self.objective.value {
             Objective::Time => Aim::Time,

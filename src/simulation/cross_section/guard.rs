@@ -34,12 +34,24 @@ impl<'p> Guard<'p> {
     /// The deepest point of a rim below the part, and how deep it is, in mm. None where all of it is clear.
     #[must_use]
     pub fn deepest(&self, rim: &Rim) -> Option<(Point2, f64)> {
+        self.deeper_than(rim, TOUCH)
+    }
+
+    /// The point of a rim that is nearest to the part, and how deep it is below it, in mm: negative where all of it is clear. None
+    /// where no part is below it.
+    #[must_use]
+    pub fn nearest(&self, rim: &Rim) -> Option<(Point2, f64)> {
+        self.deeper_than(rim, f64::NEG_INFINITY)
+    }
+
+    /// The deepest point of a rim below the part, if it is deeper than that.
+    fn deeper_than(&self, rim: &Rim, least: f64) -> Option<(Point2, f64)> {
         let [from, to] = self.within(rim.cover())?;
         let lowest = |block: &[Point2]| match block {
             [first, .., last] => rim.height(rim.lowest().x.max(first.x).min(last.x)),
             _ => f64::INFINITY,
         };
-        let mut deepest = (rim.centre(), TOUCH);
+        let mut deepest = (rim.centre(), least);
         for (block, peak) in self.blocks(from, to) {
             if peak - lowest(block) <= deepest.1 {
                 continue;
@@ -57,7 +69,7 @@ impl<'p> Guard<'p> {
                 }
             }
         }
-        (deepest.1 > TOUCH).then_some(deepest)
+        (deepest.1 > least).then_some(deepest)
     }
 
     /// How deep a slit with its bottom there enters the part, in mm, if the sides of the blade are so far to the left and right

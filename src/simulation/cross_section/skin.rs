@@ -2,7 +2,8 @@
 //!
 //! The rim cuts wherever something stands above it, in as many strips as there are. Each comes free if the rim comes out of the
 //! surface at both of its ends, as at a groove of the roughing, an earlier track, or a side of the stock. That over the place where the
-//! disc stands on the part has to; what the rim cuts below others farther out, later passes free. A strip that lies over the body runs at it once it is cut, so there it may be no thicker than has room (`docs/process.md`, "Finishing with a disc").
+//! disc stands on the part has to; what the rim cuts below others farther out, later passes free. A strip that lies over the body runs
+//! at it once it is cut, so there it may be no thicker than has room (`docs/process.md`, "Finishing with a disc").
 
 use super::body::{self, Stand};
 use super::pass::tolerance;
@@ -19,14 +20,13 @@ impl CrossSection {
         let mut outcome = PassOutcome::default();
         let mut pieces = core::mem::take(&mut self.scratch.pieces);
         self.sweep(&rim, rim.cover(), [End::Attached; 2], &mut pieces);
-        let touching = rim.touching(libm::tan(pass.roll.to_rad())).x;
         for piece in pieces.iter().filter(|piece| piece.height > tolerance(&rim)) {
             let [from, to] = piece.span;
             let fault = if piece.is_free() {
                 self.skin_size(disc, pass, &rim, piece)
             } else {
                 // What the rim cuts below a strip farther out, a later pass frees.
-                (from..=to).contains(&touching).then(|| PassFault::Attached {
+                (from..=to).contains(&pass.contact).then(|| PassFault::Attached {
                     stretch: piece.stretch(),
                     hold: Hold::Buried {
                         missing: self.missing(&rim, piece),

@@ -95,10 +95,13 @@ impl Through {
         })
     }
 
-    /// The same as a pass that takes the skin off.
-    fn skin(&self, skin: Skin) -> SkinPass {
+    /// The same as a pass that takes the skin off a part.
+    fn skin(&self, skin: Skin, part: Option<&Guard<'_>>) -> SkinPass {
+        let rim = Rim::rolled(self.centre, self.disc.radius, self.lead, self.roll);
+        let nearest = part.and_then(|part| part.nearest(&rim));
         SkinPass {
             centre: self.centre,
+            contact: nearest.map_or(self.centre.x, |(at, _)| at.x),
             lead: self.lead,
             roll: self.roll,
             over_hub: skin.over_hub,
@@ -225,7 +228,11 @@ impl<'p> Player<'p> {
             self.note_entry(at, depth, &finding);
         }
         let outcome = match through.passes {
-            Some(Passes::Skin(skin)) => self.section.skim(&through.disc, &through.skin(skin)),
+            Some(Passes::Skin(skin)) => {
+                let part = self.guard(operation).map(|(guard, _)| guard);
+                let pass = through.skin(skin, part);
+                self.section.skim(&through.disc, &pass)
+            }
             Some(Passes::Strips(strips)) => {
                 let pass = through.strip(Some(strips), self.section.surface());
                 self.section.pass_unguarded(&through.disc, &pass)
@@ -237,7 +244,7 @@ impl<'p> Player<'p> {
                 return;
             }
             None => {
-                self.section.skim(&through.disc, &through.skin(UNLIMITED));
+                self.section.skim(&through.disc, &through.skin(UNLIMITED, None));
                 return;
             }
         };

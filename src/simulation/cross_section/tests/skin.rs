@@ -2,12 +2,15 @@
 
 use super::*;
 use crate::disc::{Hold, PassFault, SkinPass};
+use crate::rim::Rim;
 use crate::surface::Vee;
 use proptest::prelude::*;
 
 fn over(centre: Point2, lead: f64, roll: f64) -> SkinPass {
+    let rim = Rim::rolled(centre, Length::mm(25.0), Angle::deg(lead), Angle::deg(roll));
     SkinPass {
         centre,
+        contact: rim.touching(libm::tan(f64::to_radians(roll))).x,
         lead: Angle::deg(lead),
         roll: Angle::deg(roll),
         over_hub: Length::mm(100.0),
