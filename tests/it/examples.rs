@@ -53,8 +53,8 @@ fn examples_compile_for_every_machine_and_target() {
         }
     }
     let pairings = || compiling().into_iter().flat_map(|(_, pairings)| pairings);
-    // Fourteen jobs for KRL, eleven of them for RAPID, and eighteen pairings with gantries for G-code.
-    assert_eq!(pairings().count(), 14 + 11 + 18);
+    // Fifteen jobs for KRL, eleven of them for RAPID, and eighteen pairings with gantries for G-code.
+    assert_eq!(pairings().count(), 15 + 11 + 18);
     let is_built = |pairing: &Pairing| registry::backend(pairing.target).is_some();
     assert_eq!(programs, pairings().filter(is_built).count());
 }
