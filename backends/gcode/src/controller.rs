@@ -216,6 +216,8 @@ pub(crate) struct Facts {
     pub(crate) unsaid: &'static [Mode],
     /// Which files begin with their name.
     pub(crate) heads: Heads,
+    /// Who changes blades.
+    pub(crate) changes: Changes,
     /// What ends the program and a part.
     pub(crate) endings: [&'static str; 2],
 }
@@ -268,8 +270,18 @@ impl Facts {
         conventions: &[(Convention::Absolute, "G90"), (Convention::Millimetres, "G21")],
         unsaid: &[],
         heads: Heads::All,
+        changes: Changes::ByOthers,
         endings: ["M30", "M99"],
     };
+}
+
+/// Who changes blades.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Changes {
+    /// The control's own cycle, after which all modes are as before.
+    ByTheControl,
+    /// A macro of the machine's builder, or a person: either may leave other modes.
+    ByOthers,
 }
 
 /// Largest coordinate, in mm or degrees.
@@ -290,7 +302,10 @@ pub(crate) trait Controller: Sync {
 
     /// What the operator calls the entry with the blade's length.
     fn tool_name(&self, tool: ToolNumbers) -> String {
-        format!("tool {}", tool.number)
+        match tool.place {
+            Some(place) if place != tool.number => format!("tool T{place}, length H{}", tool.number),
+            Some(_) | None => format!("tool {}", tool.number),
+        }
     }
 
     /// What stands before everything else in a file, comments included.

@@ -7,6 +7,7 @@ use crate::arcs;
 use crate::axes::printed;
 use crate::blocks::{Blocks, fine, push_word};
 use crate::chains::printed_blend;
+use crate::controller::Changes;
 use crate::job::Job;
 use crate::pace::{self, Pace};
 use crate::statement::{FeedMode, Once, Plane, Tcp};
@@ -174,11 +175,28 @@ impl Dialect for GcodeDialect<'_, '_, '_> {
     }
 
     fn change_tool(&mut self, change: &ToolChange<'_>) -> Written {
-        self.comment("put in blade ", change.blade)?;
-        let block = (self.job.settings.controller).change(self.job.tool(change.id));
+        let asks = match change.place {
+            Some(_) => "change to blade ",
+            None => "put in blade ",
+        };
+        self.comment(asks, change.blade)?;
+        let controller = self.job.settings.controller;
+        self.blocks
+            .block(&controller.change(self.job.tool(change.id)))?;
         self.modes.tool = change.id;
         self.modes.start = Start::Anywhere;
-        self.blocks.block(&block)
+        match controller.facts().changes {
+            Changes::ByTheControl => Ok(()),
+            Changes::ByOthers => {
+                self.modes = Modes {
+                    tool: change.id,
+                    start: Start::Anywhere,
+                    labels: self.modes.labels,
+                    ..Modes::SET_UP
+                };
+                self.motion_setup(change.id)
+            }
+        }
     }
 
     fn spin(&mut self, speed: Option<AngularSpeed>) -> Written {

@@ -104,7 +104,7 @@ impl GcodeDialect<'_, '_, '_> {
     }
 
     /// Everything that motions depend on, tool-centre-point control off.
-    fn motion_setup(&mut self, tool: ToolId) -> Written {
+    pub(crate) fn motion_setup(&mut self, tool: ToolId) -> Written {
         let (settings, tool) = (self.job.settings, self.job.tool(tool).number);
         self.blocks.all(&settings.controller.tcp_off(settings.codes))?;
         self.blocks.all(&settings.controller.setup(tool))?;

@@ -18,7 +18,9 @@ impl RapidDialect<'_, '_, '_> {
             Some(place) => {
                 let routine = self.settings.given(CHANGE_ROUTINE).unwrap_or_default();
                 self.begin(b"");
-                Ok(self.text.line(&format!("{routine} {place};"))?)
+                self.text.line(&format!("{routine} {place};"))?;
+                // The routine may leave other modes.
+                self.modes()
             }
             None => {
                 self.comment("put in blade ", change.blade)?;

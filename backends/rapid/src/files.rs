@@ -14,11 +14,25 @@ use vcutc_backend_api::ir::{Action, AxisValues, Load, RateId, Registered, Tool, 
 use vcutc_backend_api::script::{File, Files, TRIMMED, Written, feed, rate};
 use vcutc_backend_api::units::Length;
 
-/// The modes that moves depend on. A task that is started anew has them, one that is started at a part may not.
+/// The modes that moves depend on. A task that is started anew has them; one that is started at a part may not, nor one whose blade
+/// a routine of the cell has changed.
 const MODES: [&str; 3] = ["    ConfJ\\On;", "    ConfL\\On;", "    SingArea\\Off;"];
 
 /// On arcs the blade turns about one axis, seen from the work object, in even steps along the way: as on lines [A-INS].
 const ARCS: &str = "    CirPathMode\\ObjectFrame;";
+
+impl RapidDialect<'_, '_, '_> {
+    /// All modes that moves depend on.
+    pub(crate) fn modes(&mut self) -> Written {
+        for line in MODES {
+            self.text.line(line)?;
+        }
+        match self.arcs {
+            Arcs::Some => Ok(self.text.line(ARCS)?),
+            Arcs::None => Ok(()),
+        }
+    }
+}
 
 impl Files for RapidDialect<'_, '_, '_> {
     fn part_name(&self, main: &str, part: usize) -> String {
@@ -49,13 +63,7 @@ impl Files for RapidDialect<'_, '_, '_> {
         };
         self.text.line(&format!("  PROC {routine}()"))?;
         if file.part.is_some() {
-            for line in MODES {
-                self.text.line(line)?;
-            }
-            match self.arcs {
-                Arcs::Some => self.text.line(ARCS)?,
-                Arcs::None => {}
-            }
+            self.modes()?;
         }
         if file.place == 0 {
             for line in &self.settings.common.profile.header {

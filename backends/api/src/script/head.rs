@@ -107,16 +107,18 @@ fn shown(head: &Head) -> &str {
     head.job.get(..SHOWN_DIGITS).unwrap_or(&head.job)
 }
 
-/// How many cuts, slits and strips there are. Programs of one blade have cuts only, of several what is there.
+/// How many cuts, slits, strips and tracks there are. Programs of one blade have cuts only, of several what is there.
 fn cuts(program: &Program) -> String {
     let mut counts = Counts::default();
     for (_, op, after) in program.ends() {
         counts.add(program, op, after);
     }
-    let Counts {
-        cuts, slits, strips, ..
-    } = counts;
-    let kinds = [(cuts, "cut"), (slits, "slit"), (strips, "strip")];
+    let kinds = [
+        (counts.cuts, "cut"),
+        (counts.slits, "slit"),
+        (counts.strips, "strip"),
+        (counts.tracks, "track"),
+    ];
     let had = kinds.into_iter().filter(|(count, _)| *count > 0);
     let words: Vec<String> = had.map(|(count, what)| counted(count, what)).collect();
     if words.is_empty() {
@@ -137,12 +139,14 @@ struct Counts {
     cuts: usize,
     slits: usize,
     strips: usize,
+    tracks: usize,
     /// Of the latest chain. Its pieces are of one cut.
     chain: Option<Site>,
 }
 
 impl Counts {
-    /// Every V has one left flank; upright beside a disc it is a slit. A chain is a cut, and of a disc beside other blades a strip.
+    /// Every V has one left flank; upright beside a disc it is a slit. A chain is a cut; of a disc beside other blades it is a strip,
+    /// or a track where the operation has no other blade.
     fn add(&mut self, program: &Program, op: &Op, after: State) {
         let several = program.blades.len() > 1;
         let shape = program.blade(after.tool).map(|blade| &blade.shape);
@@ -154,7 +158,10 @@ impl Counts {
                 flank: Flank::Left, ..
             } => self.cuts += 1,
             Action::Follow { .. } if self.chain.replace(op.site) != Some(op.site) => match shape {
-                Some(Shape::Disc(_)) if several => self.strips += 1,
+                Some(Shape::Disc(_)) if several => match op.site.operation() {
+                    Some(operation) if program.blades_of(operation).count() < 2 => self.tracks += 1,
+                    Some(_) | None => self.strips += 1,
+                },
                 Some(Shape::Disc(_) | Shape::Straight(_) | Shape::Crusher(_)) | None => self.cuts += 1,
             },
             _ => {}

@@ -20,7 +20,7 @@
 //! Every statement begins with a word. Lengths are in mm where `BEGIN PGM` says so, coordinates are absolute without an `I`
 //! before their letter, and blocks with `R0` end at a standstill.
 
-use crate::controller::{Arcs, AxisPace, Codes, Controller, Facts, File, Signs, ToolNumbers, Unnumbered};
+use crate::controller::{Arcs, AxisPace, Changes, Codes, Controller, Facts, File, Signs, ToolNumbers, Unnumbered};
 use crate::iso::{m_code, seconds};
 use crate::statement::{
     Act, Block, Convention, Coordinates, Cursor, Cycle, FeedMode, Flow, Mode, Motion, Number, Order, Parsed,
@@ -77,6 +77,7 @@ const FACTS: Facts = Facts {
         Mode::Convention(Convention::Absolute),
         Mode::Stop(Some(End::Exact)),
     ],
+    changes: Changes::ByTheControl,
     endings: ["M30", "END PGM"],
     ..Facts::STANDARD
 };

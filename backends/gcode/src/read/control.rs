@@ -97,7 +97,7 @@ impl<'a> Control<'a> {
         control
     }
 
-    /// A part begins: it has to say everything again.
+    /// A part begins, or others have changed the blade: everything has to be said again.
     pub(super) fn restart(&mut self) {
         self.modes = Modes::default();
         for &mode in self.facts().unsaid {
@@ -534,10 +534,13 @@ impl<'a> Control<'a> {
             Act::ChangeTool(place) => match (cell.changer(), place) {
                 (Some(Changer::Program), Some(place)) => {
                     let tool = cell.tools.at_place(place);
-                    self.put_in(Some(tool.ok_or(ReadError::Unknown)?));
+                    let tool = tool.ok_or(ReadError::Unknown)?;
+                    self.restart();
+                    self.put_in(Some(tool));
                     Command::ChangeTool(Some(place))
                 }
                 (Some(Changer::Hand), None) => {
+                    self.restart();
                     self.put_in(None);
                     Command::ChangeTool(None)
                 }

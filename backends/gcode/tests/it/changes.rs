@@ -55,7 +55,8 @@ fn read(
 fn change(dialect: &'static str, by: Changer, numbers: Numbers) -> Vec<String> {
     let files = files(&reachable(program(by, numbers)), dialect, &[]);
     let lines = files[0].text.lines().map(without_number);
-    let mut lines = lines.skip_while(|line| !line.to_lowercase().contains("put in blade"));
+    let asks = |line: &str| line.contains("put in blade") || line.contains("change to blade");
+    let mut lines = lines.skip_while(|line| !asks(&line.to_lowercase()));
     lines.by_ref().skip(1).take(16).collect()
 }
 
@@ -83,6 +84,9 @@ fn each_dialect_says_it_in_its_words() {
             lines[1..].iter().any(|line| line.starts_with(length)),
             "{dialect} {by:?}: {lines:#?}"
         );
+        // A macro or a person may leave other modes.
+        let restated = lines[1..].iter().any(|line| line.contains("G90"));
+        assert_eq!(restated, dialect != "heidenhain", "{dialect} {by:?}: {lines:#?}");
     }
 }
 
@@ -184,6 +188,11 @@ fn what_is_changed_in_a_change_is_found() {
                     ]
                     .map(|other| text.replacen(line, &line.replace(&word, other), 1)),
                 );
+            }
+            if dialect != "heidenhain" {
+                let start = text.rfind("G17 ").unwrap();
+                let (before, rest) = text.split_at(start);
+                wrong.push(format!("{before}{}", rest.split_once('\n').unwrap().1));
             }
             for (length, other) in [("H5", "H4"), ("D5", "D4")] {
                 if text.contains(length) {

@@ -85,7 +85,13 @@ impl Machine<'_> {
             "VELSET" => return (full(instruction, view, 5000.0), Known::Yes),
             "TPERASE" | "TPWRITE" => return (Effect::Setting, Known::Yes),
             _ => match self.change(instruction) {
-                Some(change) => Some(change),
+                Some(change) => {
+                    // A routine of the cell may leave other modes; a person who goes on from `Stop` does not.
+                    if self.cell.changer() == Some(Changer::Program) {
+                        *modes = Modes::default();
+                    }
+                    Some(change)
+                }
                 None => return (Effect::Unknown, Known::No),
             },
         };

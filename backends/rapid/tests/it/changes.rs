@@ -44,11 +44,22 @@ fn a_routine_of_the_cell_changes_the_blade() {
         lines[place - 1],
         "    MoveAbsJ vc_change\\NoEOffs,vc_axes,fine,vc_tool\\WObj:=vc_wobj;"
     );
-    assert!(
-        lines[place + 2].ends_with(",vc_tool2\\WObj:=vc_wobj;"),
-        "{}",
-        lines[place + 2]
+    assert_eq!(
+        lines[place + 1..place + 4],
+        ["    ConfJ\\On;", "    ConfL\\On;", "    SingArea\\Off;"]
     );
+    assert!(
+        lines[place + 5].ends_with(",vc_tool2\\WObj:=vc_wobj;"),
+        "{}",
+        lines[place + 5]
+    );
+    // The routine may leave other modes.
+    for mode in ["ConfJ\\On;", "ConfL\\On;", "SingArea\\Off;"] {
+        edited(Changer::Program, |text| {
+            let parts = text.rsplit_once(mode);
+            parts.map_or_else(|| text.to_owned(), |(before, after)| format!("{before}{after}"))
+        });
+    }
     let declared = |name: &str| lines.iter().any(|line| line.trim_start().starts_with(name));
     assert!(declared("PERS tooldata vc_tool:=[TRUE,[["));
     assert!(declared("PERS tooldata vc_tool2:=[TRUE,[[1.000,2.000,250.000],"));
