@@ -6,6 +6,7 @@
 use super::Run;
 use super::Stage;
 use super::routes::{Ended, Made, along_its_routes};
+use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::Duration;
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_diagnostics::{Diagnostic, Severity};
@@ -97,7 +98,7 @@ fn fastest(
     let mut head = None;
     for (word, job) in ways {
         let (came, made) = match along_its_routes(&job, sources, run, progress) {
-            Ended::Compiled(made) => (figures(&made), Some(made)),
+            Ended::Compiled(made) => (figures(&made, operation), Some(made)),
             Ended::Refused(refused) => (Came::Refused(first_error(refused.at_once(&job))), None),
             Ended::Cancelled => return None,
         };
@@ -123,8 +124,9 @@ fn fastest(
     Some((best?, comparison))
 }
 
-fn figures(made: &Made) -> Came {
-    PlanTime::of(&made.plan).map_or(Came::Refused(None), |planned| {
+fn figures(made: &Made, operation: usize) -> Came {
+    let compared = OperationId(u16::try_from(operation).unwrap_or(u16::MAX));
+    PlanTime::of(&made.plan, compared).map_or(Came::Refused(None), |planned| {
         Came::Compiled(WayFigures {
             time: made.time(),
             cuts: made.plan.cuts(),

@@ -3,7 +3,7 @@
 use super::Point;
 use super::band::MANY;
 use super::chart::FRAME;
-use super::palette::{BLUE, EDGE, GREEN, PURPLE, SHADES, VERMILION};
+use super::palette::{BLUE, EDGE, GREEN, ORANGE, PURPLE, SHADES, VERMILION};
 use super::section::{BELOW, Section};
 use super::sheet::{self, Entry};
 use super::strips::Strips;
@@ -57,12 +57,20 @@ pub enum Origin {
     Shifted,
     /// Raised because the blade does not reach the full depth at once.
     Relieved,
+    /// Where a disc stands on the part.
+    Track,
 }
 
 /// More tips than can be told apart: those that fall onto one spot are drawn once.
 const CROWDED: usize = 20_000;
 
-const ORIGINS: [Origin; 4] = [Origin::Lattice, Origin::Lifted, Origin::Shifted, Origin::Relieved];
+const ORIGINS: [Origin; 5] = [
+    Origin::Lattice,
+    Origin::Lifted,
+    Origin::Shifted,
+    Origin::Relieved,
+    Origin::Track,
+];
 
 impl Origin {
     const fn words(self) -> &'static str {
@@ -71,6 +79,7 @@ impl Origin {
             Self::Lifted => "lifted",
             Self::Shifted => "shifted",
             Self::Relieved => "relieved",
+            Self::Track => "tracks of a disc",
         }
     }
 
@@ -80,6 +89,7 @@ impl Origin {
             Self::Lifted => VERMILION,
             Self::Shifted => GREEN,
             Self::Relieved => PURPLE,
+            Self::Track => ORANGE,
         }
     }
 
@@ -88,7 +98,7 @@ impl Origin {
         lattice.tips.iter().filter(|tip| tip.origin == self).count()
     }
 
-    /// Its mark, so large: a disc, a triangle, a square standing on a corner, a square.
+    /// Its mark, so large: a disc, a triangle, a square standing on a corner, a square, a triangle that points down.
     fn mark(self, trace: &mut Trace, [x, y]: Point, r: f64) {
         match self {
             Self::Lattice => trace.dot([x, y]),
@@ -98,6 +108,7 @@ impl Origin {
                 let r = r * 0.8;
                 trace.closed([[x - r, y - r], [x + r, y - r], [x + r, y + r], [x - r, y + r]]);
             }
+            Self::Track => trace.closed([[x - r, y - r * 0.8], [x, y + r], [x + r, y - r * 0.8]]),
         }
     }
 
@@ -108,7 +119,7 @@ impl Origin {
                 "fill=\"none\" stroke=\"{colour}\" stroke-width=\"{:.2}\" stroke-linecap=\"round\"",
                 r * 1.7
             ),
-            Self::Lifted | Self::Shifted | Self::Relieved => format!("fill=\"{colour}\""),
+            Self::Lifted | Self::Shifted | Self::Relieved | Self::Track => format!("fill=\"{colour}\""),
         }
     }
 }

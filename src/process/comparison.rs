@@ -7,7 +7,7 @@
 //! with counted ones.
 
 use crate::lower;
-use vcutc_backend_api::ir::{Action, FeedId};
+use vcutc_backend_api::ir::{Action, FeedId, OperationId};
 use vcutc_backend_api::state::Drive;
 use vcutc_backend_api::units::{Duration, Length, Speed};
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
@@ -20,9 +20,9 @@ use vcutc_simulation::timing::{Kind, op_times};
 pub struct PlanTime {
     /// The depth of the work that was planned for.
     pub depth: Length,
-    /// All but cutting with a blade that spins.
+    /// All but cutting with a blade that spins in the operation that is compared.
     still: Line,
-    /// Cutting with a blade that spins.
+    /// Cutting with a blade that spins in that operation.
     spinning: Line,
     /// How fast blades that do not spin cut, if there are such cuts: the fastest of them.
     pub still_feed: Option<Speed>,
@@ -69,17 +69,19 @@ pub enum Faster {
 }
 
 impl PlanTime {
-    /// Reads it off a plan; none where its program breaks a rule of the IR, which its proof reports.
+    /// Reads it off a plan, of which one operation is compared: only its blades that spin are fed otherwise. None where the program
+    /// breaks a rule of the IR, which its proof reports.
     #[must_use]
-    pub fn of(plan: &PlannedJob) -> Option<Self> {
+    pub fn of(plan: &PlannedJob, compared: OperationId) -> Option<Self> {
         let once = program(plan)?;
         let mut deeper = plan.clone();
         deeper.stock.depth = plan.stock.depth + plan.stock.depth;
         let twice = program(&deeper)?;
         let depth = plan.stock.depth;
-        let [(still, spinning), (still_twice, spinning_twice)] = [&once, &twice].map(spent);
+        let [(still, spinning), (still_twice, spinning_twice)] =
+            [&once, &twice].map(|program| spent(program, compared));
         let line = |times| Line::through(depth.to_mm(), times);
-        let feed_of = |drive| fastest(&once, drive);
+        let feed_of = |drive| fastest(&once, compared, drive);
         let is_change = |action: &Action| matches!(action, Action::ToolChange { .. });
         let actions = once.program().ops.iter().map(|op| &op.action);
         let changing = once.program().ops.iter().zip(op_times(&once));
@@ -139,12 +141,15 @@ fn program(plan: &PlannedJob) -> Option<VerifiedProgram> {
     verify(lower::lower(plan, &SourceMap::default())).ok()
 }
 
-/// The times in s of all but cutting with a blade that spins, and of that.
-fn spent(program: &VerifiedProgram) -> (f64, f64) {
+/// The times in s of all but cutting with a blade that spins in an operation, and of that.
+fn spent(program: &VerifiedProgram, compared: OperationId) -> (f64, f64) {
     let (mut still, mut spinning) = (0.0, 0.0);
     for (segment, time) in program.program().segments().zip(op_times(program)) {
+        let is_compared = segment.op.site.operation() == Some(compared);
         match (Kind::of(&segment.op.action), segment.before.spindle) {
-            (Some(Kind::Cutting), Drive::Starting | Drive::Running) => spinning += time.to_s(),
+            (Some(Kind::Cutting), Drive::Starting | Drive::Running) if is_compared => {
+                spinning += time.to_s();
+            }
             (Some(_), _) => still += time.to_s(),
             (None, _) => {}
         }
@@ -152,12 +157,14 @@ fn spent(program: &VerifiedProgram) -> (f64, f64) {
     (still, spinning)
 }
 
-/// The fastest feed of cuts while the spindle is in a state.
-fn fastest(program: &VerifiedProgram, spindle: Drive) -> Option<Speed> {
+/// The fastest feed of an operation's cuts while the spindle is in a state.
+fn fastest(program: &VerifiedProgram, compared: OperationId, spindle: Drive) -> Option<Speed> {
     let program = program.program();
     let feed = |FeedId(id)| program.feeds.get(usize::from(id)).copied();
     let cuts = program.segments().filter(|segment| {
-        Kind::of(&segment.op.action) == Some(Kind::Cutting) && segment.before.spindle == spindle
+        Kind::of(&segment.op.action) == Some(Kind::Cutting)
+            && segment.before.spindle == spindle
+            && segment.op.site.operation() == Some(compared)
     });
     let feeds = cuts.filter_map(|segment| feed(segment.op.action.feed()?));
     feeds.max_by(Speed::total_cmp)

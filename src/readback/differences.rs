@@ -302,7 +302,8 @@ impl Reporter<'_> {
                     }
                     (Some(mismatch), Effect::Command(_)) => self.in_words(mismatch),
                     (None, Effect::Command(_)) => {
-                        "differs by no more than the rounding of its numbers".to_owned()
+                        "agrees to within rounding in place, attitude and speed, but is not what the compiler writes"
+                            .to_owned()
                     }
                     (_, Effect::Frame(..) | Effect::Setting | Effect::PartBegins) => {
                         format!("{} is there instead", kind_words(is))

@@ -2,7 +2,10 @@
 
 use super::Material;
 use vcutc_backend_api::geometry::Frame;
-use vcutc_backend_api::ir::{AxisKind, Change, Changer, Edges, Load, Ready, Registered};
+use vcutc_backend_api::ir::{
+    Action, AxisKind, Change, Changer, Edges, Load, OperationId, Program, Ready, Registered,
+};
+use vcutc_backend_api::units::Speed;
 use vcutc_diagnostics::number::show;
 use vcutc_job::{BladeRef, Body, CheckedJob, HeldTool, Machine, Setup, StraightBlade};
 
@@ -53,23 +56,35 @@ pub(super) fn of_blades(blades: &[BladeRef<'_>]) -> Vec<Fact> {
 }
 
 /// How the blade is mounted.
-pub(super) fn tool(machine: Option<&Machine>) -> Vec<Fact> {
-    let Some(machine) = machine else {
+pub(super) fn tool(material: &Material<'_>) -> Vec<Fact> {
+    let Some(machine) = &material.job.machine else {
         return Vec::new();
     };
+    let several = machine.tools.iter().count() > 1;
+    let round: Vec<&str> = blades(material)
+        .into_iter()
+        .filter(|blade| !matches!(blade, BladeRef::Straight(_)))
+        .map(|blade| blade.name())
+        .collect();
     let held = |tool: &HeldTool| {
         let of = (tool.blade.as_ref()).map_or_else(String::new, |blade| format!("{}: ", blade.node));
         let placed = &tool.frame.value.frame;
-        let [edge, flat, tip] = axes(placed);
-        [
-            ("tool frame", format!("{of}{}", frame(placed))),
-            (
+        // A blade that stays where it is needs no place in a changer.
+        let place = tool.place.filter(|_| several);
+        let place = place.map_or_else(String::new, |place| format!("; place {}", place.value));
+        let mut list = vec![("tool frame", format!("{of}{}{place}", frame(placed)))];
+        // A round blade has no leading edge and no flat.
+        let is_round = (tool.blade.as_ref()).is_some_and(|blade| round.contains(&blade.node.as_str()));
+        if !is_round {
+            let [edge, flat, tip] = axes(placed);
+            list.push((
                 "tool axes",
                 format!(
                     "{of}x (edge) {edge}; y (flat) {flat}; z (out of the tip) {tip}, seen from the flange"
                 ),
-            ),
-        ]
+            ));
+        }
+        list
     };
     machine.tools.iter().flat_map(held).collect()
 }
@@ -84,12 +99,25 @@ fn carried(load: Registered<Load>) -> String {
     }
 }
 
-fn changed(change: Change) -> String {
+/// How blades are changed: which one is there at first, how often another one comes, and by whom.
+fn changed(change: Change, program: &Program) -> String {
     let by = match change.by {
         Changer::Program => "by the program",
         Changer::Hand => "by hand",
     };
-    format!("changed {by} in {} s", show(change.time.to_s()))
+    let time = show(change.time.to_s());
+    match (program.blades.first(), changes(program)) {
+        (None, _) | (_, 0) => format!("changed {by} in {time} s"),
+        (Some(first), 1) => format!("{} first; 1 change {by} in {time} s", first.name),
+        (Some(first), count) => format!("{} first; {count} changes {by}, {time} s each", first.name),
+    }
+}
+
+/// How often a program changes the blade.
+pub(super) fn changes(program: &Program) -> usize {
+    let ops = program.ops.iter();
+    ops.filter(|op| matches!(op.action, Action::ToolChange { .. }))
+        .count()
 }
 
 fn words(blade: BladeRef<'_>) -> String {
@@ -158,9 +186,9 @@ fn direction(parts: [f64; 3]) -> String {
     }
 }
 
-/// What is wired, weighed and taught: generator, load and home.
-pub(super) fn control(machine: Option<&Machine>) -> Vec<Fact> {
-    let Some(machine) = machine else {
+/// What is wired, weighed and taught: generator, load, changes of blade and home.
+pub(super) fn control(material: &Material<'_>) -> Vec<Fact> {
+    let Some(machine) = material.job.machine.as_ref() else {
         return Vec::new();
     };
     let output = machine.ultrasonic.map_or_else(
@@ -184,7 +212,8 @@ pub(super) fn control(machine: Option<&Machine>) -> Vec<Fact> {
                 .map(|load| ("load", format!("{of}{}", carried(load.value)))),
         );
     }
-    list.extend(machine.change.map(|held| ("blades", changed(held.change))));
+    let program = material.compiled.program.verified().program();
+    list.extend((machine.change).map(|held| ("blades", changed(held.change, program))));
     list.extend(machine.home.map(|home| {
         let axes = machine.model.axes.iter().zip(home.value.0);
         let values = axes.map(|(axis, value)| match axis.kind {
@@ -198,8 +227,9 @@ pub(super) fn control(machine: Option<&Machine>) -> Vec<Fact> {
 
 /// The speeds of all operations, each set once.
 pub(super) fn speeds(material: &Material<'_>) -> Vec<Fact> {
+    let program = material.compiled.program.verified().program();
     let mut list: Vec<Fact> = Vec::new();
-    for planned in &material.plan.operations {
+    for (operation, planned) in (0..).zip(&material.plan.operations) {
         let Setup {
             cut_feed,
             travel_feed,
@@ -208,8 +238,8 @@ pub(super) fn speeds(material: &Material<'_>) -> Vec<Fact> {
             ..
         } = planned.asked().setup();
         let words = format!(
-            "cut {} mm/s, travel {} mm/s, turn {} deg/s; clearance {} mm",
-            show(cut_feed.value.to_mm_per_s()),
+            "cut {}, travel {} mm/s, turn {} deg/s; clearance {} mm",
+            cutting(program, OperationId(operation), cut_feed.value),
             show(travel_feed.value.to_mm_per_s()),
             show(reorient_rate.value.to_deg_per_s()),
             show(clearance.value.to_mm())
@@ -219,6 +249,41 @@ pub(super) fn speeds(material: &Material<'_>) -> Vec<Fact> {
         }
     }
     list
+}
+
+/// How fast an operation cuts: of several blades with each of them, else as its setup says.
+fn cutting(program: &Program, operation: OperationId, set: Speed) -> String {
+    let speed = |speed: Speed| format!("{} mm/s", show(speed.to_mm_per_s()));
+    if program.blades_of(operation).count() < 2 {
+        return speed(set);
+    }
+    let mut words: Vec<String> = Vec::new();
+    for segment in program.segments() {
+        let feed = match segment.op.action {
+            Action::Cut { feed, .. } | Action::Follow { feed, .. } => feed,
+            Action::Home
+            | Action::Travel { .. }
+            | Action::AxisTravel { .. }
+            | Action::Approach { .. }
+            | Action::Retract { .. }
+            | Action::Turn { .. }
+            | Action::Ultrasonic { .. }
+            | Action::Spin { .. }
+            | Action::AwaitReady
+            | Action::Dwell { .. }
+            | Action::ChangePlace
+            | Action::ToolChange { .. } => continue,
+        };
+        let with = (program.feed(feed).zip(program.blade(segment.before.tool)))
+            .map(|(feed, blade)| format!("{} with {}", speed(feed), blade.name));
+        if segment.op.site.operation() == Some(operation)
+            && let Some(with) = with
+            && !words.contains(&with)
+        {
+            words.push(with);
+        }
+    }
+    words.join(", ")
 }
 
 #[cfg(test)]

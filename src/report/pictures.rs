@@ -213,8 +213,8 @@ fn pairs(points: &[Point2]) -> Vec<[f64; 2]> {
     points.iter().copied().map(pair).collect()
 }
 
-/// Layers by number, those of several operations as `operation.layer`, at the height of their lowest tip. Slits may reach
-/// through more than their layer.
+/// Layers by number, those of several operations as `operation.layer`, at the height of their lowest tip or floor. Slits may
+/// reach through more than their layer.
 fn layers(material: &Material<'_>) -> Vec<(String, f64)> {
     let several = material.plan.operations.len() > 1;
     let mut layers = Vec::new();
@@ -226,9 +226,14 @@ fn layers(material: &Material<'_>) -> Vec<(String, f64)> {
             } else {
                 number.to_string()
             };
-            let is_slit = |cut: &&PlannedTip| matches!(cut.shape, CutShape::Slit { .. });
-            let floors = layer.iter().filter(|cut| !is_slit(cut)).map(|cut| cut.tip.z);
-            let lowest = floors.reduce(f64::min);
+            // The tip of a disc is the centre of its edge, which a lead holds above the floor.
+            let floor = |cut: &PlannedTip| match cut.shape {
+                CutShape::Plain => Some(cut.tip.z),
+                CutShape::Slit { .. } => None,
+                CutShape::Strip(strip) => Some(strip.low.z),
+                CutShape::Track { contact } => Some(contact.z),
+            };
+            let lowest = layer.iter().filter_map(floor).reduce(f64::min);
             let lowest = lowest.or_else(|| layer.iter().map(|cut| cut.tip.z).reduce(f64::min));
             let Some(lowest) = lowest else { continue };
             layers.push((name, lowest));

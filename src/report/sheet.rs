@@ -9,6 +9,7 @@ use super::digest::hexadecimal;
 use super::facts;
 use super::html::{Html, Markup};
 use super::page::policy::{Requests, policy};
+use vcutc_backend_api::ir::Changer;
 use vcutc_backend_api::units::Duration;
 use vcutc_driver::Outcome;
 use vcutc_driver::checks::ReadBack;
@@ -33,7 +34,7 @@ pub fn sheet(outcome: &Outcome, files: &[(&str, &[u8])], read_back: Option<ReadB
         || "no machine".to_owned(),
         |machine| format!("{} ({})", machine.name, machine.model.name),
     );
-    let program = [facts::control(machine), facts::speeds(&material)].concat();
+    let program = [facts::control(&material), facts::speeds(&material)].concat();
     let sheet = html!(
         "sheet.html",
         policy = policy(&[], Requests::None),
@@ -45,10 +46,16 @@ pub fn sheet(outcome: &Outcome, files: &[(&str, &[u8])], read_back: Option<ReadB
         cuts = counted(report.cuts(), "cut"),
         layers = counted(report.layers.len(), "layer"),
         stock = stock(&material),
+        blades_are = if has_several(&material) { "Blades" } else { "Blade" },
         blade = blades(&material),
         layers_table = cuts(&material),
         program = rows(&program) + programs(files),
         on_the_floor = items(on_the_floor(&material)),
+        numbers_of = if has_several(&material) {
+            "Blades no."
+        } else {
+            "Blade no."
+        },
         not_checked = items(material.compiled.checks.with(read_back).by_hand()),
         version = env!("CARGO_PKG_VERSION"),
     );
@@ -83,6 +90,11 @@ fn stock(material: &Material<'_>) -> Html {
     Html::trusted(sketch) + rows(&facts.concat())
 }
 
+/// Whether the program changes the blade.
+fn has_several(material: &Material<'_>) -> bool {
+    facts::changes(material.compiled.program.verified().program()) > 0
+}
+
 /// The blades, with the way they are held.
 fn blades(material: &Material<'_>) -> Html {
     let named = facts::blades(material);
@@ -99,8 +111,12 @@ fn blades(material: &Material<'_>) -> Html {
             half_apex.to_rad(),
         )
     });
-    let tool = facts::tool(material.job.machine.as_ref());
-    Html::trusted(sketch) + rows(&[facts::of_blades(&named), tool].concat())
+    let sketched = match (straight, &named[..]) {
+        (None, _) | (_, [_]) => Vec::new(),
+        (Some(blade), _) => vec![("sketch", blade.name.clone())],
+    };
+    let tool = facts::tool(material);
+    Html::trusted(sketch) + rows(&[sketched, facts::of_blades(&named), tool].concat())
 }
 
 /// A row of the list of cuts.
@@ -127,7 +143,12 @@ fn cuts(material: &Material<'_>) -> Html {
     let rest = Some(report.times.rest.total()).filter(|rest| *rest > Duration::ZERO);
     let rest = rest.map(|rest| {
         html!(
-            in "<tr><th scope=\"row\">from and to home</th><td></td><td></td><td class=\"n\">{time}</td></tr>\n",
+            in "<tr><th scope=\"row\">{what}</th><td></td><td></td><td class=\"n\">{time}</td></tr>\n",
+            what = if has_several(material) {
+                "home, changes of blade"
+            } else {
+                "from and to home"
+            },
             time = time(rest)
         )
     });
@@ -233,19 +254,52 @@ fn programs(files: &[(&str, &[u8])]) -> Html {
 }
 
 /// What has to be right on the floor.
-fn on_the_floor(material: &Material<'_>) -> Vec<&'static str> {
-    let mut lines = vec![
-        "Blade as named above, sharp, clamped; tip and flat calibrated: the tool frame on the control is the one above.",
+fn on_the_floor(material: &Material<'_>) -> Vec<String> {
+    let machine = material.job.machine.as_ref();
+    let several = has_several(material);
+    let mut lines = Vec::new();
+    lines.push(if several {
+        "Blades as named above, sharp, clamped, each one calibrated: the tool frames on the control are the ones above."
+    } else {
+        "Blade as named above, sharp, clamped; tip and flat calibrated: the tool frame on the control is the one above."
+    });
+    lines.extend([
         "Base frame measured at the corner of the stock that is marked zero; x, y and z point as in the sketch.",
         "Stock of the size above, fixed so that nothing of the fixture is in the way of the blade.",
         "Stand clear: the way from home and back to it is free.",
         "Generator switches on at its output and says that it is ready; amplitude as for this core.",
-    ];
-    let machine = material.job.machine.as_ref();
-    if machine.is_some_and(|machine| machine.tools.iter().any(|tool| tool.load.is_none())) {
-        lines.push("Load data on the control are those of this blade and holder.");
+    ]);
+    let spins = |blade: &BladeRef<'_>| match blade {
+        BladeRef::Straight(_) => false,
+        BladeRef::Disc(_) | BladeRef::Crusher(_) => true,
+    };
+    if facts::blades(material).iter().any(spins) {
+        lines.push("Spindle switches on at its output, turns the right way, and as fast as its blade needs.");
     }
+    if machine.is_some_and(|machine| machine.tools.iter().any(|tool| tool.load.is_none())) {
+        lines.push(if several {
+            "Load data on the control are those of each blade with its holder."
+        } else {
+            "Load data on the control are those of this blade and holder."
+        });
+    }
+    let mut lines: Vec<String> = lines.into_iter().map(str::to_owned).collect();
+    lines.extend(change(material));
     lines
+}
+
+/// What has to be right where the blade is changed.
+fn change(material: &Material<'_>) -> Option<String> {
+    let program = material.compiled.program.verified().program();
+    let first = program.blades.first().filter(|_| has_several(material))?;
+    let others = match material.job.machine.as_ref()?.change?.change.by {
+        Changer::Program => "the others in their places of the changer",
+        Changer::Hand => "the others at hand",
+    };
+    Some(format!(
+        "Blade {} in the machine, {others}; the way to where blades are changed and back is free.",
+        first.name
+    ))
 }
 
 /// `1 layer`, `2 layers`.

@@ -77,7 +77,7 @@ fn area(outline: &[Point2]) -> f64 {
 
 /// Whether an example is cut in Vs only.
 fn is_of_vs((example, _): &(String, Vec<crate::shop::Pairing>)) -> bool {
-    !example.ends_with("_rect.vcut")
+    !example.ends_with("_rect.vcut") && !example.starts_with("finished_")
 }
 
 #[test]

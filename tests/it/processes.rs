@@ -10,6 +10,7 @@ use vcutc::process::comparison::{Faster, PlanTime};
 use vcutc::process::plan::plan;
 use vcutc::registry;
 use vcutc::vcut_optimize;
+use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::Length;
 
 /// A machine that says how long a change takes.
@@ -80,7 +81,7 @@ impl Job {
         let times = ways.iter().map(|(_, job)| {
             let (planned, found) = plan(job);
             assert!(!has_errors(&found), "{found:?}");
-            PlanTime::of(&planned.unwrap()).unwrap()
+            PlanTime::of(&planned.unwrap(), OperationId(0)).unwrap()
         });
         times.collect::<Vec<_>>().try_into().unwrap()
     }

@@ -181,8 +181,7 @@ impl Dialect for GcodeDialect<'_, '_, '_> {
         };
         self.comment(asks, change.blade)?;
         let controller = self.job.settings.controller;
-        self.blocks
-            .block(&controller.change(self.job.tool(change.id)))?;
+        self.blocks.block(&controller.change(self.job.tool(change.id)))?;
         self.modes.tool = change.id;
         self.modes.start = Start::Anywhere;
         match controller.facts().changes {

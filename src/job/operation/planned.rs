@@ -267,6 +267,11 @@ pub enum CutShape {
     },
     /// A disc with the centre of its edge at the tip frees a strip.
     Strip(PlannedStrip),
+    /// A disc with the centre of its edge at the tip takes the skin off the part.
+    Track {
+        /// Where it stands on the part.
+        contact: Point2,
+    },
 }
 
 /// A strip as it is planned, in mm.

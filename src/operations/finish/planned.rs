@@ -35,7 +35,9 @@ impl PlannedOperation for Planned {
             layer: 1,
             tip: track.centre,
             origin: TipOrigin::Lattice,
-            shape: CutShape::Plain,
+            shape: CutShape::Track {
+                contact: track.contact,
+            },
         });
         tips.collect()
     }

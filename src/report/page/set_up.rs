@@ -19,8 +19,8 @@ pub(super) fn section(subject: Subject<'_>) -> Section {
         facts::stock(job),
         facts::base(machine),
         facts::of_blades(&facts::blades(material)),
-        facts::tool(machine),
-        facts::control(machine),
+        facts::tool(material),
+        facts::control(material),
         facts::speeds(material),
     ]
     .concat();

@@ -42,8 +42,13 @@ impl Rectangles {
 
     fn layer(&mut self, cuts: &[PlannedTip], width: f64) {
         for (number, cut) in (1..).zip(cuts) {
+            let mut origin = origin(cut.origin);
             let at = match cut.shape {
                 CutShape::Plain => cut.tip,
+                CutShape::Track { contact } => {
+                    origin = Origin::Track;
+                    contact
+                }
                 CutShape::Slit { top } => {
                     self.slits.push(Slit {
                         x: cut.tip.x,
@@ -56,10 +61,7 @@ impl Rectangles {
                     marked(&strip)
                 }
             };
-            self.tips.push(Tip {
-                at: pair(at),
-                origin: origin(cut.origin),
-            });
+            self.tips.push(Tip { at: pair(at), origin });
         }
         self.discs.extend(disc(cuts, width));
     }
@@ -96,7 +98,7 @@ fn marked(strip: &PlannedStrip) -> Point2 {
 fn disc(cuts: &[PlannedTip], width: f64) -> Option<Disc> {
     let strips = cuts.iter().filter_map(|cut| match cut.shape {
         CutShape::Strip(strip) => Some((cut.tip, strip)),
-        CutShape::Plain | CutShape::Slit { .. } => None,
+        CutShape::Plain | CutShape::Slit { .. } | CutShape::Track { .. } => None,
     });
     let off = |tip: Point2| (tip.x - width / 2.0).abs();
     let (centre, strip) = strips.min_by(|(one, _), (other, _)| off(*one).total_cmp(&off(*other)))?;

@@ -1,7 +1,7 @@
 //! The page of `vcutc report` as people meet it.
 
 use super::browser::{Browser, Tab};
-use crate::cli::report::hostile_rib;
+use crate::cli::report::{STRIPS, hostile_rib};
 use crate::cli::vcutc;
 use crate::pipeline::{Files, compile_on};
 use crate::rect::both_blades;
@@ -315,6 +315,16 @@ fn a_set_up_sheet_is_one_page_of_paper() {
         assert_eq!(tab.pages_on_paper(), 1.0, "{example} {more:?}");
         assert_is_calm(&tab);
     }
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("strips.vcut"), STRIPS).unwrap();
+    let run = vcutc(
+        folder.path(),
+        &["report", "-q", "--sheet", "strips.vcut", "-o", "strips.html"],
+    );
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    let tab = browser.open(&folder.path().join("strips.html"), 1280, 900);
+    assert_eq!(tab.pages_on_paper(), 1.0, "strips");
+    assert_is_calm(&tab);
 }
 
 #[test]

@@ -14,6 +14,41 @@ use vcutc::vcut::PlannedVcut;
 pub(crate) const HOSTILE: &str =
     r#"</code></script><script>top.hacked=1</script><img src=x onerror=top.hacked=1>'&amp;"#;
 
+/// Slits with a straight blade and strips with a disc, which a person changes.
+pub(crate) const STRIPS: &str = r#"job "strips"
+
+stock { size = (100 mm, 60 mm, 50 mm) }
+
+profile { start (0 mm, 10 mm) line to (100 mm, 40 mm) }
+
+blade dagger { cutting_length = 13 mm, half_apex = 7.13 deg, thickness = 0.5 mm, edges = double }
+blade wheel = disc {
+  radius = 25 mm, thickness = 1 mm, depth = 12 mm, width = 20 mm, spin = 3000 rev/min
+  body (1 mm, 8 mm) (60 mm, 25 mm)
+}
+
+rough rect {
+  blade = dagger
+  disc = wheel
+  rake = 60 deg
+  layer = 10 mm, step = 10 mm, residual = lift
+  feed { cut = 150 mm/s, free = 100 mm/s, travel = 200 mm/s, reorient = 90 deg/s }
+  clearance = 10 mm
+}
+
+machine kuka = robot "kuka/kr210_r3100_ultra" {
+  tool dagger { frame = frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg), place = 1 }
+  tool wheel { frame = frame(x = 0 mm, y = 0 mm, z = 280 mm, a = 0 deg, b = 0 deg, c = 0 deg), place = 2 }
+  base = frame(x = 1700 mm, y = -600 mm, z = 850 mm, a = 90 deg, b = 0 deg, c = 0 deg)
+  ultrasonic = output(12)
+  spindle = output(13)
+  home = joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)
+  change { at = joints(60 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg), time = 10 s, by = hand }
+}
+
+cell { machine = kuka }
+"#;
+
 /// A folder with the job `rib.vcut`.
 fn shop(job: &str) -> TempDir {
     let folder = folder();
@@ -232,6 +267,51 @@ fn a_sheet_has_what_a_set_up_needs() {
     assert!(sheet.contains("default-src 'none'; script-src 'none'"));
     let sheet = without(&sheet, "<style", "</style>");
     assert_snapshot!(sheet.replace(env!("CARGO_PKG_VERSION"), "VERSION"));
+}
+
+/// The sheet has every blade with its place and speed, and counts the changes as the program asks for them.
+#[test]
+fn a_sheet_of_several_blades_says_how_they_are_changed() {
+    for (by, whose) in [
+        ("hand", "the others at hand"),
+        ("program", "the others in their places"),
+    ] {
+        let shop = shop(&STRIPS.replace("by = hand", &format!("by = {by}")));
+        let path = shop.path();
+        let run = vcutc(path, &["report", "-q", "rib.vcut", "--sheet", "-o", "rib.html"]);
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+        let sheet = fs::read_to_string(path.join("rib.html")).unwrap();
+        let run = vcutc(path, &["report", "-q", "rib.vcut", "-o", "page.html"]);
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+        let page = fs::read_to_string(path.join("page.html")).unwrap();
+        let page = page.replace('\u{a0}', " ");
+        let run = vcutc(path, &["rib.vcut", "-q", "--emit", "ir", "-o", "-"]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let changes = run.stdout.matches("\"tool_change\"").count();
+        assert!(changes > 1, "{changes}");
+        let by = match by {
+            "hand" => "by hand",
+            _ => "by the program",
+        };
+        for text in [
+            format!("dagger first; {changes} changes {by}, 10 s each"),
+            "cut 150 mm/s with dagger, 100 mm/s with wheel, travel 200 mm/s".to_owned(),
+            "; place 1<".to_owned(),
+            "; place 2<".to_owned(),
+        ] {
+            assert!(sheet.contains(&text) && page.contains(&text), "{text}");
+        }
+        for text in [
+            "<h2>Blades</h2>",
+            "Blades no.",
+            "Blades as named above",
+            "Spindle switches on",
+            "Load data on the control are those of each blade",
+            &format!("Blade dagger in the machine, {whose}"),
+        ] {
+            assert!(sheet.contains(text), "{text}");
+        }
+    }
 }
 
 /// An example that its machine makes slow says what would help, if that is looked for.

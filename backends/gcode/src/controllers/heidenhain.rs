@@ -20,7 +20,9 @@
 //! Every statement begins with a word. Lengths are in mm where `BEGIN PGM` says so, coordinates are absolute without an `I`
 //! before their letter, and blocks with `R0` end at a standstill.
 
-use crate::controller::{Arcs, AxisPace, Changes, Codes, Controller, Facts, File, Signs, ToolNumbers, Unnumbered};
+use crate::controller::{
+    Arcs, AxisPace, Changes, Codes, Controller, Facts, File, Signs, ToolNumbers, Unnumbered,
+};
 use crate::iso::{m_code, seconds};
 use crate::statement::{
     Act, Block, Convention, Coordinates, Cursor, Cycle, FeedMode, Flow, Mode, Motion, Number, Order, Parsed,
@@ -94,6 +96,10 @@ impl Controller for Heidenhain {
     fn setup(&self, tool: u32) -> Vec<String> {
         // M127: rotary axes go to the value that is written, not the shorter way round.
         vec![format!("TOOL CALL {tool} Z"), "M127".to_owned()]
+    }
+
+    fn tool_name(&self, tool: ToolNumbers) -> String {
+        format!("tool {}", tool.number)
     }
 
     /// The control asks a person to put the tool in where no changer has it [H-620].

@@ -5,6 +5,7 @@ use super::{Track, Wish, Work, model};
 use crate::asked::Sequence;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::curve::Point2;
+use vcutc_geometry::grid;
 use vcutc_simulation::cross_section::Guard;
 use vcutc_simulation::rim::Rim;
 use vcutc_simulation::surface::Side;
@@ -127,11 +128,13 @@ fn track(work: Work<'_>, guard: &Guard<'_>, wish: &Wish, hold: Hold, run: Run, [
     let rim = |centre| Rim::rolled(centre, radius, hold.lead, roll);
     let below = rim(Point2::new(0.0, 0.0)).touching(slope);
     let centre = Point2::new(x - below.x, bound.height(x) - below.z);
+    // As it is printed, and never nearer to the part.
+    let centre = Point2::new(grid::nearest(centre.x), centre.z);
     let nearest = guard.nearest(&rim(centre));
     let (at, depth) = nearest.unwrap_or((Point2::new(x, bound.height(x)), 0.0));
     Track {
         contact: Point2::new(at.x, bound.height(at.x)),
-        centre: Point2::new(centre.x, centre.z + depth),
+        centre: Point2::new(centre.x, grid::up(centre.z + depth)),
         roll,
     }
 }
