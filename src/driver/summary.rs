@@ -168,38 +168,48 @@ fn estimate(plan: &PlannedJob, report: &Report) -> String {
     format!(
         "{} by the rough formula{}",
         time(estimate),
-        against(estimate, report.times.all.total(), &why_else(plan))
+        against(estimate, report.times.all.total(), |percent| why_else(
+            plan, percent
+        ))
     )
 }
 
 /// ` (4.2 % too high)`: how far the model and the planned program agree.
-fn against(estimate: Duration, planned: Duration, why: &str) -> String {
+fn against(estimate: Duration, planned: Duration, why: impl FnOnce(f64) -> String) -> String {
     if planned <= Duration::ZERO {
         return String::new();
     }
     let percent = (estimate.to_s() / planned.to_s() - 1.0) * 100.0;
     let way = if percent < 0.0 { "low" } else { "high" };
-    let why = if percent.abs() > FAR_APART { why } else { "" };
+    let why = if percent.abs() > FAR_APART {
+        why(percent)
+    } else {
+        String::new()
+    };
     format!(" ({:.1} % too {way}{why})", percent.abs())
 }
 
 /// From so many percent on it is said why model and program differ.
 const FAR_APART: f64 = 20.0;
 
-/// What the mean-value model does not see of a plan: where the part and the sides of the stock take Vs away or ask for more, and
-/// that the route turns the blade less.
-fn why_else(plan: &PlannedJob) -> String {
+/// What the mean-value model does not see of a plan, where it is so many percent too high: where the part and the sides of the stock
+/// take Vs away or ask for more, and that the route turns the blade less.
+fn why_else(plan: &PlannedJob, percent: f64) -> String {
     let planned = plan.cuts();
     let operations = || plan.operations.iter();
     let estimated: f64 = operations().map(|planned| planned.estimate().cuts).sum();
     let is_by_layer = operations().any(|planned| planned.order() == Order::Layer);
-    let counts = format!(": it assumes {estimated:.0} cuts, the plan has {planned}");
-    let turns = if is_by_layer {
-        "; it ignores `order = layer`, which reorients the blade less often"
-    } else {
-        ""
-    };
-    counts + turns
+    let differs = (estimated - planned as f64).abs() >= 0.5;
+    let counts = differs.then(|| format!("it assumes {estimated:.0} cuts, the plan has {planned}"));
+    let turns = (is_by_layer && percent > 0.0)
+        .then(|| "it ignores `order = layer`, which reorients the blade less often".to_owned());
+    let changes = (plan.operations.len() > 1 && percent < 0.0)
+        .then(|| "it leaves out what lies between operations".to_owned());
+    let reasons: Vec<String> = counts.into_iter().chain(turns).chain(changes).collect();
+    if reasons.is_empty() {
+        return String::new();
+    }
+    format!(": {}", reasons.join("; "))
 }
 
 fn cuts_per_layer(report: &Report) -> String {
@@ -230,8 +240,11 @@ mod tests {
 
     #[test]
     fn the_model_is_held_against_the_planned_time() {
-        let shown =
-            |estimate: f64, planned: f64| against(Duration::s(estimate), Duration::s(planned), ": why");
+        let shown = |estimate: f64, planned: f64| {
+            against(Duration::s(estimate), Duration::s(planned), |_| {
+                ": why".to_owned()
+            })
+        };
         assert_eq!(shown(90.0, 100.0), " (10.0 % too low)");
         assert_eq!(shown(101.26, 100.0), " (1.3 % too high)");
         assert_eq!(shown(130.0, 100.0), " (30.0 % too high: why)");

@@ -47,7 +47,7 @@ pub struct WayFigures {
     /// The time of the whole program, as its machine takes it.
     pub time: Duration,
     pub cuts: usize,
-    /// The time at programmed speeds, for other depths and feeds.
+    /// The same for other depths and feeds.
     pub planned: PlanTime,
 }
 
@@ -130,7 +130,7 @@ fn figures(made: &Made, operation: usize) -> Came {
         Came::Compiled(WayFigures {
             time: made.time(),
             cuts: made.plan.cuts(),
-            planned,
+            planned: planned.taking(made.time()),
         })
     })
 }

@@ -227,6 +227,10 @@ fn what_does_not_go_is_refused_with_what_does() {
         ("lead = 0 deg, limits { scallop <= 0.1 mm }", Code::OutOfRange),
         ("side = 31 deg, limits { scallop <= 0.1 mm }", Code::OutOfRange),
         ("over_hub = 9 mm", Code::MissingField),
+        (
+            "allowance = 0.2 mm, limits { scallop <= 0.2 mm }",
+            Code::LimitsConflict,
+        ),
     ] {
         assert_eq!(codes(finish), [code]);
     }

@@ -150,8 +150,9 @@ fn a_slope_takes_as_many_strips_as_by_hand() {
     let outcome = compiled(
         job(
             SLOPE,
-            "layer = 10 mm, step = 10 mm, residual = lift, lead = 0 deg, beyond = 0 mm, standoff = 0 mm",
-        ),
+            "layer = 10 mm, step = 10 mm, residual = lift, lead = 0 deg, beyond = 0 mm",
+        )
+        .replace("thickness = 0.5 mm", "thickness = 0 mm"),
         "kuka",
     );
     assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
@@ -409,4 +410,72 @@ fn the_offer_for_a_valley_works_and_vs_cut_the_rest() {
     assert!(!has_errors(&both.diagnostics), "{:?}", both.diagnostics);
     let removed = |outcome: &Outcome| outcome.compiled.as_ref().unwrap().report.removed.to_mm2();
     assert!(removed(&both) > removed(&above) + 100.0);
+}
+
+/// What is wrong with a job, and whether its first fix mends it.
+fn mended(text: &str) -> (Vec<Code>, Option<Vec<Code>>) {
+    let outcome = compiled(text.to_owned(), "kuka");
+    let fix = outcome.diagnostics.first().and_then(|one| one.fixes.first());
+    let fixed = fix.map(|fix| {
+        let mut edits = fix.edits.clone();
+        edits.sort_by_key(|edit| core::cmp::Reverse(edit.span.start));
+        let mut text = text.to_owned();
+        for edit in edits {
+            let range = edit.span.start as usize..edit.span.end as usize;
+            text.replace_range(range, &edit.replacement);
+        }
+        codes(&compiled(text, "kuka"))
+    });
+    (codes(&outcome), fixed)
+}
+
+#[test]
+fn what_a_job_states_keeps_to_its_bounds() {
+    // The sides of a thick blade would enter the part.
+    let thick =
+        job(SLOPE, "standoff = 0 mm, residual = lift").replace("thickness = 0.5 mm", "thickness = 6 mm");
+    assert_eq!(mended(&thick), (vec![Code::OutOfRange], Some(Vec::new())));
+    for sizes in [
+        "layer = 5 mm, limits { layer <= 4 mm }",
+        "step = 5 mm, limits { step >= 6 mm }",
+    ] {
+        assert_eq!(
+            mended(&job(SLOPE, sizes)),
+            (vec![Code::OutOfRange], Some(Vec::new())),
+            "{sizes}"
+        );
+    }
+    let one_output = job(SLOPE, "").replace("spindle = output(13)", "spindle = output(12)");
+    assert!(codes(&compiled(one_output, "kuka")).contains(&Code::OutOfRange));
+    // Fewer changes than any plan has that keeps the limit on scallop.
+    let few = job(SLOPE, "limits { scallop <= 5 mm, changes <= 1 }");
+    assert_eq!(codes(&compiled(few, "kuka")), [Code::LimitsConflict]);
+}
+
+/// A lead that leaves hardly any chip is named at once, instead of thousands of thin layers being planned.
+#[test]
+fn a_lead_that_takes_the_whole_chip_is_refused() {
+    for (depth, help) in [("1.31", "use a lead of at most 2.77"), ("0.001", "thicker chips")] {
+        let text = job(SLOPE, "").replace("depth = 12 mm", &format!("depth = {depth} mm"));
+        let outcome = compiled(text, "kuka");
+        assert_eq!(codes(&outcome), [Code::BladesTooSmall], "{depth}");
+        assert!(
+            outcome.diagnostics[0].help[0].contains(help),
+            "{:?}",
+            outcome.diagnostics
+        );
+    }
+}
+
+/// The speed of the disc belongs to `rect`: where `feed` is shared, `rough vcut` would not take it.
+#[test]
+fn the_speed_of_the_disc_is_offered_where_it_belongs() {
+    let text = job(SLOPE, "").replace(
+        "rough rect {",
+        "rough auto {\n  limits { scallop <= 8 mm }\n  rect { disc = wheel }",
+    );
+    let text = text
+        .replace("  disc = wheel\n", "")
+        .replace(", free = 100 mm/s", "");
+    assert_eq!(mended(&text), (vec![Code::MissingField], Some(Vec::new())));
 }

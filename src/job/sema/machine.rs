@@ -17,7 +17,8 @@ use crate::{Machine, Sourced};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Load, PlacedFrame, Ready, Registered};
 use vcutc_backend_api::units::{Duration, Mass};
-use vcutc_diagnostics::source::Spanned;
+use vcutc_diagnostics::source::{Span, Spanned};
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::{Block, Expr};
 
 pub(crate) const LOADS: &[(&str, &str)] = &[("load", LOAD), ("number", "number(2)")];
@@ -98,6 +99,11 @@ pub(crate) fn check(
     };
     let ultrasonic = optional(&fields, "ultrasonic", &mut reader, output);
     let spindle = optional(&fields, "spindle", &mut reader, output);
+    if let (Ok(Some(generator)), Ok(Some(drive))) = (&ultrasonic, &spindle)
+        && generator.value == drive.value
+    {
+        return Err(reader.reports.push(one_output(generator, drive, place.head)));
+    }
     let ready = optional(&fields, "ready", &mut reader, ready);
     let Described { model, limits } = model?;
     Ok(Machine {
@@ -115,6 +121,17 @@ pub(crate) fn check(
         ready: ready?.unwrap_or(default(Ready::After(SETTLED))),
         targets: targets?,
     })
+}
+
+fn one_output(generator: &Sourced<u32>, drive: &Sourced<u32>, head: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::OutOfRange,
+        format!("`ultrasonic` and `spindle` are both output {}", drive.value),
+        drive.span.unwrap_or(head),
+        "the drive of the spindle",
+    )
+    .and(generator.span.unwrap_or(head), "the generator")
+    .help("give each of them the number of its own output")
 }
 
 pub(crate) fn required_frame(

@@ -8,11 +8,12 @@
 mod merge;
 
 use merge::with;
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::operation::Operation;
 use vcutc_job::sema::field_ranges::{DISTANCE, LONGEST_TIME, SIZE};
 use vcutc_job::sema::fields::{BlockSpec, Fields, Inner, Place, Takes, block, limit, value};
 use vcutc_job::sema::kind::Kind;
-use vcutc_job::sema::report::Checked;
+use vcutc_job::sema::report::{Checked, Reported};
 use vcutc_job::sema::session::Session;
 use vcutc_job::sema::setup::{self, inner_place};
 use vcutc_job::sema::written::Written;
@@ -143,6 +144,24 @@ fn shared<'b>(written: Written<'b>, session: &mut Session<'_>) -> Checked<Shared
     }
 }
 
+/// Reports that nothing says how fast the disc is fed. Both processes share the other feeds, so this one is offered where it belongs.
+fn without_free(rect: &Block, session: &mut Session<'_>) -> Reported {
+    let place = inner_place(rect);
+    // What is wrong with its fields is found when they are checked.
+    let before = core::mem::take(&mut session.reports);
+    let fields = Fields::sort(&vcutc_rect::SPEC, place, &rect.entries, session);
+    session.reports = before;
+    let diagnostic = Diagnostic::new(
+        Code::MissingField,
+        "`rect` of `rough auto` needs `feed { free = ... }`, the speed of the disc in the material",
+        place.head,
+        "here",
+    );
+    let sample = "feed { free = 100 mm/s }";
+    let diagnostic = fields.offer(diagnostic, format!("add it, for example `{sample}`"), sample);
+    session.reports.push(diagnostic)
+}
+
 fn sorted<'b>(written: Written<'b>, session: &mut Session<'_>) -> Checked<Shared<'b>> {
     let Written { block, place, .. } = written;
     let fields = Fields::sort(&SPEC, place, &block.entries, session);
@@ -157,6 +176,14 @@ fn sorted<'b>(written: Written<'b>, session: &mut Session<'_>) -> Checked<Shared
     let feed = fields.required_block(setup::FEED.name, &mut session.reports);
     let rect = fields.required_block(RECT, &mut session.reports);
     let vcut = fields.block(VCUT);
+    if let Ok(rect) = rect
+        && !rect
+            .entries
+            .iter()
+            .any(|entry| merge::is_block(entry, &[setup::FEED.name]))
+    {
+        let _ = without_free(rect, session);
+    }
     let entries = block.entries.iter();
     let entries = entries.filter(|entry| !merge::is_block(entry, &[VCUT, RECT]));
     let entries = entries.cloned().collect();

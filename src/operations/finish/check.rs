@@ -3,6 +3,7 @@
 use crate::asked::{FinishDisc, Limits, Sequence};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::number::show;
+use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::operation::Operation;
 use vcutc_job::sema::dimension::Dimension;
@@ -14,7 +15,7 @@ use vcutc_job::sema::report::Checked;
 use vcutc_job::sema::session::Session;
 use vcutc_job::sema::setup::{self, inner_place};
 use vcutc_job::sema::written::Written;
-use vcutc_job::{Auto, Disc};
+use vcutc_job::{Auto, Disc, Sourced};
 
 /// The least lead where the job does not say it: the usual angle of [Yu 2019] is 3 to 5 degrees.
 const RELIEF: Angle = Angle::deg(3.0);
@@ -101,7 +102,11 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<FinishDisc>
     let relief = reader.defaulted(&fields, "relief", RELIEF);
     let over_hub = reader.defaulted(&fields, "over_hub", Length::ZERO);
     let allowance = reader.defaulted(&fields, "allowance", Length::ZERO);
-    let (limits, relief, lead) = (limits?, relief?, lead?);
+    let (limits, relief, lead, allowance) = (limits?, relief?, lead?, allowance?);
+    if limits.scallop.value <= allowance.value {
+        let diagnostic = below_allowance(limits.scallop, allowance, place.head);
+        return Err(reader.reports.push(diagnostic));
+    }
     if lead.value == Auto::Auto && relief.value > limits.lead.value {
         let diagnostic = Diagnostic::new(
             Code::LimitsConflict,
@@ -125,9 +130,24 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<FinishDisc>
         sequence: sequence?,
         relief,
         over_hub: over_hub?,
-        allowance: allowance?,
+        allowance,
         limits,
     })
+}
+
+fn below_allowance(scallop: Sourced<Length>, allowance: Sourced<Length>, head: Span) -> Diagnostic {
+    let (most, least) = (show(scallop.value.to_mm()), show(allowance.value.to_mm()));
+    Diagnostic::new(
+        Code::LimitsConflict,
+        format!("at most {most} mm may stay on the part, and the allowance of {least} mm has to"),
+        scallop.span.unwrap_or(head),
+        "what may stay, the allowance included",
+    )
+    .and(allowance.span.unwrap_or(head), "what has to stay")
+    .help(format!(
+        "allow more than the allowance, such as `scallop <= {} mm`",
+        show(allowance.value.to_mm() + 0.1)
+    ))
 }
 
 fn limits(fields: &Fields<'_>, written: Written<'_>, session: &mut Session<'_>) -> Checked<Limits> {

@@ -2,6 +2,7 @@
 
 use crate::asked::FinishDisc;
 use crate::plan::PlannedFinish;
+use vcutc_backend_api::units::Length;
 use vcutc_geometry::profile::Profile;
 
 /// Finishing with a disc, planned.
@@ -11,4 +12,6 @@ pub struct Planned {
     pub plan: PlannedFinish,
     /// The part with its allowance.
     pub bound: Profile,
+    /// How deep the stock is along y.
+    pub depth: Length,
 }

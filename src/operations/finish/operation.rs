@@ -65,6 +65,7 @@ impl Operation for FinishDisc {
                     asked: self.clone(),
                     plan,
                     bound,
+                    depth: ground.job.stock.depth,
                 };
                 Ok(Laid {
                     planned: Box::new(planned),

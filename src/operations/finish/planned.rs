@@ -121,8 +121,8 @@ impl Planned {
         let way: f64 = ways
             .map(|(from, to)| libm::hypot(to.centre.x - from.centre.x, to.centre.z - from.centre.z))
             .sum();
-        let beside = lower::extension(self) * 2.0;
-        let out = beside * self.cuts() as f64;
-        Length::mm(way) / self.asked.setup.travel_feed.value + out / self.asked.setup.cut_feed.value
+        let track = self.depth + lower::extension(self) * 2.0;
+        Length::mm(way) / self.asked.setup.travel_feed.value
+            + track * self.cuts() as f64 / self.asked.setup.cut_feed.value
     }
 }

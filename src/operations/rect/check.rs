@@ -17,7 +17,7 @@ use vcutc_job::sema::report::Checked;
 use vcutc_job::sema::session::Session;
 use vcutc_job::sema::setup::{self, inner_place};
 use vcutc_job::sema::written::Written;
-use vcutc_job::{Auto, Disc, Sourced};
+use vcutc_job::{Auto, Bounds, Disc, Sourced, StraightBlade};
 use vcutc_syntax::ast::{Block, Expr};
 
 /// How far the disc leans where the job does not say it: the usual angle of [Yu 2019] is 3 to 5 degrees.
@@ -109,7 +109,7 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughRect> 
         .block("limits")
         .and_then(|inner| limits(inner, scope, session));
     let setup = setup::check_of_two(&fields, written, session);
-    let blade = setup::blade("blade", &fields, written, session);
+    let blade: Checked<StraightBlade> = setup::blade("blade", &fields, written, session);
     let disc: Checked<Disc> = setup::blade("disc", &fields, written, session);
     let mut reader = Reader::new(scope, &mut session.reports);
     let lead = reader.defaulted(&fields, "lead", LEAD);
@@ -126,22 +126,100 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughRect> 
     if beyond.value >= disc.radius.value {
         return Err(reader.reports.push(beyond_the_disc(beyond, &disc, written)));
     }
+    let (blade, standoff, limits) = (blade?, standoff?, limits?);
+    let (layer, step) = (layer?, step?);
+    let wrong = [
+        too_near(&blade, standoff, written),
+        outside("layer", layer, &limits.layer),
+        outside("step", step, &limits.step),
+    ];
+    let mut reported = None;
+    for diagnostic in wrong.into_iter().flatten() {
+        reported = Some(reader.reports.push(diagnostic));
+    }
+    if let Some(reported) = reported {
+        return Err(reported);
+    }
     Ok(RoughRect {
         setup,
-        blade: blade?,
+        blade,
         disc,
         lead: lead?,
         free_feed,
-        layer: layer?,
-        step: step?,
+        layer,
+        step,
         through: through?,
         residual: residual?,
         beyond,
         down_to: down_to?,
         allowance: allowance?,
-        standoff: standoff?,
-        limits: limits?,
+        standoff,
+        limits,
     })
+}
+
+/// A standoff with which the sides of the straight blade would enter what stays.
+fn too_near(
+    blade: &StraightBlade,
+    standoff: Sourced<Auto<Length>>,
+    written: Written<'_>,
+) -> Option<Diagnostic> {
+    let least = blade.thickness.value * 0.5;
+    let Auto::Given(given) = standoff.value else {
+        return None;
+    };
+    (given < least).then(|| {
+        let span = standoff.span.unwrap_or(written.place.head);
+        Diagnostic::new(
+            Code::OutOfRange,
+            format!(
+                "with a standoff of {} mm the blade's side would enter the part",
+                show(given.to_mm())
+            ),
+            span,
+            format!("less than half the blade's thickness, {} mm", show(least.to_mm())),
+        )
+        .and(
+            blade.thickness.span.unwrap_or(blade.span),
+            format!("{} mm thick", show(blade.thickness.value.to_mm())),
+        )
+        .help(format!(
+            "use at least {} mm, or leave it `auto`",
+            show(least.to_mm())
+        ))
+        .fix("let the compiler choose: `auto`", span, "auto")
+    })
+}
+
+/// A size that is given, and its limits do not allow.
+fn outside(name: &str, given: Sourced<Auto<Length>>, bounds: &Bounds<Length>) -> Option<Diagnostic> {
+    let (Auto::Given(size), Some(span)) = (given.value, given.span) else {
+        return None;
+    };
+    let least = bounds.least.filter(|least| size < least.value);
+    let most = bounds.most.filter(|most| size > most.value);
+    let (limit, side, label, verb) = match (least, most) {
+        (Some(least), _) => (least, "below", "smaller than the limit allows", "lower"),
+        (None, Some(most)) => (most, "above", "larger than the limit allows", "raise"),
+        (None, None) => return None,
+    };
+    let size = show(size.to_mm());
+    let text = format!("{} mm", show(limit.value.to_mm()));
+    let diagnostic = Diagnostic::new(
+        Code::OutOfRange,
+        format!("a {name} of {size} mm is {side} its limit of {text}"),
+        span,
+        label,
+    );
+    let diagnostic = match limit.span {
+        Some(limit) => diagnostic.and(limit, "the limit"),
+        None => diagnostic,
+    };
+    Some(diagnostic.help(format!("use {text}, or {verb} the limit")).fix(
+        format!("use the limit: `{text}`"),
+        span,
+        text,
+    ))
 }
 
 /// `through = 2` or `through = auto`.

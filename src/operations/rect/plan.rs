@@ -22,7 +22,7 @@ mod terrain;
 mod tests;
 mod trial;
 
-pub use automatic::plan;
+pub use automatic::{LEAST_LAYER, plan};
 
 use crate::asked::Residual;
 use blades::{Knife, Wheel};

@@ -1,6 +1,7 @@
 //! Why there is no plan, in the user's words.
 
 use crate::asked::RoughRect;
+use crate::plan::LEAST_LAYER;
 use crate::plan::blades::WidthBound;
 use crate::plan::refusal::{Closed, Refusal, SizeField};
 use vcutc_backend_api::script::duration_words;
@@ -159,13 +160,27 @@ fn too_wide(asked: &RoughRect, widest: Length, limit: Length, bound: WidthBound)
         }
     };
     let (label, span) = because;
+    if limit <= Length::ZERO {
+        return Diagnostic::new(
+            Code::BladesTooSmall,
+            format!(
+                "`{}` frees no strip: {} mm of its radius are beyond the slit, and the rest is its body with 1 mm of air",
+                asked.disc.name,
+                mm(asked.beyond.value)
+            ),
+            place(asked, asked.beyond.span),
+            "this operation",
+        )
+        .and(span.unwrap_or(asked.disc.body.span), label)
+        .help("use a smaller `beyond`, or a disc with a thinner shank");
+    }
     let diagnostic = Diagnostic::new(
         Code::BladesTooSmall,
         format!(
             "strips of {} mm are wider than `{}` frees: {} mm",
             mm(widest),
             asked.disc.name,
-            mm(limit.max(Length::ZERO))
+            mm(limit)
         ),
         place(asked, asked.step.span),
         "these strips",
@@ -182,10 +197,18 @@ fn too_wide(asked: &RoughRect, widest: Length, limit: Length, bound: WidthBound)
 fn too_thick(asked: &RoughRect, layer: Length, chip: Length, depth: Length) -> Diagnostic {
     let most = depth - (chip - layer);
     let takes = "the thickest chip that it takes";
-    if most <= Length::ZERO {
-        let steepest = Angle::rad(libm::asin(
-            (depth.to_mm() / asked.disc.radius.value.to_mm()).min(1.0),
-        ));
+    if most < LEAST_LAYER {
+        let room = (depth - LEAST_LAYER).to_mm() / asked.disc.radius.value.to_mm();
+        let steepest = Angle::rad(libm::asin(room.clamp(0.0, 1.0)));
+        let steepest = Angle::deg((steepest.to_deg() * 1e3).floor() / 1e3);
+        let advice = if room > 0.0 {
+            format!(
+                "use a lead of at most {} deg: the smaller it is, the thicker layers can be",
+                show(steepest.to_deg())
+            )
+        } else {
+            "use a disc that takes thicker chips".to_owned()
+        };
         return Diagnostic::new(
             Code::BladesTooSmall,
             format!(
@@ -199,10 +222,7 @@ fn too_thick(asked: &RoughRect, layer: Length, chip: Length, depth: Length) -> D
             "this lead",
         )
         .and(place(asked, asked.disc.depth.span), takes)
-        .help(format!(
-            "use a smaller lead, such as 3 deg: it has to be less than {} deg, and the smaller it is, the thicker layers can be",
-            show(steepest.to_deg())
-        ));
+        .help(advice);
     }
     Diagnostic::new(
         Code::BladesTooSmall,

@@ -22,6 +22,9 @@ const SHRUNK: u32 = 8;
 /// Most layers that slits go through where that is open.
 const MOST_THROUGH: u32 = 8;
 
+/// Thinner layers are not chosen: a judgement, from no source. Where blades do no thicker ones, something else is to be changed.
+pub const LEAST_LAYER: Length = Length::mm(0.1);
+
 /// By how much a plan may be over its limit by rounding, in mm.
 const OVER_LIMIT: f64 = 1e-3;
 
@@ -114,6 +117,8 @@ impl Search<'_> {
                         None => refusal,
                     });
                 }
+                // What this leaves is within the limit on scallop, so that is not what is in the way.
+                Err(refusal) if refusal.is_about_the_whole() => return Err(refusal),
                 Err(refusal) => return Err(best.unwrap_or(refusal)),
             }
         }
@@ -188,11 +193,19 @@ impl Search<'_> {
         let (knife, wheel) = (&self.blades.knife, &self.blades.wheel);
         let deepest = knife.deepest() - wheel.slit_excess(Length::mm(self.wish.rounding.spacing()));
         let by_blades = (deepest * (1.0 / f64::from(through))).min(wheel.thickest_layer());
-        if let (Auto::Auto, true) = (self.wish.layer, by_blades <= Length::ZERO) {
+        if let (Auto::Auto, true) = (self.wish.layer, wheel.thickest_layer() < LEAST_LAYER) {
             return Err(Refusal::TooThick {
                 layer: Length::ZERO,
                 chip: wheel.sink(),
                 depth: wheel.depth,
+            });
+        }
+        if let (Auto::Auto, true) = (self.wish.layer, by_blades < LEAST_LAYER) {
+            return Err(Refusal::TooDeepForSlits {
+                layer: LEAST_LAYER,
+                through,
+                needed: knife.edge_for(LEAST_LAYER * f64::from(through)),
+                edge: knife.edge,
             });
         }
         self.sizes(
