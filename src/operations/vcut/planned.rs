@@ -69,6 +69,7 @@ impl PlannedOperation for PlannedVcut {
     fn bound(&self) -> Bound<'_> {
         Bound {
             drop: self.parameters.drop,
+            aside: self.parameters.standoff,
             edge: self.asked.limits.edge.map(|limit| limit.value),
             ..Bound::of(&self.bound)
         }
@@ -91,6 +92,9 @@ impl PlannedOperation for PlannedVcut {
             && swing < vcut.parameters.swing
         {
             vcut.parameters.swing = swing;
+            for cut in &mut vcut.cuts {
+                cut.swings = cut.swings.within(swing);
+            }
         }
         let order = vcut.asked.order.value.or(order.unwrap_or(vcut.order));
         Box::new(vcut.along(order, Sequence::Rows, &Surface::untouched(stock), stock))

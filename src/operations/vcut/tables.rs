@@ -91,7 +91,7 @@ fn as_laid_out(asked: &RoughVcut, rows: Vec<ParameterRow>) -> Vec<ParameterRow> 
 
 /// Rows that say something where tips are given.
 fn without_lattice(asked: &RoughVcut, mut rows: Vec<ParameterRow>) -> Vec<ParameterRow> {
-    const OF_A_LATTICE: [&str; 8] = [
+    const OF_A_LATTICE: [&str; 9] = [
         "objective",
         "model",
         "lattice",
@@ -99,6 +99,7 @@ fn without_lattice(asked: &RoughVcut, mut rows: Vec<ParameterRow>) -> Vec<Parame
         "step",
         "overlap",
         "residual",
+        "avoid",
         "sequence",
     ];
     if asked.tips.is_some() {
