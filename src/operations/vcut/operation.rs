@@ -1,6 +1,6 @@
 //! V-shaped roughing as an operation of a job.
 
-use crate::asked::{Objective, RoughVcut};
+use crate::asked::{Avoid, Objective, RoughVcut};
 use crate::choice;
 use crate::plan::PlannedVcut;
 use core::any::Any;
@@ -49,6 +49,20 @@ impl RoughVcut {
         let swings = SMALLER.into_iter().map(|less| now - less);
         let swings = swings.filter(|&swing| swing > 0.0);
         swings.map(|swing| self.with_swing(Angle::deg(swing))).collect()
+    }
+
+    /// None where they may be narrower already, or tips are given.
+    pub(crate) fn with_narrower_flanks(&self) -> Option<Variant> {
+        if self.avoid.value == Avoid::Swing || self.tips.is_some() {
+            return None;
+        }
+        let mut operation = self.clone();
+        operation.avoid.value = Avoid::Swing;
+        Some(Variant {
+            advice: "cut with narrower flanks where Vs do not fit: `avoid = swing`".to_owned(),
+            edits: self.setup.stated("avoid", self.avoid.span, Avoid::Swing.word()),
+            operation: Box::new(operation),
+        })
     }
 
     fn with_swing(&self, swing: Angle) -> Variant {
@@ -129,6 +143,7 @@ impl Operation for RoughVcut {
         match of {
             Variation::Order => vec![self.in_the_other_order()],
             Variation::SmallerSwing => self.with_smaller_swings(planned.swing()),
+            Variation::NarrowerFlanks => self.with_narrower_flanks().into_iter().collect(),
         }
     }
 

@@ -264,6 +264,13 @@ impl PlannedVcut {
         self.decisions.iter().any(|decision| decision.field == PARAMETERS)
     }
 
+    /// The swings of the Vs that have narrower flanks than the others.
+    pub fn narrowed(&self) -> impl Iterator<Item = Swings> + '_ {
+        let regular = Swings::even(self.parameters.swing);
+        let swings = self.cuts.iter().map(|cut| cut.swings);
+        swings.filter(move |swings| *swings != regular)
+    }
+
     /// The same cuts in another order. Given tips keep their sequence.
     #[must_use]
     pub fn along(mut self, order: Order, sequence: Sequence, before: &Surface, stock: Stock) -> Self {

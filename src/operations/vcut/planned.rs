@@ -2,6 +2,7 @@
 
 use crate::asked::{RoughVcut, Sequence};
 use crate::plan::PlannedVcut;
+use crate::plan::avoid::Swings;
 use crate::plan::removable::Removable;
 use crate::{choice, lower, summary, tables, verdict};
 use core::any::Any;
@@ -30,6 +31,18 @@ impl PlannedVcut {
     }
 }
 
+impl PlannedVcut {
+    /// What pictures and lists show of a V with such flanks.
+    fn shape(&self, swings: Swings) -> CutShape {
+        let Swings { left, right } = swings;
+        if swings == Swings::even(self.parameters.swing) {
+            CutShape::Plain
+        } else {
+            CutShape::Narrowed { left, right }
+        }
+    }
+}
+
 impl PlannedOperation for PlannedVcut {
     fn asked(&self) -> &dyn Operation {
         &self.asked
@@ -49,7 +62,7 @@ impl PlannedOperation for PlannedVcut {
             layer: cut.layer,
             tip: cut.tip,
             origin: cut.origin,
-            shape: CutShape::Plain,
+            shape: self.shape(cut.swings),
         })
         .collect()
     }

@@ -43,7 +43,7 @@ impl Rectangles {
     fn layer(&mut self, cuts: &[PlannedTip], width: f64) {
         for (number, cut) in (1..).zip(cuts) {
             let at = match cut.shape {
-                CutShape::Plain => cut.tip,
+                CutShape::Plain | CutShape::Narrowed { .. } => cut.tip,
                 CutShape::Slit { top } => {
                     self.slits.push(Slit {
                         x: cut.tip.x,
@@ -96,7 +96,7 @@ fn marked(strip: &PlannedStrip) -> Point2 {
 fn disc(cuts: &[PlannedTip], width: f64) -> Option<Disc> {
     let strips = cuts.iter().filter_map(|cut| match cut.shape {
         CutShape::Strip(strip) => Some((cut.tip, strip)),
-        CutShape::Plain | CutShape::Slit { .. } => None,
+        CutShape::Plain | CutShape::Narrowed { .. } | CutShape::Slit { .. } => None,
     });
     let off = |tip: Point2| (tip.x - width / 2.0).abs();
     let (centre, strip) = strips.min_by(|(one, _), (other, _)| off(*one).total_cmp(&off(*other)))?;
