@@ -137,16 +137,16 @@ impl<'p> Avoidance<'p> {
     /// tip as far above it as all tips are.
     pub(super) fn floor(&self, x: f64) -> f64 {
         let half = self.parameters.standoff.to_mm();
-        let upright = [Side::Left, Side::Right].into_iter().filter_map(|side| {
+        let upright = [Side::Left, Side::Right].map(|side| {
             let wall = ThickFlank {
                 tip: Point2 { x, z: 0.0 },
                 side,
                 slope: f64::INFINITY,
                 half,
             };
-            wall.nearest(&self.part).map(|(_, gap)| -gap)
+            -self.gap(wall)
         });
-        let end = upright.fold(f64::NEG_INFINITY, f64::max);
+        let end = upright.into_iter().fold(f64::NEG_INFINITY, f64::max);
         let middle = self.middle_gap(Point2 { x, z: 0.0 }, Side::Right, f64::INFINITY);
         grid::up(end.max(-middle))
     }
@@ -157,14 +157,6 @@ impl<'p> Avoidance<'p> {
             left: self.widest(tip, Flank::Left, surface)?,
             right: self.widest(tip, Flank::Right, surface)?,
         })
-    }
-
-    /// Whether both flanks are clear as they are.
-    pub(super) fn fits(&self, tip: Point2, surface: &mut Surface) -> bool {
-        let swing = self.parameters.swing;
-        [Flank::Left, Flank::Right]
-            .into_iter()
-            .all(|flank| self.is_clear(tip, flank, swing, surface))
     }
 
     /// The largest clear swing of a flank.
@@ -207,8 +199,7 @@ impl<'p> Avoidance<'p> {
             slope,
             half: self.parameters.standoff.to_mm(),
         };
-        let side_gap = thick.nearest(&self.part).map_or(f64::INFINITY, |(_, gap)| gap);
-        side_gap.min(self.middle_gap(tip, side, slope)) >= -ROUNDING
+        self.gap(thick).min(self.middle_gap(tip, side, slope)) >= -ROUNDING
     }
 
     /// How far the middle plane of a flank, lowered as those of regular flanks are, stays above the part.
@@ -222,7 +213,30 @@ impl<'p> Avoidance<'p> {
             slope,
             half: 0.0,
         };
-        lowered.nearest(&self.part).map_or(f64::INFINITY, |(_, gap)| gap)
+        self.gap(lowered)
+    }
+
+    /// How far a flank stays above the part. Beyond where it comes out of the stock's top there is no part to look at.
+    fn gap(&self, flank: ThickFlank) -> f64 {
+        let rise = (self.stock.height.to_mm() - flank.tip.z).max(0.0);
+        let far = if flank.slope.is_infinite() {
+            flank.half
+        } else {
+            (rise + flank.drop()) / flank.slope
+        };
+        let (left, right) = match flank.side {
+            Side::Left => (flank.tip.x - far, flank.tip.x),
+            Side::Right => (flank.tip.x, flank.tip.x + far),
+        };
+        // With a corner more on either side, which what is between ends at.
+        let first = self
+            .part
+            .partition_point(|corner| corner.x < left)
+            .saturating_sub(1);
+        let last = self.part.partition_point(|corner| corner.x <= right) + 1;
+        let near = self.part.get(first..last.min(self.part.len()));
+        let nearest = flank.nearest(near.unwrap_or_default());
+        nearest.map_or(f64::INFINITY, |(_, gap)| gap)
     }
 
     /// Whether a flank comes out within the blade's reach, `L sin(theta - beta) cos(s)`, with nothing in its way beyond.

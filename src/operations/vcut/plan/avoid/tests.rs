@@ -12,6 +12,7 @@ use vcutc_geometry::offset::offset_up;
 use vcutc_job::{Auto, Body, BodyStage as Stage, CheckedJob, PlanningJob};
 use vcutc_process::plan::plan as plan_job;
 use vcutc_process::verdict::prove;
+use vcutc_simulation::body::During;
 use vcutc_simulation::prove::Findings;
 
 fn points(of: &[(f64, f64)]) -> Vec<Point2> {
@@ -239,23 +240,31 @@ fn a_wall_within_the_body_s_radius_is_not_avoided() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// Whatever the part, the route and the blade: the proof finds nothing, and no point of a blade is in the part.
+    /// Whatever the part, the route and the blade: the proof finds nothing, no cut takes the body into the work, and no point of a
+    /// blade is in the part.
     #[test]
     fn what_is_planned_with_narrower_flanks_is_proven(
         mut job in a_job(),
         sequence in prop::sample::select(vec![Sequence::Rows, Sequence::Boustrophedon, Sequence::Nearest]),
+        body in prop::option::of((0.0..20.0_f64, 0.5..6.0_f64)),
     ) {
         let asked = operation(&mut job);
         asked.avoid = given(Avoid::Swing);
         asked.sequence.value = Auto::Given(sequence);
         // Given, so that one plan is made and not hundreds.
         asked.swing.value = Auto::Given(asked.swing.value.or(Angle::deg(35.0)));
+        if let Some((above, radius)) = body {
+            let edge = operation(&mut job).blade.cutting_length.value.to_mm();
+            with_body(&mut job, edge + above, radius);
+        }
         let Some(plan) = plan_job(&job).0 else { return Ok(()) };
         let proven = prove(&plan, &SourceMap::default());
         let proven = proven.map_err(|faults| TestCaseError::fail(format!("{faults:?}")))?;
         prop_assert_eq!(&proven.findings, &Findings::default());
+        let in_cuts = proven.bodies.contact.filter(|(_, contact)| contact.during == During::Cut);
+        prop_assert!(in_cuts.is_none(), "{in_cuts:?}");
         let vcut = planned(&plan);
         let bound = offset_up(&plan.profile, vcut.asked.allowance.value);
         let (half, drop) = (vcut.parameters.standoff.to_mm(), vcut.parameters.drop.to_mm());

@@ -117,10 +117,8 @@ impl LayerPlanner<'_> {
 
     /// Whether a V fits as it is.
     pub(super) fn fits(&mut self, tip: Point2) -> bool {
-        let Some(avoidance) = &self.avoidance else {
-            return true;
-        };
-        avoidance.fits(tip, self.surface) && self.comes_free(tip)
+        // It clears the part: the lattice's own tips lie no lower than its floor.
+        self.avoidance.is_none() || self.comes_free(tip)
     }
 
     /// Cuts Vs that do not fit with narrower flanks.
