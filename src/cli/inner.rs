@@ -10,6 +10,7 @@ use std::io::{self, BufWriter, Write};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 use vcutc_backend_api::exchange::Exchange;
 use vcutc_driver::Outcome;
+use vcutc_job::planned::CutShape;
 use vcutc_job::{PlannedJob, PlannedOperation};
 
 /// Writes a form of the job as one file. Returns whether the job got far enough to have it.
@@ -90,7 +91,8 @@ fn write_json(value: &impl serde::Serialize, out: &mut dyn Write) -> io::Result<
     writeln!(out)
 }
 
-/// A row for each cut. Operations, layers and cuts are counted from 1.
+/// A row for each cut. Operations, layers and cuts are counted from 1. Of a V with narrowed flanks the swings of both are
+/// written, the left one first.
 fn write_plan(plan: &PlannedJob, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "operation,layer,cut,x_mm,z_mm,swing_deg,tip")?;
     for (number, operation) in (1_u32..).zip(&plan.operations) {
@@ -105,7 +107,15 @@ fn write_operation(number: u32, planned: &dyn PlannedOperation, out: &mut dyn Wr
         for (cut, planned) in (1_u32..).zip(layer) {
             let origin = planned.origin.word();
             let (layer, x, z) = (planned.layer, planned.tip.x, planned.tip.z);
-            writeln!(out, "{number},{layer},{cut},{x:.3},{z:.3},{swing:.3},{origin}")?;
+            let swing = match planned.shape {
+                CutShape::Narrowed { left, right } => {
+                    format!("{:.4}/{:.4}", left.to_deg(), right.to_deg())
+                }
+                CutShape::Plain | CutShape::Slit { .. } | CutShape::Strip(_) | CutShape::Track { .. } => {
+                    format!("{swing:.3}")
+                }
+            };
+            writeln!(out, "{number},{layer},{cut},{x:.3},{z:.3},{swing},{origin}")?;
         }
     }
     Ok(())

@@ -132,6 +132,8 @@ pub enum Variation {
     Order,
     /// With a smaller swing, the widest first.
     SmallerSwing,
+    /// With smaller swings only where the blade does not fit.
+    NarrowerFlanks,
 }
 
 /// An operation cut otherwise.

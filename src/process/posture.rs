@@ -19,6 +19,9 @@ const LARGEST_SINGLE_TURN: Angle = Angle::deg(150.0);
 /// a degree and a half a step, so between two of them it lies at most a ten-thousandth of its length further.
 const TURN_STEPS: u32 = 128;
 
+/// Shares of a swing at which turns between narrower flanks are looked at.
+const LOOKED_AT: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+
 /// Sense of the feed along y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Feed {
@@ -93,13 +96,37 @@ impl Holder {
                 [Feed::Forward, Feed::Backward]
                     .map(|feed| (self.cutting(from, feed), self.cutting(to, feed.reversed())))
             });
-        let most = turns
+        edge * self.widest_sweep(turns, half_apex)
+    }
+
+    /// The same between cuts at any swings up to its own, each flank at another: as far as at those that are looked at.
+    #[must_use]
+    pub fn overhang_up_to_its_swing(self, edge: Length, half_apex: Angle) -> Length {
+        let flanks = LOOKED_AT.into_iter().flat_map(|share| {
+            let narrower = Self {
+                swing: self.swing * share,
+                ..self
+            };
+            [Flank::Left, Flank::Right].map(|flank| (narrower, flank))
+        });
+        let flanks: Vec<(Self, Flank)> = flanks.collect();
+        let turns = flanks.iter().flat_map(|&(before, from)| {
+            flanks.iter().flat_map(move |&(after, to)| {
+                [Feed::Forward, Feed::Backward]
+                    .map(|feed| (before.cutting(from, feed), after.cutting(to, feed.reversed())))
+            })
+        });
+        edge * self.widest_sweep(turns, half_apex)
+    }
+
+    /// The largest share of its length by which an edge reaches along y during some turns.
+    fn widest_sweep(self, turns: impl Iterator<Item = (Orientation, Orientation)>, half_apex: Angle) -> f64 {
+        turns
             .map(|(from, to)| match self.by_way_of(from, to) {
                 Some(between) => sweep(from, between, half_apex).max(sweep(between, to, half_apex)),
                 None => sweep(from, to, half_apex),
             })
-            .fold(0.0, f64::max);
-        edge * most
+            .fold(0.0, f64::max)
     }
 
     /// The posture by way of which a turn of nearly half a revolution is made, so that there is only one way round each
@@ -308,6 +335,26 @@ mod tests {
             let overhang = holder.turning_overhang(Length::mm(10.0), half_apex).to_mm();
             // [Cui 5].
             prop_assert!((overhang - 10.0 * (rake - half_apex).cos()).abs() < 2e-3);
+        }
+
+        #[test]
+        fn turns_between_narrower_flanks_stay_within_the_overhang(
+            swing in 1.0..80.0_f64, shares in prop::array::uniform2(0.0..=1.0_f64), rake in 10.0..=90.0_f64,
+            half_apex in 0.0..20.0_f64, single: bool,
+        ) {
+            let edges = if single { Edges::Single } else { Edges::Double };
+            let half_apex = Angle::deg(half_apex);
+            let at = |share: f64| Holder { swing: Angle::deg(swing * share), rake: Angle::deg(rake), edges };
+            let most = at(1.0).overhang_up_to_its_swing(Length::mm(1.0), half_apex).to_mm();
+            for from in [Flank::Left, Flank::Right] {
+                for to in [Flank::Left, Flank::Right] {
+                    for feed in [Feed::Forward, Feed::Backward] {
+                        let (from, to) = (at(shares[0]).cutting(from, feed), at(shares[1]).cutting(to, feed.reversed()));
+                        let turn = at(1.0).widest_sweep(core::iter::once((from, to)), half_apex);
+                        prop_assert!(turn <= most + 0.01, "{turn} {most}");
+                    }
+                }
+            }
         }
 
         #[test]

@@ -228,7 +228,7 @@ fn layers(material: &Material<'_>) -> Vec<(String, f64)> {
             };
             // The tip of a disc is the centre of its edge, which a lead holds above the floor.
             let floor = |cut: &PlannedTip| match cut.shape {
-                CutShape::Plain => Some(cut.tip.z),
+                CutShape::Plain | CutShape::Narrowed { .. } => Some(cut.tip.z),
                 CutShape::Slit { .. } => None,
                 CutShape::Strip(strip) => Some(strip.low.z),
                 CutShape::Track { contact } => Some(contact.z),

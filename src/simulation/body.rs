@@ -17,12 +17,13 @@ mod stage;
 mod tests;
 mod turn;
 
-use super::course::Course;
+use super::course::{Course, Way};
 use super::prove::{Bound, Passes, accompanied};
 use super::surface::Surface;
 use section::{Ceiling, Near, Section};
 use stage::{Axis, Cylinder};
-use vcutc_backend_api::ir::{Action, OpId, OperationId, Program, Site, ToolId};
+use vcutc_backend_api::geometry::{Orientation, Point3};
+use vcutc_backend_api::ir::{Action, BodyStage, OpId, OperationId, Program, Site, Stock, ToolId};
 use vcutc_backend_api::segments::Segment;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
@@ -86,6 +87,25 @@ pub fn is_stated(program: &Program) -> bool {
 #[must_use]
 pub fn bodies(verified: &VerifiedProgram, bounds: &[Bound<'_>]) -> Bodies {
     watched(verified, bounds, &mut |_| {})
+}
+
+/// Whether a body misses a section, given by its corners, while the tip goes along y from one place to another and the blade
+/// is held like this.
+#[must_use]
+pub fn clears(
+    body: &[BodyStage],
+    held: Orientation,
+    [from, to]: [Point3; 2],
+    stock: Stock,
+    section: &[Point2],
+) -> bool {
+    let way = Way { from, to };
+    Cylinder::all(body).into_iter().all(|cylinder| {
+        let nearest = cylinder
+            .shadow(Axis::of(held), way, stock)
+            .and_then(|shadow| shadow.nearest_above(section));
+        nearest.is_none_or(|(_, gap)| gap >= -TOUCH)
+    })
 }
 
 /// As [`bodies`], and shows every motion that takes a body into the work.

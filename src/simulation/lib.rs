@@ -5,7 +5,7 @@
 //! linear, so it is kept exactly, by its corners ([`surface`]). [`prove`](mod@prove) reads the cuts back from the
 //! verified program (not from the plan that made it), replays them in order, and finds every chip that is not freed and
 //! every entry into the part; [`report`] gathers the figures people want to see, [`contour`] those of two contours, [`timing`] how long it all takes; [`body`] proves
-//! that the body of a blade stays out of the work. Slits and discs cut a section of their own ([`cross_section`]).
+//! that the body of a blade stays out of the work, [`sides`] where the sides of a thick one are. Slits and discs cut a section of their own ([`cross_section`]).
 
 pub mod body;
 pub mod contour;
@@ -15,6 +15,7 @@ pub mod disc;
 pub mod prove;
 pub mod report;
 pub mod rim;
+pub mod sides;
 pub mod slit;
 pub mod surface;
 pub mod timing;

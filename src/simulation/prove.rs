@@ -24,10 +24,12 @@ mod tests;
 use super::course::Course;
 use super::cross_section::{CrossSection, Guard, Taken};
 use super::disc::PassFault;
+use super::sides::ThickFlank;
 use super::surface::{Side, Single, Surface, Vee};
 use core::num::NonZeroU32;
+pub use entry::below_top;
+use entry::deepest_entry;
 pub(super) use entry::merge_heights;
-use entry::{below_top, deepest_entry};
 use flank::{FlankGeometry, flanks};
 use piece::Piece;
 use std::collections::BTreeMap;
@@ -52,7 +54,7 @@ pub struct Bound<'p> {
     pub drop: Length,
     /// The longest edge that a cut may use, where that is less than the blade has.
     pub edge: Option<Length>,
-    /// How far to the left and right of a slit the sides of the blade are.
+    /// How far the sides of the blade are from its middle plane, beside slits and flanks that are narrower than their operation's.
     pub aside: Length,
     /// What discs of the operation are taken for; none where it has none.
     pub passes: Option<Passes>,
@@ -274,7 +276,7 @@ struct Player<'p> {
     slits: Vec<(f64, Finding)>,
     /// The part of each operation that has slits or passes.
     kept: BTreeMap<OperationId, Guard<'p>>,
-    /// The part that each operation with chains must stay out of, up to the stock's top.
+    /// The part that each operation with chains or narrow flanks must stay out of, up to the stock's top.
     parts: BTreeMap<OperationId, Vec<Point2>>,
 }
 
@@ -444,6 +446,7 @@ impl<'p> Player<'p> {
     /// Takes the chip of a cut out, all of whose flanks are cut.
     fn release(&mut self, cut: &Cut, vee: Vee) {
         self.section.release(vee);
+        let released = vee;
         let index = usize::from(cut.operation.0);
         let (Some(guard), Some(bound)) = (self.guards.get_mut(index), self.bounds.get(index)) else {
             return;
@@ -461,6 +464,42 @@ impl<'p> Player<'p> {
         if vee.walled().is_slit() {
             self.note_slit(vee.tip, bound, cut);
         }
+        self.note_narrow_flanks(released, cut);
+    }
+
+    /// Notes where flanks of a V enter the part whose sides lie deeper than the operation's own, so that its guard, which takes all
+    /// of them for as deep, does not show it.
+    fn note_narrow_flanks(&mut self, vee: Vee, cut: &Cut) {
+        let Some(bound) = self.bounds.get(usize::from(cut.operation.0)) else {
+            return;
+        };
+        let [Some(left), Some(right)] = [vee.left, vee.right] else {
+            return;
+        };
+        let flanks = [(Side::Left, left), (Side::Right, right)].map(|(side, slope)| ThickFlank {
+            tip: vee.tip,
+            side,
+            slope,
+            half: bound.aside.to_mm(),
+        });
+        if flanks
+            .iter()
+            .all(|flank| flank.drop() <= bound.drop.to_mm() + OVERCUT)
+        {
+            return;
+        }
+        let part = self.part_below_top(cut.operation, bound.part);
+        let nearest = flanks.map(|flank| flank.nearest(part));
+        for (at, gap) in nearest.into_iter().flatten() {
+            self.note_entry(at, -gap, |fault| cut.finding(fault));
+        }
+    }
+
+    /// A part up to the stock's top.
+    fn part_below_top(&mut self, operation: OperationId, part: &Profile) -> &[Point2] {
+        let top = self.program.stock.height.to_mm();
+        let kept = self.parts.entry(operation);
+        kept.or_insert_with(|| below_top(part, top))
     }
 
     /// Notes a slit, which leaves no trace in a surface, where it enters the part.
@@ -527,11 +566,7 @@ impl<'p> Player<'p> {
         let Some(bound) = self.bounds.get(usize::from(operation.0)) else {
             return;
         };
-        let top = self.program.stock.height.to_mm();
-        let part = self
-            .parts
-            .entry(operation)
-            .or_insert_with(|| below_top(bound.part, top));
+        let part = self.part_below_top(operation, bound.part);
         if let Some(entry) = piece.entry(part) {
             self.note_entry(entry.at, entry.depth, finding);
         }

@@ -49,6 +49,8 @@ mod krl_text;
 mod lsp;
 #[cfg(feature = "krl")]
 mod mutations;
+#[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
+mod narrower;
 mod offers;
 mod optimum_table;
 mod opw_peer;

@@ -260,6 +260,8 @@ pub struct PlannedTip {
 pub enum CutShape {
     /// What its tip does not say follows from the cuts before it: flanks up to the surface, a rim through it.
     Plain,
+    /// As `Plain`, with flanks whose swings are not the operation's.
+    Narrowed { left: Angle, right: Angle },
     /// A slit from its tip straight up.
     Slit {
         /// The height of the surface.

@@ -14,7 +14,7 @@ pub struct RoughVcut {
     /// The blade.
     pub blade: StraightBlade,
     /// Where the tips run, in the order in which they are cut; none for a lattice. Where they are given, `lattice`, `layer`
-    /// and `step` are what they come nearest to, `residual` and `sequence` have no say, and the swing is given.
+    /// and `step` are what they come nearest to, `residual`, `avoid` and `sequence` have no say, and the swing is given.
     pub tips: Option<Arc<Tips>>,
     /// How tips are laid out.
     pub lattice: Sourced<Auto<Lattice>>,
@@ -36,6 +36,8 @@ pub struct RoughVcut {
     pub allowance: Sourced<Length>,
     /// What becomes of tips that would cut the part.
     pub residual: Sourced<Auto<Residual>>,
+    /// How a V keeps out of the part and of what stands where it does not fit as it is. Default `lift`.
+    pub avoid: Sourced<Avoid>,
     /// Order of the flanks.
     pub order: Sourced<Auto<Order>>,
     /// Order of the Vs.
@@ -161,10 +163,20 @@ pub enum Residual {
     Mixed,
 }
 
+/// How a V that does not fit keeps out of the part and of what stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Avoid {
+    /// Its tip is raised, moved or dropped, by the residual strategy.
+    Lift,
+    /// The same where that keeps the limit on scallop; else each of its flanks is cut with the largest swing that is clear.
+    Swing,
+}
+
 words! {
     Lattice { Orthogonal = "orthogonal", Interlaced = "interlaced", Free = "free" }
     Objective { Time = "time", Scallop = "scallop", Cuts = "cuts", BladeLoad = "blade_load" }
     Formulas { Paper = "paper", Exact = "exact" }
     Residual { Discard = "discard", Lift = "lift", Shift = "shift", Mixed = "mixed" }
+    Avoid { Lift = "lift", Swing = "swing" }
     Sequence { Rows = "rows", Boustrophedon = "boustrophedon", Nearest = "nearest" }
 }

@@ -5,7 +5,7 @@ mod limits_block;
 mod tests;
 mod tips;
 
-use crate::asked::{Formulas, Lattice, Objective, Residual, RoughVcut, Sequence};
+use crate::asked::{Avoid, Formulas, Lattice, Objective, Residual, RoughVcut, Sequence};
 use vcutc_backend_api::units::Length;
 use vcutc_job::Order;
 use vcutc_job::operation::Operation;
@@ -39,6 +39,7 @@ pub const SPEC: BlockSpec = BlockSpec {
         value("residual", "auto")
             .takes(Takes::Words(|| words_of(Residual::WORDS)))
             .or_auto(),
+        value("avoid", "lift").takes(Takes::Words(|| words_of(Avoid::WORDS))),
         value("order", "auto")
             .takes(Takes::Words(|| words_of(Order::WORDS)))
             .or_auto(),
@@ -111,6 +112,7 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
     let formulas = reader.choice(&fields, "model", Formulas::WORDS);
     let allowance = reader.defaulted(&fields, "allowance", Length::ZERO);
     let residual = reader.auto_choice(&fields, "residual", Residual::WORDS);
+    let avoid = reader.choice(&fields, "avoid", Avoid::WORDS);
     let order = reader.auto_choice(&fields, "order", Order::WORDS);
     let sequence = reader.auto_choice(&fields, "sequence", Sequence::WORDS);
     let standoff = reader.auto(&fields, "standoff");
@@ -128,6 +130,7 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
         limits: limits?,
         allowance: allowance?,
         residual: residual?,
+        avoid: avoid?.unwrap_or(default(Avoid::Lift)),
         order: order?,
         sequence: sequence?,
         standoff: standoff?,

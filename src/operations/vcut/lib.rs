@@ -10,6 +10,8 @@
 
 pub mod asked;
 #[cfg(test)]
+mod avoid_tests;
+#[cfg(test)]
 mod body_tests;
 mod check;
 pub mod choice;

@@ -26,6 +26,7 @@ use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{
     Action, FeedId, Flank, OperationId, OperationKind, RateId, Site, SourceRef, Switch,
 };
+use vcutc_backend_api::units::Angle;
 use vcutc_geometry::grid;
 use vcutc_job::{Direction, Order};
 use vcutc_process::posture::{Feed, Holder};
@@ -69,6 +70,7 @@ struct Pass {
     x: f64,
     z: f64,
     flank: Flank,
+    swing: Angle,
     entrance: Entrance,
 }
 
@@ -190,6 +192,7 @@ impl<'b> Writer<'b> {
                 x: cut.tip.x,
                 z: cut.tip.z,
                 flank,
+                swing: cut.swings.of(flank),
                 entrance,
             }
         };
@@ -276,7 +279,7 @@ impl<'b> Writer<'b> {
             Site::Program | Site::Operation(_) | Site::Layer { .. } | Site::Cut { .. } => pass.site,
         };
         let above = Point3::new(pass.x, self.near(feed), self.safe);
-        self.travel(way, above, self.postures.cutting(pass.flank, feed));
+        self.travel(way, above, self.postures.cutting(pass.swing, pass.flank, feed));
         if self.running == Switch::Off {
             // The generator starts at the safe plane over the first cut and runs until the operation's end: it must be up
             // before the blade enters, and idling between layers costs nothing but waiting for it again would.
@@ -306,7 +309,7 @@ impl<'b> Writer<'b> {
     /// From beside the work to the start of a cut on the same side.
     fn go_beside(&mut self, pass: Pass, feed: Feed) {
         let start = Point3::new(pass.x, self.near(feed), pass.z);
-        let posture = self.postures.cutting(pass.flank, feed);
+        let posture = self.postures.cutting(pass.swing, pass.flank, feed);
         if start == self.tip {
             self.pass_between(pass.site, posture);
             self.turn(pass.site, posture);

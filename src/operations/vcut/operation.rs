@@ -1,6 +1,6 @@
 //! V-shaped roughing as an operation of a job.
 
-use crate::asked::{Objective, RoughVcut};
+use crate::asked::{Avoid, Objective, RoughVcut};
 use crate::choice;
 use crate::plan::PlannedVcut;
 use core::any::Any;
@@ -51,6 +51,20 @@ impl RoughVcut {
         swings.map(|swing| self.with_swing(Angle::deg(swing))).collect()
     }
 
+    /// None where they may be narrower already, or tips are given.
+    pub(crate) fn with_narrower_flanks(&self) -> Option<Variant> {
+        if self.avoid.value == Avoid::Swing || self.tips.is_some() {
+            return None;
+        }
+        let mut operation = self.clone();
+        operation.avoid.value = Avoid::Swing;
+        Some(Variant {
+            advice: "cut with narrower flanks where Vs do not fit: `avoid = swing`".to_owned(),
+            edits: self.setup.stated("avoid", self.avoid.span, Avoid::Swing.word()),
+            operation: Box::new(operation),
+        })
+    }
+
     fn with_swing(&self, swing: Angle) -> Variant {
         let text = format!("{} deg", show(swing.to_deg()));
         let mut operation = self.clone();
@@ -88,6 +102,7 @@ impl Operation for RoughVcut {
         self.formulas.forget_place(place);
         self.allowance.forget_place(place);
         self.residual.forget_place(place);
+        self.avoid.forget_place(place);
         self.order.forget_place(place);
         self.sequence.forget_place(place);
         self.standoff.forget_place(place);
@@ -138,6 +153,7 @@ impl Operation for RoughVcut {
         match of {
             Variation::Order => vec![self.in_the_other_order()],
             Variation::SmallerSwing => self.with_smaller_swings(planned.swing()),
+            Variation::NarrowerFlanks => self.with_narrower_flanks().into_iter().collect(),
         }
     }
 

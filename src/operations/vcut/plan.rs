@@ -8,6 +8,7 @@
 //! Tips lie on a grid of a micrometre ([`vcutc_geometry::grid`]), so that a program printed with three decimals says exactly what was
 //! planned and proven.
 
+pub mod avoid;
 pub mod blade_reach;
 mod complaints;
 pub mod decision;
@@ -29,6 +30,7 @@ pub use vcutc_job::planned::TipOrigin;
 pub use vcutc_process::plan::MOST_CUTS;
 
 use crate::asked::{Residual, RoughVcut, Sequence, Tips};
+use avoid::Swings;
 use complaints::{nothing_to_cut, too_many_cuts};
 use decision::Decision;
 use given::Course;
@@ -42,7 +44,7 @@ use vcutc_geometry::cone;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::{Order, PlanningJob};
-use vcutc_simulation::surface::Surface;
+use vcutc_simulation::surface::{Surface, Vee};
 
 /// V-shaped roughing with every choice made.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,10 +82,20 @@ pub struct PlannedCut {
     pub layer: u32,
     /// Where the blade's tip runs, in the x-z plane.
     pub tip: Point2,
+    /// The swings of its flanks.
+    pub swings: Swings,
     /// How the tip came to be where it is.
     pub origin: TipOrigin,
     /// How the blade gets from the cut left of it in the same layer to it, or back; over the safe plane if there is none.
     pub way: Way,
+}
+
+impl PlannedCut {
+    /// What it cuts.
+    #[must_use]
+    pub fn vee(&self) -> Vee {
+        self.swings.vee(self.tip)
+    }
 }
 
 /// The way between two neighbouring cuts of a layer.
@@ -151,15 +163,18 @@ pub fn lay_out(
     if layout.most_tips() > cuts_left || passed_corners(&layout, &parameters) > MOST_PASSED {
         return Err(Box::new(too_many_cuts(asked, &parameters, layout.most_tips())));
     }
+    let ground = Ground {
+        layout: &layout,
+        parameters: &parameters,
+        bound,
+    };
     let strategy = asked.residual.value.or(Residual::Mixed);
     let mut after = before.clone();
-    let planner =
-        residual::LayerPlanner::new(&layout, asked, strategy, &parameters, &job.profile, &mut after);
+    let planner = residual::LayerPlanner::new(ground, asked, strategy, job, &mut after);
     let mut decided = plan_layers(planner, &layout, cuts_left);
     if decided.as_ref().is_ok_and(|(cuts, _)| cuts.is_empty()) && strategy == Residual::Mixed {
         // Where all there is to cut is less than what may stay, `mixed` takes it rather than nothing.
-        let planner =
-            residual::LayerPlanner::new(&layout, asked, strategy, &parameters, &job.profile, &mut after);
+        let planner = residual::LayerPlanner::new(ground, asked, strategy, job, &mut after);
         decided = plan_layers(planner.thorough(), &layout, cuts_left);
     }
     let (cuts, strategies) = match decided {
@@ -168,11 +183,6 @@ pub fn lay_out(
         }
         Ok(decided) => decided,
         Err(count) => return Err(Box::new(too_many_cuts(asked, &parameters, count))),
-    };
-    let ground = Ground {
-        layout: &layout,
-        parameters: &parameters,
-        bound,
     };
     let vcut = PlannedVcut {
         strategy,
@@ -188,11 +198,14 @@ pub fn lay_out(
 }
 
 /// What is known of an operation before its cuts are.
-#[derive(Clone, Copy)]
-struct Ground<'g> {
-    layout: &'g lattice::Layout<'g>,
-    parameters: &'g VcutParameters,
-    bound: &'g Profile,
+#[derive(Clone, Copy, Debug)]
+pub struct Ground<'g> {
+    /// Where its tips may lie.
+    pub layout: &'g lattice::Layout<'g>,
+    /// What is decided.
+    pub parameters: &'g VcutParameters,
+    /// The part with its allowance.
+    pub bound: &'g Profile,
 }
 
 /// An operation without cuts.
@@ -249,6 +262,13 @@ impl PlannedVcut {
     #[must_use]
     pub fn is_found_by_simulation(&self) -> bool {
         self.decisions.iter().any(|decision| decision.field == PARAMETERS)
+    }
+
+    /// The swings of the Vs that have narrower flanks than the others.
+    pub fn narrowed(&self) -> impl Iterator<Item = Swings> + '_ {
+        let regular = Swings::even(self.parameters.swing);
+        let swings = self.cuts.iter().map(|cut| cut.swings);
+        swings.filter(move |swings| *swings != regular)
     }
 
     /// The same cuts in another order. Given tips keep their sequence.

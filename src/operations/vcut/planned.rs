@@ -2,6 +2,7 @@
 
 use crate::asked::{RoughVcut, Sequence};
 use crate::plan::PlannedVcut;
+use crate::plan::avoid::Swings;
 use crate::plan::removable::Removable;
 use crate::{choice, lower, summary, tables, verdict};
 use core::any::Any;
@@ -30,6 +31,18 @@ impl PlannedVcut {
     }
 }
 
+impl PlannedVcut {
+    /// What pictures and lists show of a V with such flanks.
+    fn shape(&self, swings: Swings) -> CutShape {
+        let Swings { left, right } = swings;
+        if swings == Swings::even(self.parameters.swing) {
+            CutShape::Plain
+        } else {
+            CutShape::Narrowed { left, right }
+        }
+    }
+}
+
 impl PlannedOperation for PlannedVcut {
     fn asked(&self) -> &dyn Operation {
         &self.asked
@@ -49,7 +62,7 @@ impl PlannedOperation for PlannedVcut {
             layer: cut.layer,
             tip: cut.tip,
             origin: cut.origin,
-            shape: CutShape::Plain,
+            shape: self.shape(cut.swings),
         })
         .collect()
     }
@@ -69,6 +82,7 @@ impl PlannedOperation for PlannedVcut {
     fn bound(&self) -> Bound<'_> {
         Bound {
             drop: self.parameters.drop,
+            aside: self.parameters.standoff,
             edge: self.asked.limits.edge.map(|limit| limit.value),
             ..Bound::of(&self.bound)
         }
@@ -91,6 +105,9 @@ impl PlannedOperation for PlannedVcut {
             && swing < vcut.parameters.swing
         {
             vcut.parameters.swing = swing;
+            for cut in &mut vcut.cuts {
+                cut.swings = cut.swings.within(swing);
+            }
         }
         let order = vcut.asked.order.value.or(order.unwrap_or(vcut.order));
         Box::new(vcut.along(order, Sequence::Rows, &Surface::untouched(stock), stock))

@@ -6,7 +6,7 @@
 )]
 
 use crate::PlannedVcut;
-use crate::asked::{Formulas, Lattice, Limits, Objective, Residual, RoughVcut, Sequence};
+use crate::asked::{Avoid, Formulas, Lattice, Limits, Objective, Residual, RoughVcut, Sequence};
 use vcutc_backend_api::ir::{Edges, Stock};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
 use vcutc_diagnostics::source::{SourceMap, Span};
@@ -75,6 +75,7 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
             limits: Limits::default(),
             allowance: mm(0.0),
             residual: given(Auto::Given(Residual::Mixed)),
+            avoid: given(Avoid::Lift),
             order: given(Auto::Given(Order::Point)),
             sequence: given(Auto::Given(Sequence::Rows)),
             standoff: given(Auto::Auto),

@@ -1,11 +1,12 @@
 //! What the plan of V-shaped roughing says of itself: lines of the summary, parameters for other programs, and the value of a
 //! field that was left open.
 
-use crate::asked::{RoughVcut, WhyChosen};
+use crate::asked::{Avoid, RoughVcut, WhyChosen};
 use crate::plan::PlannedVcut;
+use crate::plan::avoid::Swings;
 use crate::plan::decision::{Decision, Excess, Standing};
 use vcutc_backend_api::script::duration_words as time;
-use vcutc_backend_api::units::Length;
+use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::number::show;
 use vcutc_job::Auto;
 use vcutc_job::description::{ParameterFigure, degrees, millimetres, number, word};
@@ -45,10 +46,30 @@ pub(crate) fn summary(vcut: &PlannedVcut, report: &Report) -> Vec<(&'static str,
             scallop_spent(vcut, report).map_or_else(String::new, |spent| format!("; scallop {spent}"));
         lines.push(("bound by", format!("{}{spent}", reasons.join(", "))));
     }
+    lines.extend(avoided(vcut).map(|avoided| ("avoid", avoided)));
     for decision in &vcut.decisions {
         lines.push(("compared", format!("{}: {}", decision.field, compared(decision))));
     }
     lines
+}
+
+/// `7 Vs with narrower flanks, down to 0 deg`, where the job asks for them.
+fn avoided(vcut: &PlannedVcut) -> Option<String> {
+    if vcut.asked.avoid.value == Avoid::Lift {
+        return None;
+    }
+    let narrowed: Vec<Swings> = vcut.narrowed().collect();
+    let least = narrowed.iter().map(|swings| swings.least()).reduce(Angle::min);
+    Some(match (narrowed.len(), least) {
+        (_, None) => "no V needs narrower flanks".to_owned(),
+        (1, Some(least)) => format!("1 V with narrower flanks, down to {} deg", show(least.to_deg())),
+        (count, Some(least)) => {
+            format!(
+                "{count} Vs with narrower flanks, down to {} deg",
+                show(least.to_deg())
+            )
+        }
+    })
 }
 
 /// `2.97 of 3 mm = allowance 0.50 + standoff 0.30 + cusp 2.17`: where a limit that decided goes. Tips stay above the part by the
@@ -157,6 +178,10 @@ pub(crate) fn parameters(vcut: &PlannedVcut) -> Vec<ParameterFigure> {
             millimetres(asked.setup.run_out.value),
         ),
     ]);
+    if asked.avoid.value == Avoid::Swing {
+        let avoid = word(asked.avoid.value.word());
+        all.push(ParameterFigure::fixed("avoid", &asked.avoid, avoid));
+    }
     all.extend(speeds(asked));
     all
 }

@@ -1,6 +1,6 @@
 //! The parameters of V-shaped roughing for people, with the place or the reason of each value.
 
-use crate::asked::{Formulas, Objective, RoughVcut};
+use crate::asked::{Avoid, Formulas, Objective, RoughVcut};
 use crate::plan::PlannedVcut;
 use crate::summary::compared;
 use vcutc_backend_api::ir::Edges;
@@ -53,7 +53,7 @@ fn blade(asked: &RoughVcut) -> Vec<ParameterRow> {
 fn cut(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<ParameterRow> {
     let best = best(asked, planned);
     let found = &planned.parameters;
-    vec![
+    let mut rows = vec![
         ParameterRow::of("objective", asked.objective, |objective| {
             objective.word().to_owned()
         }),
@@ -78,7 +78,13 @@ fn cut(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<ParameterRow> {
                 "the strategy that leaves the part within its limits in the least time".to_owned()
             }),
         ),
-    ]
+    ];
+    if asked.avoid.value == Avoid::Swing {
+        rows.push(ParameterRow::of("avoid", asked.avoid, |avoid| {
+            avoid.word().to_owned()
+        }));
+    }
+    rows
 }
 
 /// Where tips are given, they stand for the rows of a lattice.
@@ -91,7 +97,7 @@ fn as_laid_out(asked: &RoughVcut, rows: Vec<ParameterRow>) -> Vec<ParameterRow> 
 
 /// Rows that say something where tips are given.
 fn without_lattice(asked: &RoughVcut, mut rows: Vec<ParameterRow>) -> Vec<ParameterRow> {
-    const OF_A_LATTICE: [&str; 8] = [
+    const OF_A_LATTICE: [&str; 9] = [
         "objective",
         "model",
         "lattice",
@@ -99,6 +105,7 @@ fn without_lattice(asked: &RoughVcut, mut rows: Vec<ParameterRow>) -> Vec<Parame
         "step",
         "overlap",
         "residual",
+        "avoid",
         "sequence",
     ];
     if asked.tips.is_some() {

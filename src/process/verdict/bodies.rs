@@ -1,7 +1,7 @@
 //! A blade's body that enters the work, in the user's words, and which change keeps it out.
 //!
-//! At most one change of each kind is offered: a smaller swing, a steeper rake, a body that begins higher. Each was tried: the
-//! first two planned and proven again, the last replayed on the same program.
+//! At most one change of each kind is offered: a smaller swing, smaller swings only where the blade does not fit, a steeper rake, a
+//! body that begins higher. Each was tried: all but the last planned and proven again, the last replayed on the same program.
 
 use super::attempts::Attempts;
 use super::{Proven, bodies, point};
@@ -12,7 +12,7 @@ use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::grid;
-use vcutc_job::operation::{Operation, Trials, Variant, WorksThere};
+use vcutc_job::operation::{Operation, Trials, Variant, Variation, WorksThere};
 use vcutc_job::{BladeRef, Body, PlannedJob, PlannedOperation};
 use vcutc_simulation::body::{Contact, During};
 
@@ -43,6 +43,7 @@ pub(super) fn explained(
     // First, because replays take the least work.
     let higher = higher_body(plan, proven, (blade, contact), attempts);
     let told = with_smaller_swing(told, planned, attempts, works_there);
+    let told = with_narrower_flanks(told, planned, attempts, works_there);
     let told = with_steeper_rake(told, planned.asked(), attempts, works_there);
     Some(match higher {
         Some(higher) => higher.offered(told, attempts),
@@ -112,6 +113,24 @@ fn with_smaller_swing(
     };
     match widest_swing(planned.swing().to_deg().ceil(), &mut tried) {
         Some(variant) if variant.edits.is_empty() => told.help(variant.advice),
+        Some(variant) => told.fix_all(variant.advice, &variant.edits),
+        None => told,
+    }
+}
+
+fn with_narrower_flanks(
+    told: Diagnostic,
+    planned: &dyn PlannedOperation,
+    attempts: &mut Attempts<'_>,
+    works_there: &mut WorksThere<'_>,
+) -> Diagnostic {
+    let variants = planned.asked().variants(planned, Variation::NarrowerFlanks);
+    let works = variants.into_iter().find(|variant| {
+        !variant.edits.is_empty()
+            && attempts.proves(&|operation| operation.assign(&*variant.operation))
+            && works_there(&variant.edits)
+    });
+    match works {
         Some(variant) => told.fix_all(variant.advice, &variant.edits),
         None => told,
     }

@@ -44,7 +44,7 @@ impl Rectangles {
         for (number, cut) in (1..).zip(cuts) {
             let mut origin = origin(cut.origin);
             let at = match cut.shape {
-                CutShape::Plain => cut.tip,
+                CutShape::Plain | CutShape::Narrowed { .. } => cut.tip,
                 CutShape::Track { contact } => {
                     origin = Origin::Track;
                     contact
@@ -98,7 +98,7 @@ fn marked(strip: &PlannedStrip) -> Point2 {
 fn disc(cuts: &[PlannedTip], width: f64) -> Option<Disc> {
     let strips = cuts.iter().filter_map(|cut| match cut.shape {
         CutShape::Strip(strip) => Some((cut.tip, strip)),
-        CutShape::Plain | CutShape::Slit { .. } | CutShape::Track { .. } => None,
+        CutShape::Plain | CutShape::Narrowed { .. } | CutShape::Slit { .. } | CutShape::Track { .. } => None,
     });
     let off = |tip: Point2| (tip.x - width / 2.0).abs();
     let (centre, strip) = strips.min_by(|(one, _), (other, _)| off(*one).total_cmp(&off(*other)))?;

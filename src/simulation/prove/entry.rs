@@ -4,7 +4,8 @@ use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 
 /// A part cut off at the stock's top: where the allowance would stand above it there is nothing to keep.
-pub(super) fn below_top(part: &Profile, top: f64) -> Vec<Point2> {
+#[must_use]
+pub fn below_top(part: &Profile, top: f64) -> Vec<Point2> {
     let points = part.points();
     let mut clipped = Vec::with_capacity(points.len());
     let mut before: Option<Point2> = None;

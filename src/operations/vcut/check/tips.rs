@@ -31,7 +31,7 @@ pub(super) struct Given {
 }
 
 /// Fields that lay out a lattice or choose among several.
-const OF_A_LATTICE: [&str; 8] = [
+const OF_A_LATTICE: [&str; 9] = [
     "lattice",
     "layer",
     "step",
@@ -39,6 +39,7 @@ const OF_A_LATTICE: [&str; 8] = [
     "objective",
     "model",
     "residual",
+    "avoid",
     "sequence",
 ];
 

@@ -22,7 +22,7 @@ pub(super) use met::TurnedDown;
 
 use super::bench::{Bench, Figures};
 use super::{Contender, MOST_CUTS_COMPARED, Unplanned, limits, route};
-use crate::asked::{Formulas, Lattice, Objective, Residual, RoughVcut};
+use crate::asked::{Avoid, Formulas, Lattice, Objective, Residual, RoughVcut};
 use crate::plan::decision::Standing;
 use crate::plan::floor::Floor;
 use crate::plan::optimum::Bound;
@@ -592,7 +592,9 @@ impl<'t> Trials<'t> {
     /// Whether a plan must leave too much.
     fn must_leave_too_much(&self, found: &VcutParameters) -> bool {
         let moves_tips = self.asked.residual.value == Auto::Given(Residual::Shift);
-        !moves_tips && self.asked.limits.scallop.is_some() && self.least_left(found).is_none()
+        // Narrower flanks reach below the floor of regular ones.
+        let is_bound = self.asked.avoid.value == Avoid::Lift && !moves_tips;
+        is_bound && self.asked.limits.scallop.is_some() && self.least_left(found).is_none()
     }
 }
 

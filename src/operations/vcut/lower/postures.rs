@@ -1,13 +1,15 @@
-//! The few postures of an operation, computed once each: its thousands of cuts hold the blade in four ways.
+//! The few postures of an operation, computed once each: most of its thousands of cuts hold the blade in four ways. Those of
+//! narrower flanks are computed when they are asked for.
 
 use vcutc_backend_api::geometry::Orientation;
 use vcutc_backend_api::ir::Flank;
+use vcutc_backend_api::units::Angle;
 use vcutc_process::posture::{Feed, Holder};
 
 /// What an operation's postures are.
 pub(super) struct Postures {
     holder: Holder,
-    /// Of the left flank and of the right one, each forward and backward.
+    /// Of the left flank and of the right one at the operation's swing, each forward and backward.
     cutting: [[Orientation; 2]; 2],
     /// By way of what the blade turns from one posture to another, where that was asked.
     ways: Vec<(Orientation, Orientation, Option<Orientation>)>,
@@ -23,8 +25,12 @@ impl Postures {
         }
     }
 
-    /// As [`Holder::cutting`].
-    pub(super) const fn cutting(&self, flank: Flank, feed: Feed) -> Orientation {
+    /// As [`Holder::cutting`] at that swing.
+    pub(super) fn cutting(&self, swing: Angle, flank: Flank, feed: Feed) -> Orientation {
+        if swing != self.holder.swing {
+            let narrower = Holder { swing, ..self.holder };
+            return narrower.cutting(flank, feed);
+        }
         let [left, right] = self.cutting;
         let [forward, backward] = match flank {
             Flank::Left => left,

@@ -5,6 +5,7 @@
 //! whose V would enter the part is refused here, where its place in the job is known; whether chips come free is for the
 //! proof.
 
+use super::avoid::Swings;
 use super::lattice::Layout;
 use super::parameters::VcutParameters;
 use super::route::Heading;
@@ -114,6 +115,7 @@ impl Planner<'_> {
             self.cuts.push(PlannedCut {
                 layer,
                 tip,
+                swings: Swings::even(self.parameters.swing),
                 origin: TipOrigin::Given,
                 way,
             });

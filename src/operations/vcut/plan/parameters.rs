@@ -17,7 +17,7 @@ use super::blade_reach::{self, Flanks};
 use super::optimum::{self, Bound, Problem};
 use super::refusal::Refused;
 use super::time_model::TimeModel;
-use crate::asked::{Lattice, RoughVcut};
+use crate::asked::{Avoid, Lattice, RoughVcut};
 use grid_forms::{fits, widest_step};
 use search::Chosen;
 use vcutc_backend_api::units::{Angle, Duration, Length};
@@ -372,7 +372,7 @@ fn as_given(asked: &RoughVcut, resolution: &Resolution, why: &Refusal) -> Option
 }
 
 /// The length of edge that may be used.
-fn usable_edge(asked: &RoughVcut) -> Length {
+pub(super) fn usable_edge(asked: &RoughVcut) -> Length {
     let blade = asked.blade.cutting_length.value;
     asked.limits.edge.map_or(blade, |limit| limit.value.min(blade))
 }
@@ -437,7 +437,11 @@ fn edge_overhang(asked: &RoughVcut, swing: Angle) -> Length {
                 rake: asked.setup.rake.value,
                 edges: asked.blade.edges,
             };
-            cutting.max(holder.turning_overhang(length, half_apex))
+            let turning = match asked.avoid.value {
+                Avoid::Lift => holder.turning_overhang(length, half_apex),
+                Avoid::Swing => holder.overhang_up_to_its_swing(length, half_apex),
+            };
+            cutting.max(turning)
         }
         // The blade turns above the work only.
         Direction::Forward | Direction::Backward => cutting,

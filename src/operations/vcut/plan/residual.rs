@@ -8,15 +8,22 @@
 //! otherwise it is raised, or if its chip would not come free there, moved sideways [Yu 2019]. Dropped tips make the material
 //! beside them stand higher than the lattice assumes, so that a regular tip near a steep part may find its flank too
 //! long: `mixed` then raises it by as little as frees its chip, and the layers below follow as far as the blade reaches.
+//!
+//! With `avoid = swing`, a V that does not fit is cut with narrower flanks where all this leaves too much ([`narrowed`]).
 
+mod narrowed;
+
+use super::avoid::{Avoidance, Swings};
 use super::lattice::{Column, Layout, Parity, Row};
 use super::parameters::VcutParameters;
-use super::{PlannedCut, TipOrigin, Way, smallest_gain};
+use super::{Ground, PlannedCut, TipOrigin, Way, smallest_gain};
 use crate::asked::{Residual, RoughVcut};
+use narrowed::Unfit;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::grid;
 use vcutc_geometry::profile::Profile;
+use vcutc_job::PlanningJob;
 use vcutc_simulation::surface::{Side, Surface, Vee};
 
 /// A tip of the lattice that would cut the part.
@@ -55,6 +62,8 @@ pub struct LayerPlanner<'p> {
     parameters: &'p VcutParameters,
     part: &'p Profile,
     surface: &'p mut Surface,
+    /// How flanks are narrowed, where the operation asks for it.
+    avoidance: Option<Avoidance<'p>>,
     /// Residual that `mixed` leaves standing.
     tolerated: f64,
     smallest_gain: f64,
@@ -75,13 +84,17 @@ impl<'p> LayerPlanner<'p> {
     /// For one operation on the surface left by those before.
     #[must_use]
     pub fn new(
-        layout: &'p Layout<'p>,
+        ground: Ground<'p>,
         asked: &RoughVcut,
         strategy: Residual,
-        parameters: &'p VcutParameters,
-        part: &'p Profile,
+        job: &'p PlanningJob<'_>,
         surface: &'p mut Surface,
     ) -> Self {
+        let Ground {
+            layout,
+            parameters,
+            bound,
+        } = ground;
         let inherent = parameters.scallop_bound(asked);
         let tolerated = asked.limits.scallop.map_or(inherent, |limit| limit.value);
         let relieves = strategy == Residual::Mixed && parameters.lattice_fits();
@@ -89,8 +102,9 @@ impl<'p> LayerPlanner<'p> {
             layout,
             strategy,
             parameters,
-            part,
+            part: &job.profile,
             surface,
+            avoidance: Avoidance::of(asked, parameters, bound, job.stock),
             tolerated: tolerated.to_mm(),
             smallest_gain: smallest_gain(parameters.layer).to_mm(),
             least_gain: match strategy {
@@ -117,11 +131,13 @@ impl<'p> LayerPlanner<'p> {
     pub fn layer(&mut self, layer: u32) {
         let z = self.layout.height(layer);
         let mut tips: Vec<(Point2, TipOrigin)> = Vec::new();
+        let mut unfit: Vec<Unfit> = Vec::new();
         let layout = self.layout;
         match layout.row(layer) {
             Row::Free(free) => {
                 for tip in free {
-                    tips.extend(self.reachable(tip, TipOrigin::Lattice));
+                    let decided = self.reachable(tip, TipOrigin::Lattice);
+                    self.decide(tip, decided, &mut tips, &mut unfit);
                 }
             }
             Row::Columns { parity, columns } => {
@@ -145,11 +161,30 @@ impl<'p> LayerPlanner<'p> {
                             },
                         )
                     };
-                    tips.extend(decided);
+                    let tip = Point2 { x: column.x, z };
+                    self.decide(tip, decided, &mut tips, &mut unfit);
                 }
             }
         }
         self.take(tips);
+        self.narrow(unfit);
+    }
+
+    /// Puts a tip of a layer where it is cut: with what was decided, or where that does not do with those that do not fit.
+    fn decide(
+        &mut self,
+        tip: Point2,
+        decided: Option<(Point2, TipOrigin)>,
+        tips: &mut Vec<(Point2, TipOrigin)>,
+        unfit: &mut Vec<Unfit>,
+    ) {
+        match decided {
+            Some((at, TipOrigin::Lattice)) if self.fits(at) => tips.push((at, TipOrigin::Lattice)),
+            decided => match self.unfit(tip, decided) {
+                Ok(one) => unfit.push(one),
+                Err(decided) => tips.extend(decided),
+            },
+        }
     }
 
     /// How many cuts have been decided so far.
@@ -175,6 +210,7 @@ impl<'p> LayerPlanner<'p> {
             self.cuts.push(PlannedCut {
                 layer: self.layers_cut,
                 tip,
+                swings: Swings::even(self.parameters.swing),
                 origin,
                 way,
             });
@@ -296,7 +332,8 @@ impl<'p> LayerPlanner<'p> {
     }
 
     /// Whether both flanks come out within the blade's reach, with room for its body, and the chip is low enough for the blade
-    /// to turn beside it.
+    /// to turn beside it. What room a stated body needs is looked at where flanks may be narrower; the proof looks at it
+    /// anyway.
     fn comes_free(&mut self, tip: Point2) -> bool {
         let reach = self.parameters.flanks.reach.to_mm();
         let vee = self.vee(tip);
@@ -309,20 +346,27 @@ impl<'p> LayerPlanner<'p> {
         }
         let [left, right] = runs;
         let highest = tip.z + self.parameters.clear_height.to_mm();
-        self.surface
+        let is_low = self
+            .surface
             .corners_between(left.exit.x, right.exit.x)
-            .all(|corner| corner.z <= highest)
+            .all(|corner| corner.z <= highest);
+        let avoidance = self.avoidance.as_ref();
+        is_low && avoidance.is_none_or(|avoidance| avoidance.bodies_clear(tip, self.surface))
     }
 
     fn gains(&mut self, tip: Point2) -> bool {
         self.surface.height(tip.x) - tip.z >= self.least_gain
     }
 
-    /// The most material standing on the part within half a step of x, along the part's normal.
+    /// The most material standing on the part about x, along the part's normal: within half a step, for the flanks of the next
+    /// tips take what is beyond. Where those may be narrower, within a step.
     fn residual_around(&mut self, x: f64) -> f64 {
-        let half = self.layout.step() / 2.0;
+        let within = match self.avoidance {
+            None => self.layout.step() / 2.0,
+            Some(_) => self.layout.step(),
+        };
         let (from, to) = self.part.span();
-        let (from, to) = ((x - half).max(from), (x + half).min(to));
+        let (from, to) = ((x - within).max(from), (x + within).min(to));
         let ends = [from, to].map(|end| Point2 {
             x: end,
             z: self.surface.height(end),

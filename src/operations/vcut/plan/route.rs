@@ -17,7 +17,7 @@ use core::ops::Range;
 use std::collections::BTreeSet;
 use vcutc_geometry::curve::Point2;
 use vcutc_job::Order;
-use vcutc_simulation::surface::{Surface, Vee};
+use vcutc_simulation::surface::Surface;
 
 /// Cuts of one layer that are made one after the other.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -278,7 +278,7 @@ impl<'p> Walker<'p> {
         };
         let way = self.way(first.tip);
         for cut in made {
-            self.surface.release(self.vee(cut.tip));
+            self.surface.release(cut.vee());
         }
         self.at = Some(match self.order {
             Order::Point => last.tip,
@@ -343,9 +343,5 @@ impl<'p> Walker<'p> {
             Way::Beside => (to.x - from.x).abs() + (to.z - from.z).abs(),
             Way::Over => (to.x - from.x).abs() + (safe - from.z) + (safe - to.z),
         })
-    }
-
-    const fn vee(&self, tip: Point2) -> Vee {
-        Vee::even(tip, self.terrain.parameters.flanks.slope)
     }
 }

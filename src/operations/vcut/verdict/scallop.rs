@@ -1,7 +1,7 @@
 //! More material left standing than the limit allows: what to change, as far as it was tried and works.
 
 use super::attempts::Attempts;
-use crate::asked::{Residual, RoughVcut};
+use crate::asked::{Avoid, Residual, RoughVcut};
 use crate::plan::PlannedVcut;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::Diagnostic;
@@ -48,7 +48,25 @@ pub(crate) fn helped(
     };
     match change {
         Some(change) => change.offered(over_limit),
-        None => limit_or_swing(over_limit, &mut attempts, vcut, report.scallop.height),
+        None => {
+            let offered = limit_or_swing(over_limit, &mut attempts, vcut, report.scallop.height);
+            with_narrower_flanks(offered, &mut attempts, vcut)
+        }
+    }
+}
+
+/// With flanks that are narrower only where they must be, if that keeps the limit.
+fn with_narrower_flanks(
+    diagnostic: Diagnostic,
+    attempts: &mut Attempts<'_>,
+    vcut: &PlannedVcut,
+) -> Diagnostic {
+    let variant = vcut.asked.with_narrower_flanks();
+    match variant.filter(|_| vcut.cuts.len() <= MANY) {
+        Some(variant) if attempts.prove(|asked| asked.avoid.value = Avoid::Swing) => {
+            diagnostic.fix_all(variant.advice, &variant.edits)
+        }
+        Some(_) | None => diagnostic,
     }
 }
 

@@ -6,8 +6,9 @@
 //! So a stretch waits for those whose tips show in the surface between the older tips that its outermost flanks meet, and
 //! for nothing else. Tips that no longer show have been cut under by one that does, and that one waits for them in turn.
 //!
-//! Where an operation before cut steeper flanks, its walls may stand above a flank farther off; a stretch then waits for
-//! all tips that show.
+//! Where steeper flanks were cut before, by another operation or by narrowed Vs of this one, their walls may stand above a
+//! flank farther off; a stretch then waits for all tips that show. So does one that has steeper flanks itself: what it leaves
+//! would be such walls for those that it does not wait for.
 
 use super::{TOUCH, Terrain, micrometres};
 use core::ops::Range;
@@ -117,10 +118,8 @@ impl<'p> Survey<'p> {
     }
 
     fn measure(&mut self, stretch: usize, range: &Range<usize>) -> Vec<Chip> {
-        let slope = self.terrain.parameters.flanks.slope;
         let cuts = self.terrain.cuts.get(range.clone()).unwrap_or_default();
-        let mut chip = |tip| {
-            let vee = Vee::even(tip, slope);
+        let mut chip = |vee: Vee| {
             let [left, right] = [Side::Left, Side::Right].map(|side| self.surface.flank(vee, side));
             Chip {
                 stretch,
@@ -129,16 +128,17 @@ impl<'p> Survey<'p> {
                 met: [left.met, right.met],
             }
         };
-        cuts.iter().map(|cut| chip(cut.tip)).collect()
+        cuts.iter().map(|cut| chip(cut.vee())).collect()
     }
 
     /// Stretches of the tips that show between the older tips that a stretch's chips meet.
     fn shown_under(&self, chips: &[Chip]) -> Vec<usize> {
-        if !self
-            .terrain
-            .before
-            .is_final_for(self.terrain.parameters.flanks.slope)
-        {
+        let slope = self.terrain.parameters.flanks.slope;
+        let is_steeper = |chip: &Chip| {
+            let slopes = [chip.vee.left, chip.vee.right].into_iter().flatten();
+            slopes.fold(0.0, f64::max) > slope
+        };
+        if !self.surface.is_final_for(slope) || chips.iter().any(is_steeper) {
             return self.shown.values().map(|&(_, stretch)| stretch).collect();
         }
         let from = chips.iter().map(|chip| chip.met[0]).fold(f64::INFINITY, f64::min);
