@@ -191,7 +191,7 @@ impl<'p> Avoidance<'p> {
 
     /// Whether the blade edge-on stays out of the part. Its middle plane keeps as far above it as that of regular flanks does, so
     /// that a swing as wide as theirs asks for what theirs ask for.
-    pub(super) fn clears_part(&self, tip: Point2, flank: Flank, swing: Angle) -> bool {
+    fn clears_part(&self, tip: Point2, flank: Flank, swing: Angle) -> bool {
         let (side, slope) = (side_of(flank), slope(swing));
         let thick = ThickFlank {
             tip,
@@ -277,7 +277,7 @@ const fn in_parts(parts: f64) -> Angle {
 }
 
 /// The side that a flank is on.
-pub(super) const fn side_of(flank: Flank) -> Side {
+const fn side_of(flank: Flank) -> Side {
     match flank {
         Flank::Left => Side::Left,
         Flank::Right => Side::Right,
