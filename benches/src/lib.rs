@@ -5,6 +5,7 @@
 //! * [`emission`] writes the same program text in other ways: with the standard library's formatting, and as bytes
 //!   that are already there.
 //! * [`contour`] finds the same machined contour by polygon clipping.
+//! * [`strips`] cuts layers of slits and strips, by us and by polygon clipping.
 //! * [`optimum`] asks for the parameters of least time, of us and of others.
 //! * [`kinematics`] solves the inverse kinematics of the same poses, by us and by others.
 //!
@@ -19,3 +20,4 @@ pub mod optimum;
 #[path = "../../tests/it/opw_peer.rs"]
 pub mod opw_peer;
 pub mod stages;
+pub mod strips;
