@@ -47,6 +47,9 @@ fn tell(optimisation: &Optimisation, picture: Option<&Picture>, console: &Consol
     for file in &written {
         text += &format!("wrote {}\n", file.path());
     }
+    if picture.is_some() && written.is_empty() {
+        text += "\nno picture: only operations of V cuts have a trade-off to draw\n";
+    }
     console.answer("optimisation", &text, report::body(optimisation))
 }
 

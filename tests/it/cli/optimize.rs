@@ -172,9 +172,21 @@ fn a_job_without_lattices_is_reported_as_planned() {
     let run = vcutc(root(), &["optimize", "examples/hill_rect.vcut"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert!(
-        run.stdout.contains("a kind that has no formulas here"),
+        run.stdout.contains("of a kind without tables; as planned"),
         "{}",
         run.stdout
     );
     assert!(run.stdout.contains(" slits, "), "{}", run.stdout);
+    // A picture that is asked for and cannot be made is not passed over.
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("a.svg");
+    let arguments = [
+        "optimize",
+        "examples/hill_rect.vcut",
+        "-o",
+        file.to_str().unwrap(),
+    ];
+    let run = vcutc(root(), &arguments);
+    assert!(run.stdout.contains("no picture: "), "{}", run.stdout);
+    assert!(!file.exists());
 }

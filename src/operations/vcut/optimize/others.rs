@@ -35,7 +35,7 @@ pub(super) fn of(plan: &PlannedJob, compiled: &Compiled, sources: &SourceMap) ->
 pub(super) fn texts(optimisation: &Optimisation) -> Vec<String> {
     let others = optimisation.others.iter().map(|other| {
         let head = format!(
-            "{}: operation {} ({}), a kind that has no formulas here; as planned\n\n",
+            "{}: operation {} ({}), of a kind without tables; as planned\n\n",
             optimisation.job, other.number, other.place
         );
         let lines = other.lines.iter().map(|(name, words)| row(name, words) + "\n");
