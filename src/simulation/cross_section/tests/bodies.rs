@@ -49,7 +49,8 @@ proptest! {
                 _ => None,
             });
             let depth = depth.unwrap_or(0.0);
-            prop_assert!(depth >= sampled - 2e-6, "{number}: {depth} {sampled}");
+            // The body is narrower by a nanometre, so on the steepest flank it is three nanometres less deep.
+            prop_assert!(depth >= sampled - 4e-6, "{number}: {depth} {sampled}");
             prop_assert!(depth <= sampled + 0.05, "{number}: {depth} {sampled}");
         }
     }

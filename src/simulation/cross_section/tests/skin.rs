@@ -181,7 +181,8 @@ proptest! {
             rims.push(rim);
             for (i, &x) in xs.iter().enumerate() {
                 let after = section.surface().height(x);
-                prop_assert!(after <= before[i] + 1e-9);
+                // Floors are chords no more than a micrometre above the rim, at its ends too.
+                prop_assert!(after <= before[i] + 1e-3, "{x} {after} {}", before[i]);
                 // What an earlier rim has cut below material that stood may come free too.
                 let over = rims.iter().filter(|rim| (rim.cover()[0]..=rim.cover()[1]).contains(&x));
                 let lowest = over.map(|rim| rim.height(x)).fold(before[i], f64::min);
