@@ -7,4 +7,5 @@ pub mod comparison;
 pub mod lower;
 pub mod plan;
 pub mod posture;
+pub mod standoff;
 pub mod verdict;

@@ -1,17 +1,15 @@
 //! `finish disc` through all stages and targets: what the programs leave, by points of the disc in space; read back; and refused.
 
 use crate::pipeline::Files;
-use crate::rect::machines;
+use crate::rect::{is_same, machines, mended};
 use crate::repository::root;
-use vcutc::diagnostics::{Code, Diagnostic, has_errors};
+use vcutc::diagnostics::{Code, has_errors};
 use vcutc::driver::{self, Outcome, Request, Typed};
 use vcutc::geometry::curve::Point2;
-use vcutc::readback::{Fresh, Reference};
 use vcutc::registry;
 use vcutc::simulation::cross_section::Taken;
 use vcutc::simulation::prove::watched;
 use vcutc_backend_api::ir::{Action, Program};
-use vcutc_backend_api::readback::ProgramFile;
 
 const CAP: &str = "z(x) = 30 mm - (x - 60 mm)^2 / 300 mm";
 /// Hollow with a radius of 150 mm.
@@ -121,14 +119,7 @@ fn all_targets_write_tracks_and_read_them_back() {
         );
         let backend = registry::backend(target).unwrap();
         let written = driver::write(&outcome, backend).unwrap().unwrap();
-        let is_same = |files: &[ProgramFile]| {
-            let reached = outcome.compiled.as_ref().unwrap().program.reached();
-            let (job, plan) = (outcome.job.as_ref(), outcome.plan.as_ref());
-            let fresh = Fresh::of(job, plan, reached, &written, backend.reader().unwrap()).unwrap();
-            let verdict = Reference::new(fresh).verify(files, &[], &mut outcome.sources.clone());
-            !has_errors(&verdict.diagnostics)
-        };
-        assert!(is_same(&written.files), "{target}");
+        assert!(is_same(&outcome, backend, &written.files), "{target}");
         // One digit of the last place at which the tip goes through the work.
         let mut files = written.files.clone();
         let file = files
@@ -136,28 +127,13 @@ fn all_targets_write_tracks_and_read_them_back() {
             .find(|file| file.text.contains("21.003"))
             .unwrap();
         file.text = file.text.replacen("21.003", "20.003", 1);
-        assert!(!is_same(&files), "{target}");
+        assert!(!is_same(&outcome, backend, &files), "{target}");
     }
 }
 
 fn codes(finish: &str) -> Vec<Code> {
     let outcome = proven(&job(CAP, finish));
     outcome.diagnostics.iter().map(|one| one.code).collect()
-}
-
-/// Applies the change that a refusal offers to the text of the job.
-fn mended(text: &str, refused: &Diagnostic) -> String {
-    let [fix] = refused.fixes.as_slice() else {
-        panic!("{refused:?}");
-    };
-    let mut edits = fix.edits.clone();
-    edits.sort_by_key(|edit| core::cmp::Reverse(edit.span.start));
-    let mut text = text.to_owned();
-    for edit in edits {
-        let range = edit.span.start as usize..edit.span.end as usize;
-        text.replace_range(range, &edit.replacement);
-    }
-    text
 }
 
 /// Compiles a job that is refused with a code and one change, and compiles it with that change.
@@ -172,7 +148,10 @@ fn assert_mended(text: &str, code: Code, change: &str) {
         refused.fixes.iter().any(|fix| fix.title.contains(change)),
         "{change}: {refused:?}"
     );
-    let outcome = proven(&mended(&text, refused));
+    let [fix] = refused.fixes.as_slice() else {
+        panic!("{change}: {refused:?}");
+    };
+    let outcome = proven(&mended(&text, fix));
     assert!(
         !has_errors(&outcome.diagnostics),
         "{change}: {:?}",

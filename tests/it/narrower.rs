@@ -1,10 +1,9 @@
 //! `avoid = swing`: Vs with narrower flanks beside a step, from the job to programs of all targets and back.
 
 use crate::pipeline::{Files, compile_on, emit_for, fixed, numbers, told};
+use crate::rect::is_same;
 use crate::repository::root;
-use vcutc::diagnostics::has_errors;
 use vcutc::driver::{self, Outcome};
-use vcutc::readback::{Fresh, Reference};
 use vcutc::registry;
 use vcutc::vcut::plan::PlannedVcut;
 use vcutc_backend_api::readback::ProgramFile;
@@ -107,15 +106,8 @@ fn every_target_reads_narrower_flanks_back() {
         let backend = registry::backend(target).unwrap();
         let written = driver::write(&outcome, backend).unwrap().unwrap();
         let files = written.files.clone();
-        let is_same = |files: &[ProgramFile]| {
-            let reached = outcome.compiled.as_ref().unwrap().program.reached();
-            let (job, plan) = (outcome.job.as_ref(), outcome.plan.as_ref());
-            let fresh = Fresh::of(job, plan, reached, &written, backend.reader().unwrap()).unwrap();
-            let verdict = Reference::new(fresh).verify(files, &[], &mut outcome.sources.clone());
-            !has_errors(&verdict.diagnostics)
-        };
-        assert!(is_same(&files), "{machine}");
-        assert!(!is_same(&without_a_cut(&files)), "{machine}");
+        assert!(is_same(&outcome, backend, &files), "{machine}");
+        assert!(!is_same(&outcome, backend, &without_a_cut(&files)), "{machine}");
     }
 }
 

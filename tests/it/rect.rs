@@ -2,7 +2,7 @@
 
 use crate::pipeline::Files;
 use crate::repository::root;
-use vcutc::diagnostics::{Code, has_errors};
+use vcutc::diagnostics::{Code, Fix, fix, has_errors};
 use vcutc::driver::{self, Outcome, Request, Typed};
 use vcutc::picture::Prefix;
 use vcutc::readback::{Fresh, Reference};
@@ -203,7 +203,7 @@ fn all_targets_write_strips_and_read_them_back() {
 }
 
 /// Whether files are the program of a job.
-fn is_same(outcome: &Outcome, backend: &dyn Backend, files: &[ProgramFile]) -> bool {
+pub(crate) fn is_same(outcome: &Outcome, backend: &dyn Backend, files: &[ProgramFile]) -> bool {
     let written = driver::write(outcome, backend).unwrap().unwrap();
     let reached = outcome.compiled.as_ref().unwrap().program.reached();
     let (job, plan) = (outcome.job.as_ref(), outcome.plan.as_ref());
@@ -412,20 +412,17 @@ fn the_offer_for_a_valley_works_and_vs_cut_the_rest() {
     assert!(removed(&both) > removed(&above) + 100.0);
 }
 
-/// What is wrong with a job, and whether its first fix mends it.
-fn mended(text: &str) -> (Vec<Code>, Option<Vec<Code>>) {
+/// The text of a job of one file with a change that is offered.
+pub(crate) fn mended(text: &str, fix: &Fix) -> String {
+    let file = fix.edits[0].span.file;
+    fix::apply(text, file, &fix.edits).expect("the change fits the text")
+}
+
+/// What is wrong with a job, and what is with its first fix.
+fn before_and_after(text: &str) -> (Vec<Code>, Option<Vec<Code>>) {
     let outcome = compiled(text.to_owned(), "kuka");
     let fix = outcome.diagnostics.first().and_then(|one| one.fixes.first());
-    let fixed = fix.map(|fix| {
-        let mut edits = fix.edits.clone();
-        edits.sort_by_key(|edit| core::cmp::Reverse(edit.span.start));
-        let mut text = text.to_owned();
-        for edit in edits {
-            let range = edit.span.start as usize..edit.span.end as usize;
-            text.replace_range(range, &edit.replacement);
-        }
-        codes(&compiled(text, "kuka"))
-    });
+    let fixed = fix.map(|fix| codes(&compiled(mended(text, fix), "kuka")));
     (codes(&outcome), fixed)
 }
 
@@ -434,13 +431,16 @@ fn what_a_job_states_keeps_to_its_bounds() {
     // The sides of a thick blade would enter the part.
     let thick =
         job(SLOPE, "standoff = 0 mm, residual = lift").replace("thickness = 0.5 mm", "thickness = 6 mm");
-    assert_eq!(mended(&thick), (vec![Code::OutOfRange], Some(Vec::new())));
+    assert_eq!(
+        before_and_after(&thick),
+        (vec![Code::OutOfRange], Some(Vec::new()))
+    );
     for sizes in [
         "layer = 5 mm, limits { layer <= 4 mm }",
         "step = 5 mm, limits { step >= 6 mm }",
     ] {
         assert_eq!(
-            mended(&job(SLOPE, sizes)),
+            before_and_after(&job(SLOPE, sizes)),
             (vec![Code::OutOfRange], Some(Vec::new())),
             "{sizes}"
         );
@@ -477,5 +477,8 @@ fn the_speed_of_the_disc_is_offered_where_it_belongs() {
     let text = text
         .replace("  disc = wheel\n", "")
         .replace(", free = 100 mm/s", "");
-    assert_eq!(mended(&text), (vec![Code::MissingField], Some(Vec::new())));
+    assert_eq!(
+        before_and_after(&text),
+        (vec![Code::MissingField], Some(Vec::new()))
+    );
 }

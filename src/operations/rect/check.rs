@@ -18,6 +18,7 @@ use vcutc_job::sema::session::Session;
 use vcutc_job::sema::setup::{self, inner_place};
 use vcutc_job::sema::written::Written;
 use vcutc_job::{Auto, Bounds, Disc, Sourced, StraightBlade};
+use vcutc_process::standoff;
 use vcutc_syntax::ast::{Block, Expr};
 
 /// How far the disc leans where the job does not say it: the usual angle of [Yu 2019] is 3 to 5 degrees.
@@ -159,36 +160,12 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughRect> 
 }
 
 /// A standoff with which the sides of the straight blade would enter what stays.
-fn too_near(
-    blade: &StraightBlade,
-    standoff: Sourced<Auto<Length>>,
-    written: Written<'_>,
-) -> Option<Diagnostic> {
-    let least = blade.thickness.value * 0.5;
-    let Auto::Given(given) = standoff.value else {
+fn too_near(blade: &StraightBlade, given: Sourced<Auto<Length>>, written: Written<'_>) -> Option<Diagnostic> {
+    let Auto::Given(standoff) = given.value else {
         return None;
     };
-    (given < least).then(|| {
-        let span = standoff.span.unwrap_or(written.place.head);
-        Diagnostic::new(
-            Code::OutOfRange,
-            format!(
-                "with a standoff of {} mm the blade's side would enter the part",
-                show(given.to_mm())
-            ),
-            span,
-            format!("less than half the blade's thickness, {} mm", show(least.to_mm())),
-        )
-        .and(
-            blade.thickness.span.unwrap_or(blade.span),
-            format!("{} mm thick", show(blade.thickness.value.to_mm())),
-        )
-        .help(format!(
-            "use at least {} mm, or leave it `auto`",
-            show(least.to_mm())
-        ))
-        .fix("let the compiler choose: `auto`", span, "auto")
-    })
+    let span = given.span.unwrap_or(written.place.head);
+    (standoff < standoff::least(blade)).then(|| standoff::too_small(blade, standoff, span))
 }
 
 /// A size that is given, and its limits do not allow.

@@ -119,7 +119,7 @@ fn with_smaller_swing(
 }
 
 fn with_narrower_flanks(
-    told: Diagnostic,
+    diagnostic: Diagnostic,
     planned: &dyn PlannedOperation,
     attempts: &mut Attempts<'_>,
     works_there: &mut WorksThere<'_>,
@@ -131,8 +131,8 @@ fn with_narrower_flanks(
             && works_there(&variant.edits)
     });
     match works {
-        Some(variant) => told.fix_all(variant.advice, &variant.edits),
-        None => told,
+        Some(variant) => diagnostic.fix_all(variant.advice, &variant.edits),
+        None => diagnostic,
     }
 }
 

@@ -485,7 +485,7 @@ fn resolve_standoff(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) -> Len
         Auto::Auto => least,
         Auto::Given(standoff) => {
             if standoff < least {
-                diagnostics.push(complaints::standoff_too_small(asked, standoff, least));
+                diagnostics.push(complaints::standoff_too_small(asked, standoff));
             }
             standoff
         }

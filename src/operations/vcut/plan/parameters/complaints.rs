@@ -51,23 +51,9 @@ fn usual_rake(half_apex: Angle) -> Angle {
     paper.max((half_apex + Angle::deg(90.0)) / 2.0)
 }
 
-pub(super) fn standoff_too_small(asked: &RoughVcut, standoff: Length, least: Length) -> Diagnostic {
-    let blade = &asked.blade;
+pub(super) fn standoff_too_small(asked: &RoughVcut, standoff: Length) -> Diagnostic {
     let span = asked.standoff.span.unwrap_or(asked.setup.head_span);
-    let (standoff, least) = (show(standoff.to_mm()), show(least.to_mm()));
-    let thickness = show(blade.thickness.value.to_mm());
-    Diagnostic::new(
-        Code::OutOfRange,
-        format!("with a standoff of {standoff} mm the blade's side would enter the part"),
-        span,
-        format!("less than half the blade's thickness, {least} mm"),
-    )
-    .and(
-        blade.thickness.span.unwrap_or(blade.span),
-        format!("{thickness} mm thick"),
-    )
-    .help(format!("use at least {least} mm, or leave it `auto`"))
-    .fix("let the compiler choose: `auto`", span, "auto")
+    vcutc_process::standoff::too_small(&asked.blade, standoff, span)
 }
 
 pub(super) fn extension_too_short(asked: &RoughVcut, extension: Length, least: Length) -> Diagnostic {
