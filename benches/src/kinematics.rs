@@ -4,7 +4,7 @@
 //! Poses are those of joints drawn evenly from the axes' ranges; all ways get the same ones, in the form that they take.
 //! Nothing is timed here. Each function solves all poses and returns how many answers it saw.
 
-use crate::opw_peer::{Random, Robot, peer, peer_pose};
+use crate::peer::{Random, Robot, peer, peer_pose};
 use rs_opw_kinematics::kinematic_traits::Kinematics;
 use rs_opw_kinematics::pose::Pose as PeerPose;
 use std::hint::black_box;

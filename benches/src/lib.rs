@@ -17,7 +17,7 @@ pub mod emission;
 pub mod jobs;
 pub mod kinematics;
 pub mod optimum;
-#[path = "../../tests/it/opw_peer.rs"]
-pub mod opw_peer;
+#[path = "../../src/machine/tests/kinematics/peer.rs"]
+pub mod peer;
 pub mod stages;
 pub mod strips;

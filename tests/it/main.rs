@@ -42,7 +42,6 @@ mod help;
 mod hostile;
 #[cfg(all(feature = "cli", feature = "gcode", feature = "krl", feature = "rapid"))]
 mod jobs;
-mod kinematics;
 #[cfg(feature = "krl")]
 mod krl_text;
 #[cfg(all(feature = "krl", feature = "lsp"))]
@@ -53,7 +52,6 @@ mod mutations;
 mod narrower;
 mod offers;
 mod optimum_table;
-mod opw_peer;
 #[cfg(feature = "krl")]
 mod pace;
 mod pages;

@@ -1,5 +1,5 @@
 //! Inverse kinematics of ortho-parallel arms beside those of the crate rs-opw-kinematics, on random poses. Shared with the
-//! benchmarks, whose tests run it optimised and on many more poses.
+//! benchmarks.
 #![allow(unreachable_pub, reason = "the library of the benchmarks takes it in")]
 
 use core::f64::consts::TAU;
@@ -9,10 +9,10 @@ use rs_opw_kinematics::parallelogram::Parallelogram;
 use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
 use rs_opw_kinematics::pose::Pose as PeerPose;
 use std::sync::Arc;
-use vcutc::machine::catalogue;
-use vcutc::machine::kinematics::opw::{Coupling, Opw};
-use vcutc::machine::kinematics::pose::Pose;
-use vcutc::machine::kinematics::{Joints, Mechanism};
+use vcutc_machine::catalogue;
+use vcutc_machine::kinematics::opw::{Coupling, Opw};
+use vcutc_machine::kinematics::pose::Pose;
+use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
 pub struct Random(pub u64);
