@@ -2,7 +2,6 @@
 
 use crate::asked::{AIR, RoughRect};
 use crate::plan::{PlannedRect, Stage, Strip};
-use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::profile::Profile;
 use vcutc_simulation::cross_section::CrossSection;
@@ -30,9 +29,9 @@ pub struct Extensions {
 }
 
 impl Planned {
-    /// What it leaves of a whole stock.
-    pub(crate) fn leaves(&self, stock: Stock) -> Surface {
-        let mut section = CrossSection::untouched(stock);
+    /// What it leaves of what the operations before left.
+    pub(crate) fn leaves(&self, before: Surface) -> Surface {
+        let mut section = CrossSection::new(before);
         let disc = Disc {
             radius: self.asked.disc.radius.value,
             depth: None,

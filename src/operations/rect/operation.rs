@@ -6,14 +6,14 @@ use crate::plan::blades::{Cover, Hold, Knife, Wheel};
 use crate::plan::model::Pace;
 use crate::plan::{self, Blades, Limits, Rounding, Span as Range, WORTH, Wish, Work};
 use crate::{lower, refused};
-use vcutc_backend_api::ir::{Flank, Stock};
+use vcutc_backend_api::ir::Flank;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::source::Span;
+use vcutc_geometry::curve::Point2;
 use vcutc_geometry::offset::offset_up;
 use vcutc_job::operation::{Ground, Laid, Operation, Unplanned};
 use vcutc_job::{BladeRef, Bounds, Machine, Setup, Sourced};
 use vcutc_process::posture::Feed;
-use vcutc_simulation::surface::Surface;
 
 impl Operation for RoughRect {
     fn setup(&self) -> &Setup {
@@ -65,14 +65,13 @@ impl Operation for RoughRect {
 
     fn plan<'j>(&'j self, ground: Ground<'j>) -> Result<Laid, Box<dyn Unplanned + 'j>> {
         let stock = ground.job.stock;
-        if !is_untouched(&ground.before, stock) {
-            return Err(Box::new(refused::on_cut_stock(self)));
-        }
+        let before: Vec<Point2> = ground.before.corners().collect();
         let bound = offset_up(&ground.job.profile, self.allowance.value);
         let work = Work {
             stock,
             part: &ground.job.profile,
             bound: &bound,
+            before: &before,
             allowance: self.allowance.value,
         };
         let blades = self.pair(ground.job.machine.as_ref());
@@ -86,7 +85,7 @@ impl Operation for RoughRect {
             bound,
             standoff,
         };
-        let after = planned.leaves(stock);
+        let after = planned.leaves(ground.before);
         Ok(Laid {
             planned: Box::new(planned),
             after,
@@ -172,12 +171,6 @@ fn range(bounds: Bounds<Length>) -> Range {
         least: bounds.least.map(|bound| bound.value),
         most: bounds.most.map(|bound| bound.value),
     }
-}
-
-/// Whether nothing has been cut yet.
-fn is_untouched(surface: &Surface, stock: Stock) -> bool {
-    let top = stock.height.to_mm();
-    surface.corners().all(|corner| corner.z >= top)
 }
 
 fn forget<T>(limit: &mut Option<Sourced<T>>, place: Span) {

@@ -43,6 +43,8 @@ pub struct Work<'w> {
     pub part: &'w Profile,
     /// The part with its allowance: nothing goes below.
     pub bound: &'w Profile,
+    /// What the operations before left of the stock, from side to side; two corners at one x are a wall.
+    pub before: &'w [Point2],
     /// The allowance.
     pub allowance: Length,
 }

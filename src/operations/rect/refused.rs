@@ -129,17 +129,6 @@ pub(crate) fn diagnostic(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
     }
 }
 
-/// Rectangular roughing begins with a whole stock.
-pub(crate) fn on_cut_stock(asked: &RoughRect) -> Diagnostic {
-    Diagnostic::new(
-        Code::NothingToCut,
-        "`rough rect` begins with a whole stock, and an operation before it has cut",
-        asked.setup.head_span,
-        "this operation",
-    )
-    .help("let `rough rect` come first, and the other operation cut what it leaves")
-}
-
 fn nothing(asked: &RoughRect) -> Diagnostic {
     Diagnostic::new(
         Code::NothingToCut,

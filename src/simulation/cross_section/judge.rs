@@ -35,7 +35,7 @@ impl CrossSection {
     }
 
     /// From where to where a strip is thicker than so much, with all between.
-    fn thicker(&mut self, rim: &Rim, [from, to]: [f64; 2], level: f64) -> Option<[f64; 2]> {
+    pub(super) fn thicker(&mut self, rim: &Rim, [from, to]: [f64; 2], level: f64) -> Option<[f64; 2]> {
         let mut span: Option<[f64; 2]> = None;
         let mut before: Option<Point2> = None;
         for corner in self.surface.stretch(from, to) {

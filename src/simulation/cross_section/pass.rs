@@ -194,7 +194,7 @@ impl CrossSection {
         freed
     }
 
-    /// Says which piece is the strip, and what is wrong with it and with the others.
+    /// Says which piece is the strip, or its first part, and what is wrong with it and with the others.
     fn judge(&mut self, disc: &Disc, pass: &DiscPass, pieces: &[Piece], outcome: &mut PassOutcome) {
         let rim = pass.rim(disc);
         let shave = pass.shave.unwrap_or_else(|| rim.depth()).to_mm() + tolerance(&rim);
@@ -227,11 +227,25 @@ impl CrossSection {
         }
         let others = rest
             .iter()
+            .filter(|piece| piece.height > shave)
             .filter(|piece| strip.is_none_or(|strip| !core::ptr::eq(**piece, strip)));
-        let met = others.filter(|piece| piece.height > shave);
+        // Grooves of operations before may have divided the strip: what lies within the width that the disc takes is of it.
+        let mut is_of_strip = |piece: &Piece| {
+            let far = self.thicker(&rim, piece.span, shave).unwrap_or(piece.span);
+            let span = strip.zip(disc.width).map(|(strip, width)| match outer {
+                Side::Left => (far[1] - strip.span[0], width),
+                Side::Right => (strip.span[1] - far[0], width),
+            });
+            piece.is_free() && span.is_some_and(|(span, width)| span <= width.to_mm() + TOUCH)
+        };
+        let (parts, met): (Vec<&Piece>, Vec<&Piece>) = others.partition(|piece| is_of_strip(piece));
+        for part in parts {
+            let faults = self.judge_size(disc, pass, part, shave);
+            outcome.faults.extend(faults);
+        }
         outcome
             .faults
-            .extend(met.map(|piece| PassFault::Meets(piece.stretch())));
+            .extend(met.into_iter().map(|piece| PassFault::Meets(piece.stretch())));
     }
 }
 

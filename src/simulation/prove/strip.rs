@@ -121,7 +121,7 @@ impl Through {
             }
             let line: Vec<Point2> = surface.stretch(from, to).collect();
             let pairs = line.windows(2).map(|pair| match pair {
-                [a, b] => (b.x - a.x) * ((a.z + b.z) / 2.0 - z).max(0.0),
+                [a, b] => area_above(*a, *b, z),
                 _ => 0.0,
             });
             pairs.sum()
@@ -136,6 +136,19 @@ impl Through {
             shave: None,
             clearance: strips.map_or(Length::ZERO, |strips| strips.clearance),
         }
+    }
+}
+
+/// The area between a straight piece and a height that it is above, in mm2.
+fn area_above(from: Point2, to: Point2, z: f64) -> f64 {
+    let (width, heights) = (to.x - from.x, [from.z - z, to.z - z]);
+    let [low, high] = [heights[0].min(heights[1]), heights[0].max(heights[1])];
+    if low >= 0.0 {
+        width * (low + high) / 2.0
+    } else if high > 0.0 {
+        width * high * high / (high - low) / 2.0
+    } else {
+        0.0
     }
 }
 

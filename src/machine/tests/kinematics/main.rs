@@ -2,6 +2,11 @@
 //!
 //! Built with `--release`, the comparison takes millions of poses, and the fingerprint shows that vector instructions give the
 //! bits that unoptimised code does.
+#![allow(
+    clippy::disallowed_methods,
+    clippy::unwrap_used,
+    reason = "tests compute with what is at hand, and stop at the first surprise"
+)]
 
 mod peer;
 

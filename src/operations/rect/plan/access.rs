@@ -50,12 +50,10 @@ impl Access<'_> {
             if open == Side::Right {
                 stuck.reverse();
             }
-            stuck.retain(|&piece| match self.free(piece, open, terrain) {
-                Some(strip) => {
-                    strips.push(strip);
-                    false
-                }
-                None => true,
+            stuck.retain(|&piece| {
+                let strip = self.free(piece, open, terrain);
+                strips.extend(strip);
+                strip.is_none() && !self.ground.is_gone(piece.extent, terrain)
             });
             if open == Side::Right {
                 stuck.reverse();
@@ -70,7 +68,8 @@ impl Access<'_> {
     fn free(&self, piece: Piece, open: Side, terrain: &mut Terrain) -> Option<Strip> {
         let centre = self.on_grid(self.wheel.centre_over(piece.extent, open), open);
         let stands = self.ground.stands(piece.extent.floor);
-        let is_free = self.is_uncovered(piece, terrain)
+        let is_free = !self.ground.is_gone(piece.extent, terrain)
+            && self.is_uncovered(piece, terrain)
             && self.passes(piece, open, centre, terrain)
             && self
                 .wheel
@@ -78,19 +77,34 @@ impl Access<'_> {
                 .iter()
                 .all(|&shaft| self.has_room(shaft, centre, terrain))
             && self.wheel.entry(self.bound, centre) <= TOUCH;
+        let top = terrain.highest(piece.extent.left, piece.extent.right);
         is_free.then(|| {
             terrain.lower(piece.extent.left, piece.extent.right, stands);
+            self.free_beyond(piece, open, terrain);
             Strip {
                 layer: piece.layer,
                 left: piece.extent.left,
                 right: piece.extent.right,
                 floor: piece.extent.floor,
-                top: piece.top,
+                top: top.unwrap_or(piece.top),
                 open,
                 centre,
                 origin: piece.origin,
             }
         })
+    }
+
+    /// Where a wall is closer to the far slit than the rim goes beyond it, what stands between comes out with the strip.
+    fn free_beyond(&self, piece: Piece, open: Side, terrain: &mut Terrain) {
+        let stands = self.ground.stands(piece.extent.floor);
+        let far = match open {
+            Side::Left => piece.extent.right,
+            Side::Right => piece.extent.left,
+        };
+        let beyond = self.wheel.beyond.to_mm();
+        if let Some(wall) = terrain.falls_beside(far, open.opposite(), beyond, stands) {
+            terrain.lower(far.min(wall), far.max(wall), stands);
+        }
     }
 
     /// The centre of the disc rounded so that its rim goes no less far beyond the slit, and its edge no lower.

@@ -3,7 +3,8 @@
 //! Both the side of a slit and the rim of the disc run a little beyond a strip. So the floor of a strip is the highest place of the
 //! part over the strip *and* that margin on either side: on a rising part they would enter it otherwise.
 
-use super::blades::{Knife, TOUCH, Wheel};
+use super::blades::{Extent, Knife, TOUCH, Wheel};
+use super::terrain::Terrain;
 use super::{Rounding, Work};
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
@@ -74,7 +75,7 @@ impl<'w> Ground<'w> {
         Self {
             work: terms.work,
             width: terms.work.stock.width.to_mm(),
-            top: terms.work.stock.height.to_mm(),
+            top: top(terms.work.before),
             sizes,
             margin: knife.standoff.max(wheel.beyond).to_mm(),
             down_to: terms.down_to.to_mm(),
@@ -113,6 +114,28 @@ impl<'w> Ground<'w> {
                 right: edge(i + 1),
             })
             .collect()
+    }
+
+    /// What stands before the first strip.
+    pub(crate) fn before(&self) -> Terrain {
+        Terrain::of(self.work.before, self.width)
+    }
+
+    /// What stands before the first strip over a stretch, and level beside it.
+    pub(crate) fn before_over(&self, over: Stretch) -> Terrain {
+        let corners = self.work.before;
+        let first = corners
+            .partition_point(|corner| corner.x < over.left)
+            .saturating_sub(1);
+        let last = corners.partition_point(|corner| corner.x <= over.right) + 1;
+        let within = corners.get(first..last.min(corners.len())).unwrap_or_default();
+        let side = |corner: Option<&Point2>, x: f64| corner.map(|corner| Point2::new(x, corner.z));
+        let all: Vec<Point2> = side(within.first(), 0.0)
+            .into_iter()
+            .chain(within.iter().copied())
+            .chain(side(within.last(), self.width))
+            .collect();
+        Terrain::of(&all, self.width)
     }
 
     /// How many strips a plan may come to, more or less.
@@ -173,6 +196,12 @@ impl<'w> Ground<'w> {
     /// The narrowest strip that is worth it, and that the rim of its neighbour's pass does not free too.
     pub(crate) fn least_width(&self) -> f64 {
         (self.worth * self.sizes.step).max(2.0 * self.margin)
+    }
+
+    /// Whether nothing of a strip stands any more.
+    pub(crate) fn is_gone(&self, strip: Extent, terrain: &Terrain) -> bool {
+        let highest = terrain.highest(strip.left, strip.right);
+        highest.is_none_or(|height| height <= self.stands(strip.floor) + TOUCH)
     }
 
     /// What a strip leaves standing.
@@ -251,6 +280,11 @@ pub(crate) fn highest(profile: &Profile, from: f64, to: f64) -> f64 {
         .map(|point| point.z)
         .chain(ends)
         .fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// The highest of some corners.
+fn top(corners: &[Point2]) -> f64 {
+    corners.iter().map(|corner| corner.z).fold(0.0, f64::max)
 }
 
 /// How many pieces of at most one a ratio makes.

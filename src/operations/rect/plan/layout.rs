@@ -10,7 +10,6 @@ use super::StripOrigin;
 use super::blades::{Extent, TOUCH};
 use super::ground::{Ground, Stretch};
 use super::terrain::Terrain;
-use vcutc_geometry::curve::Point2;
 
 /// A strip that is not in order yet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +58,13 @@ impl Layout {
             );
             top = ground.stands(level);
         }
+        Self::of(ground, levels, pieces)
+    }
+
+    /// Without the strips that have nothing to take, because operations before have taken it.
+    fn of(ground: &Ground<'_>, levels: Vec<f64>, mut pieces: Vec<Piece>) -> Self {
+        let before = ground.before();
+        pieces.retain(|piece| !ground.is_gone(piece.extent, &before));
         Self { levels, pieces }
     }
 
@@ -77,7 +83,7 @@ impl Layout {
             let ((layer, left), (other, beside)) = (place(a), place(b));
             layer.cmp(&other).then(left.total_cmp(&beside))
         });
-        Self { levels, pieces }
+        Self::of(ground, levels, pieces)
     }
 
     /// How many layers have strips; the lower ones may have none.
@@ -87,7 +93,7 @@ impl Layout {
 
     /// What they leave when all of them are out.
     pub(crate) fn after(&self, ground: &Ground<'_>) -> Terrain {
-        let mut terrain = Terrain::flat(ground.width, ground.top);
+        let mut terrain = ground.before();
         for Piece { extent, .. } in &self.pieces {
             terrain.lower(extent.left, extent.right, ground.stands(extent.floor));
         }
@@ -212,11 +218,12 @@ impl<'c, 'w> Column<'c, 'w> {
 
     /// The most that stays on the part over the column.
     pub(crate) fn left_by(&self, pieces: &[Piece]) -> f64 {
-        let mut terrain = Terrain::flat(self.ground.width, self.ground.top);
+        let mut terrain = self.ground.before_over(self.over);
         for Piece { extent, .. } in pieces {
             terrain.lower(extent.left, extent.right, self.ground.stands(extent.floor));
         }
-        self.ground.left_by(&contour(&terrain, Some(self.over)))
+        self.ground
+            .left_by(&terrain.corners(self.over.left, self.over.right))
     }
 }
 
@@ -226,18 +233,4 @@ const fn extent(over: Stretch, floor: f64) -> Extent {
         right: over.right,
         floor,
     }
-}
-
-/// The corners of a surface from left to right, all of it or over a stretch.
-pub(crate) fn contour(terrain: &Terrain, over: Option<Stretch>) -> Vec<Point2> {
-    let all = Stretch {
-        left: f64::NEG_INFINITY,
-        right: f64::INFINITY,
-    };
-    let over = over.unwrap_or(all);
-    let steps = terrain.steps().filter_map(|(step, end)| {
-        let (left, right) = (step.from.max(over.left), end.min(over.right));
-        (right - left > 0.0).then(|| [left, right].map(|x| Point2::new(x, step.height)))
-    });
-    steps.flatten().collect()
 }

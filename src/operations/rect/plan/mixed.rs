@@ -8,7 +8,7 @@
 
 use super::blades::TOUCH;
 use super::ground::Ground;
-use super::layout::{Column, Layout, Piece, contour};
+use super::layout::{Column, Layout, Piece};
 use super::slits::Through;
 
 /// A limit on what may stay, in mm.
@@ -35,7 +35,7 @@ pub(crate) fn layouts(ground: &Ground<'_>, tolerated: Tolerated, through: Throug
     let mut judged: Vec<(Layout, f64)> = all
         .into_iter()
         .map(|layout| {
-            let left = ground.left_by(&contour(&layout.after(ground), None));
+            let left = ground.left_by(&layout.after(ground).corners(0.0, ground.width));
             (layout, left)
         })
         .collect();

@@ -2,7 +2,7 @@
 //!
 //! Two strips side by side share their slit, and it goes down to the lower one's floor: whichever comes out first, the other one
 //! stands beside it until then. Where a neighbour lies at or below the floor, at the sides of the stock and beside walls, none is
-//! cut. So `n` strips in a row need `n - 1` slits, `n` with a wall at one end and `n + 1` with two *(derived here)*.
+//! cut, nor where an operation before has left less of the strip itself. So `n` strips in a row need `n - 1` slits, `n` with a wall at one end and `n + 1` with two *(derived here)*.
 
 use super::Slit;
 use super::blades::{Knife, TOUCH};
@@ -27,10 +27,12 @@ pub(crate) fn of_group(ground: &Ground<'_>, group: &[Piece], terrain: &mut Terra
         for Piece { extent, .. } in layer {
             let stands = ground.stands(extent.floor);
             for (x, side) in [(extent.left, Side::Left), (extent.right, Side::Right)] {
-                let is_walled = terrain
-                    .beside(x, side)
-                    .is_some_and(|height| height > stands + TOUCH);
-                if is_walled {
+                let stands_at = |side| {
+                    terrain
+                        .beside(x, side)
+                        .is_some_and(|height| height > stands + TOUCH)
+                };
+                if stands_at(side) && stands_at(side.opposite()) {
                     feet.push((x, ground.slit_bottom(extent.floor)));
                 }
             }

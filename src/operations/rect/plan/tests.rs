@@ -75,6 +75,8 @@ struct Sample {
     part: Profile,
     width: f64,
     height: f64,
+    /// What stands before.
+    before: Vec<Point2>,
 }
 
 impl Sample {
@@ -84,6 +86,7 @@ impl Sample {
             part: Profile::new(points).unwrap(),
             width,
             height,
+            before: vec![Point2::new(0.0, height), Point2::new(width, height)],
         }
     }
 
@@ -158,6 +161,7 @@ impl Sample {
             stock: self.stock(),
             part: &self.part,
             bound: &self.part,
+            before: &self.before,
             allowance: Length::ZERO,
         }
     }

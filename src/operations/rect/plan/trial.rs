@@ -3,7 +3,7 @@
 use super::access::{Access, first_run, nearer_side};
 use super::blades::{Cover, TOUCH};
 use super::ground::{Ground, Sizes, Terms};
-use super::layout::{Layout, Piece, contour};
+use super::layout::{Layout, Piece};
 use super::mixed::{self, Tolerated};
 use super::model::RectCut;
 use super::refusal::{Closed, Refusal};
@@ -88,7 +88,7 @@ impl Trial<'_> {
             return Err(Refusal::Nothing);
         }
         self.check_sizes(layout)?;
-        let mut standing = Terrain::flat(self.ground.width, self.ground.top);
+        let mut standing = self.ground.before();
         let mut slit = standing.clone();
         let mut stages: Vec<Stage> = Vec::new();
         let mut start = Side::Left;
@@ -224,7 +224,7 @@ impl Trial<'_> {
     }
 
     fn finished(&self, layout: &Layout, stages: Vec<Stage>, standing: &Terrain) -> PlannedRect {
-        let contour = contour(standing, None);
+        let contour = standing.corners(0.0, self.ground.width);
         let mut plan = PlannedRect {
             layer: Length::mm(self.choice.sizes.layer),
             step: Length::mm(self.choice.sizes.step),

@@ -171,6 +171,29 @@ fn a_shank_leaves_room_for_strips_of_15_mm() {
     }
 }
 
+/// The groove of an operation before divides a strip. Its parts count together, up to the width that the disc takes.
+#[test]
+fn a_strip_with_a_groove_in_it_comes_free_at_once() {
+    let outcome = |width: f64| {
+        let mut section = block(60.0, 36.0);
+        section.release(Vee::even(at(5.0, 29.0), 2.0));
+        section.slit(10.0, 30.0);
+        let disc = Disc {
+            width: Some(Length::mm(width)),
+            ..wheel()
+        };
+        let outcome = free(&mut section, &disc, beside(&disc, 10.0, 30.0, Side::Right));
+        assert_eq!(section.surface().height(1.0), 30.0);
+        outcome
+    };
+    // Up to the floor the groove is 1 mm wide.
+    let both = outcome(10.0);
+    assert_eq!((both.faults, both.freed.len()), (vec![], 2));
+    let narrow = outcome(9.999).faults;
+    let meets = |fault: &PassFault| matches!(fault, PassFault::Meets(stretch) if stretch.from == 0.0 && (stretch.to - 4.5).abs() < 1e-9);
+    assert!(narrow.len() == 1 && narrow.iter().all(meets), "{narrow:?}");
+}
+
 #[test]
 fn a_pocket_narrower_than_the_shank_is_closed() {
     let mut section = block(100.0, 40.0);

@@ -4,10 +4,9 @@ use super::*;
 use crate::plan::WORTH;
 use crate::plan::blades::TOUCH;
 use crate::plan::ground::{Ground, Sizes, Terms};
-use crate::plan::layout::{Layout, Piece, contour};
+use crate::plan::layout::{Layout, Piece};
 use crate::plan::model::Removal;
 use crate::plan::slits::of_group;
-use crate::plan::terrain::Terrain;
 use proptest::prelude::*;
 
 /// Strips, slits and what stays, whether or not a disc gets at the strips.
@@ -34,7 +33,7 @@ pub(super) fn laid(sample: &Sample, residual: Residual, layer: f64, step: f64) -
         Residual::Lift => Layout::lift(&ground),
         Residual::Shift | Residual::Mixed => Layout::shift(&ground),
     };
-    let mut terrain = Terrain::flat(ground.width, ground.top);
+    let mut terrain = ground.before();
     let layers = layout.pieces.chunk_by(|one, next| one.layer == next.layer);
     let slits = layers
         .map(|layer| of_group(&ground, layer, &mut terrain).len())
@@ -43,7 +42,7 @@ pub(super) fn laid(sample: &Sample, residual: Residual, layer: f64, step: f64) -
     Laid {
         strips: layout.pieces.len(),
         slits,
-        left: ground.left_by(&contour(&terrain, None)),
+        left: ground.left_by(&terrain.corners(0.0, ground.width)),
         removed: layout.pieces.iter().map(area).sum(),
     }
 }

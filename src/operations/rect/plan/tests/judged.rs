@@ -6,7 +6,6 @@ use crate::plan::blades::Extent;
 use crate::plan::ground::{Ground, Sizes, Terms};
 use crate::plan::layout::{Layout, Piece};
 use crate::plan::slits::of_group;
-use crate::plan::terrain::Terrain;
 use proptest::prelude::*;
 use vcutc_geometry::offset::offset_up;
 use vcutc_simulation::surface::Side;
@@ -70,7 +69,7 @@ fn stuck(sample: &Sample, blades: &Blades, wish: &Wish, sizes: Sizes) -> usize {
         Residual::Lift => Layout::lift(&ground),
         Residual::Shift | Residual::Mixed => Layout::shift(&ground),
     };
-    let mut terrain = Terrain::flat(ground.width, ground.top);
+    let mut terrain = ground.before();
     let layers = layout.pieces.chunk_by(|one, next| one.layer == next.layer);
     let slits: Vec<Slit> = layers
         .flat_map(|layer| of_group(&ground, layer, &mut terrain))
@@ -135,7 +134,7 @@ proptest! {
         };
         wish.limits.scallop = limit.filter(|_| residual == Residual::Mixed).map(Length::mm);
         match sample.plan(&blades, &wish) {
-            Ok(plan) => carried_out(&sample, &sample.part, &blades, &plan),
+            Ok(plan) => carried_out(&sample, &sample.part, &blades, &[&plan]),
             Err(Refusal::Closed(closed)) => {
                 if residual != Residual::Mixed {
                     let stuck = stuck(&sample, &blades, &wish, Sizes { layer, step });
@@ -182,12 +181,51 @@ proptest! {
         match plan(work, &blades, &wish, 100_000) {
             Ok(plan) => {
                 prop_assert!(plan.left.to_mm() <= limit + 1.1e-3);
-                carried_out(&sample, &bound, &blades, &plan);
+                carried_out(&sample, &bound, &blades, &[&plan]);
             }
             Err(
                 Refusal::Scallop { .. }
                 | Refusal::Closed(_)
                 | Refusal::TooHighForSlit { .. }
+                | Refusal::Nothing,
+            ) => {}
+            Err(other) => prop_assert!(false, "{:?}", other),
+        }
+    }
+
+    /// A second operation with other sizes cuts what a first one has left.
+    #[test]
+    fn what_an_operation_before_left_comes_out(
+        sample in curve(), blades in discs(), residual in residuals(), other in residuals(),
+        layers in (6.0..10.0_f64, 4.0..10.0_f64), steps in (5.0..15.0_f64, 5.0..15.0_f64), down_to in 10.0..40.0_f64,
+        limit in prop_oneof![Just(None), (3.0..15.0_f64).prop_map(Some)],
+    ) {
+        let sized = |layer: f64, step: f64, residual| {
+            let (widest, _) = blades.wheel.widest_strip(Length::mm(layer));
+            (widest.to_mm() > 5.0).then(|| Wish {
+                layer: Auto::Given(Length::mm(layer)),
+                step: Auto::Given(Length::mm(step.min(widest.to_mm()))),
+                worth: WORTH,
+                ..wish(residual)
+            })
+        };
+        let (Some(mut first), Some(mut second)) = (sized(layers.0, steps.0, residual), sized(layers.1, steps.1, other)) else {
+            return Ok(());
+        };
+        first.down_to = Length::mm(down_to);
+        second.limits.scallop = limit.filter(|_| other == Residual::Mixed).map(Length::mm);
+        let Ok(above) = sample.plan(&blades, &first) else { return Ok(()) };
+        let before = above.contour.clone();
+        let work = Work { before: &before, ..sample.work() };
+        match plan(work, &blades, &second, 100_000) {
+            Ok(below) => {
+                prop_assert!(below.left <= above.left + Length::mm(1e-6));
+                carried_out(&sample, &sample.part, &blades, &[&above, &below]);
+            }
+            Err(
+                Refusal::Closed(_)
+                | Refusal::TooHighForSlit { .. }
+                | Refusal::Scallop { .. }
                 | Refusal::Nothing,
             ) => {}
             Err(other) => prop_assert!(false, "{:?}", other),

@@ -37,7 +37,7 @@ proptest! {
             let plan = sample.plan(&blades(), &sizes(residual)).unwrap();
             prop_assert!(plan.left.to_mm() <= both + 1e-6, "{:?}", residual);
             if residual == Residual::Discard {
-                carried_out(&sample, &sample.part, &blades(), &plan);
+                carried_out(&sample, &sample.part, &blades(), &[&plan]);
             }
         }
         // Every lifted strip leaves what its width asks for, its corner above the low end.

@@ -13,7 +13,7 @@ use vcutc_simulation::surface::Side;
 fn planned(sample: &Sample, wish: &Wish) -> PlannedRect {
     let blades = blades();
     let plan = sample.plan(&blades, wish).unwrap();
-    carried_out(sample, &sample.part, &blades, &plan);
+    carried_out(sample, &sample.part, &blades, &[&plan]);
     plan
 }
 
@@ -172,7 +172,7 @@ fn a_disc_larger_than_the_stock() {
     blades.wheel.radius = Length::mm(60.0);
     let sample = Sample::flat(60.0, 70.0);
     let plan = sample.plan(&blades, &wish(Residual::Discard)).unwrap();
-    carried_out(&sample, &sample.part, &blades, &plan);
+    carried_out(&sample, &sample.part, &blades, &[&plan]);
     assert_eq!(plan.counts().strips, 36);
     assert!(
         plan.strips()
@@ -416,7 +416,7 @@ fn a_slit_beside_a_high_wall_is_refused() {
     let wish = wish(Residual::Discard);
     let mut blades = blades();
     let plan = sample.plan(&blades, &wish).unwrap();
-    carried_out(&sample, &sample.part, &blades, &plan);
+    carried_out(&sample, &sample.part, &blades, &[&plan]);
     assert!(plan.slits().all(|slit| slit.uncut - slit.bottom < 10.0 + 1e-9));
     blades.knife.covers = Cover::Standing;
     let refused = sample.plan(&blades, &wish);
@@ -432,7 +432,7 @@ fn a_thick_blade_keeps_off_the_part() {
     blades.knife.standoff = Length::mm(1.0);
     let sample = Sample::straight();
     let plan = sample.plan(&blades, &wish(Residual::Shift)).unwrap();
-    carried_out(&sample, &sample.part, &blades, &plan);
+    carried_out(&sample, &sample.part, &blades, &[&plan]);
     let slit = Slit {
         x: 50.0,
         bottom: 25.3,
