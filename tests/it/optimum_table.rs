@@ -119,10 +119,6 @@ fn rows() -> Vec<Row> {
 }
 
 #[test]
-#[allow(
-    clippy::disallowed_methods,
-    reason = "the test writes a committed file when asked to"
-)]
 fn the_table_of_optima_is_current_and_the_papers() {
     let rows = rows();
     // What the model says, and by which share the plan may differ from it: whole cuts and layers.
@@ -145,24 +141,35 @@ fn the_table_of_optima_is_current_and_the_papers() {
         assert!(needed <= p.flanks.reach + Length::mm(1e-6), "{}", row.name);
     }
     let lines: String = rows.iter().map(Row::line).collect();
-    let table = format!(
-        "{BEGIN}\n\
-        | Parameters | Swing, deg | Layer, mm | Step, mm | Overlap | Model, s | Planned, s | Model against plan | Cuts by the model | Cuts | Layers | Scallop bound, mm | Simulated, mm | Chips freed |\n\
-        | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n\
-        {lines}{END}"
+    keep(
+        PAGE,
+        BEGIN,
+        &format!(
+            "| Parameters | Swing, deg | Layer, mm | Step, mm | Overlap | Model, s | Planned, s | Model against plan | Cuts by the model | Cuts | Layers | Scallop bound, mm | Simulated, mm | Chips freed |\n\
+            | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n\
+            {lines}"
+        ),
     );
-    let page = read(PAGE);
-    let (before, rest) = page
-        .split_once(BEGIN)
+}
+
+/// Compares a table of a page with a fresh one, or writes it anew when asked to.
+#[allow(
+    clippy::disallowed_methods,
+    reason = "the test writes a committed file when asked to"
+)]
+pub(crate) fn keep(page: &str, begin: &str, table: &str) {
+    let text = read(page);
+    let (before, rest) = text
+        .split_once(begin)
         .expect("the page has a place for the table");
     let (_, after) = rest.split_once(END).expect("the table ends");
-    let fresh = format!("{before}{table}{after}");
+    let fresh = format!("{before}{begin}\n{table}{END}{after}");
     if std::env::var("UPDATE_DOCS").is_ok() {
-        std::fs::write(root().join(PAGE), &fresh).unwrap();
+        std::fs::write(root().join(page), &fresh).unwrap();
     } else {
         assert!(
-            page == fresh,
-            "{PAGE} is out of date: run the test with UPDATE_DOCS=1 and commit it\n{table}"
+            text == fresh,
+            "{page} is out of date: run the test with UPDATE_DOCS=1 and commit it\n{table}"
         );
     }
 }

@@ -1,6 +1,7 @@
 //! `rough auto`: both processes compiled, and the faster taken. The numbers are those of the paper and of plans that were checked
 //! by an independent model.
 
+use crate::optimum_table::keep;
 use crate::pipeline::Files;
 use crate::repository::root;
 use vcutc::diagnostics::{Code, has_errors};
@@ -75,13 +76,20 @@ impl Job {
 
     /// Both ways as planned: V cuts, then slits and strips.
     fn planned(self) -> [PlanTime; 2] {
+        self.counted().map(|(_, time)| time)
+    }
+
+    /// The same with how many cuts each has.
+    fn counted(self) -> [(usize, PlanTime); 2] {
         let files = Files::of(root().join("examples")).with("block.vcut", self.text());
         let job = driver::understood(request(&files)).unwrap();
         let ways = job.each_way().unwrap();
         let times = ways.iter().map(|(_, job)| {
             let (planned, found) = plan(job);
             assert!(!has_errors(&found), "{found:?}");
-            PlanTime::of(&planned.unwrap(), OperationId(0)).unwrap()
+            let planned = planned.unwrap();
+            let time = PlanTime::of(&planned, OperationId(0)).unwrap();
+            (planned.operations[0].cuts(), time)
         });
         times.collect::<Vec<_>>().try_into().unwrap()
     }
@@ -165,36 +173,126 @@ fn processes_are_even_where_the_independent_model_says() {
     }
 }
 
+/// The parts of the comparison that are no blocks, 1000 mm deep, with the best V cuts in s and the feed of the disc in m/min at which
+/// both processes are even.
+const CURVED: [(&str, f64, &str, f64, f64); 3] = [
+    (
+        "curve",
+        85.0,
+        "start (0 mm, 18 mm) bezier (20 mm, 30 mm) (60 mm, 34 mm) to (85 mm, 14 mm)",
+        283.4,
+        10.183,
+    ),
+    (
+        "slope",
+        100.0,
+        "start (0 mm, 10 mm) line to (100 mm, 40 mm)",
+        308.0,
+        9.714,
+    ),
+    (
+        "hill",
+        100.0,
+        "z(x) = 40 mm - 30 mm * ((x - 50 mm) / 50 mm) ^ 2",
+        271.1,
+        9.651,
+    ),
+];
+
+const fn curved(width: f64, profile: &'static str) -> Job {
+    Job {
+        size: [width, 1000.0, 50.0],
+        profile,
+        vcut: "limits { swing <= 50 deg }",
+        rect: "residual = shift, layer = 10 mm, step = 10 mm, lead = 0 deg, beyond = 0 mm, through = 1",
+        ..FLAT
+    }
+}
+
 /// On parts that are no blocks: strips up to the part against the best V cuts, 1000 mm deep.
 #[test]
 fn on_curved_parts_the_disc_has_to_be_as_fast_as_the_independent_model_says() {
-    for (width, profile, vcut_s, feed) in [
-        (
-            85.0,
-            "start (0 mm, 18 mm) bezier (20 mm, 30 mm) (60 mm, 34 mm) to (85 mm, 14 mm)",
-            283.4,
-            10.183,
-        ),
-        (100.0, "start (0 mm, 10 mm) line to (100 mm, 40 mm)", 308.0, 9.714),
-        (
-            100.0,
-            "z(x) = 40 mm - 30 mm * ((x - 50 mm) / 50 mm) ^ 2",
-            271.1,
-            9.651,
-        ),
-    ] {
-        let [vcut, rect] = Job {
-            size: [width, 1000.0, 50.0],
-            profile,
-            vcut: "limits { swing <= 50 deg }",
-            rect: "residual = shift, layer = 10 mm, step = 10 mm, lead = 0 deg, beyond = 0 mm, through = 1",
-            ..FLAT
-        }
-        .planned();
+    for (_, width, profile, vcut_s, feed) in CURVED {
+        let [vcut, rect] = curved(width, profile).planned();
         near(seconds(&vcut), vcut_s);
         near(rect.even_feed(&vcut).unwrap().to_mm_per_s() * 0.06, feed);
         assert_eq!(rect.changes, 5);
     }
+}
+
+/// A program takes what the formula of rectangular cutting adds up, term by term:
+/// `N_s (D + 2 b_s) / v_t + N_p (D + 2 b_p) / v_d + C t_c`, a step aside after every pass but the last of a run, and the ways from
+/// layer to layer.
+#[test]
+fn a_program_takes_as_long_as_the_terms_of_the_formula() {
+    let outcome = Job {
+        size: [60.0, 600.0, 70.0],
+        free: 6.0,
+        // No V cuts in so little time.
+        vcut: "limits { time <= 1 s }",
+        ..SLOW
+    }
+    .compiled();
+    let compiled = outcome.compiled.unwrap();
+    let times = compiled.report.times.all;
+    let [slits, strips, changes] = [30.0, 36.0, 11.0];
+    let (edge, leading) = (12.543, (60.0_f64 - 7.13).to_radians());
+    let slitting = slits * (600.0 + 2.0 * edge * leading.cos()) / (10_000.0 / 60.0);
+    let freeing = strips * (600.0 + 2.0 * 25.0) / (6_000.0 / 60.0);
+    // Extensions are rounded up to the micrometre that programs print.
+    let rounding = (slits + strips) * 2.0 * 1e-3 / 100.0;
+    let cutting = times.cutting.to_s() - slitting - freeing;
+    assert!((0.0..=rounding).contains(&cutting), "{cutting}");
+    assert!((times.waiting.to_s() - changes * 10.0).abs() < 1e-9);
+    // Between slits the blade turns by 60 deg at 90 deg/s, which takes longer than 10 mm at 200 mm/s; the disc without a lead does
+    // not turn. A run is what one blade does between two changes.
+    let runs = changes + 1.0;
+    let (slit_runs, strip_runs) = (runs / 2.0, runs / 2.0);
+    let aside = (slits - slit_runs) * (60.0 / 90.0) + (strips - strip_runs) * (10.0 / 200.0);
+    let ways = times.travel.to_s() + times.turning.to_s() - aside;
+    // Down from the safe plane and up again, at most from the lowest layer.
+    let lowest = 2.0 * (10.0 + 60.0) / 200.0;
+    assert!((0.0..=runs * lowest + 1e-6).contains(&ways), "{ways}");
+}
+
+/// The table of both processes in `docs/optimum.md`. `UPDATE_DOCS=1 cargo test --test it processes` writes it anew.
+#[test]
+fn the_table_of_processes_is_current() {
+    let best = Job {
+        vcut: "limits { swing <= 50 deg }",
+        ..FLAT
+    };
+    let blocks = [("block, swing of 30 deg", FLAT), ("block", best)];
+    let curved = CURVED.map(|(name, width, profile, ..)| (name, curved(width, profile)));
+    let lines: String = blocks
+        .into_iter()
+        .chain(curved)
+        .map(|(name, job)| {
+            let [(vees, vcut), (cuts, rect)] = job.counted();
+            let feed = rect.even_feed(&vcut).unwrap().to_mm_per_s() * 0.06;
+            let depth = match rect.is_faster_than(&vcut) {
+                Faster::Beyond(depth) => format!("from {:.0}", depth.to_mm()),
+                Faster::Below(depth) => format!("up to {:.0}", depth.to_mm()),
+                Faster::Everywhere => "all".to_owned(),
+                Faster::Nowhere => "none".to_owned(),
+            };
+            format!(
+                "| {name} | {vees} | {:.1} | {cuts} | {} | {:.1} | {:.1} | {feed:.2} | {depth} |\n",
+                seconds(&vcut),
+                rect.changes,
+                rect.at(rect.depth, 0.6).to_s(),
+                seconds(&rect),
+            )
+        })
+        .collect();
+    keep(
+        "docs/optimum.md",
+        "<!-- table: written by tests/it/processes.rs -->",
+        &format!(
+            "| Part | Vs | V cuts, s | Slits and strips | Changes | Disc at 6 m/min, s | at 10 m/min, s | Even at a disc feed of, m/min | Strips faster at 10 m/min, depths in mm |\n\
+            | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n{lines}"
+        ),
+    );
 }
 
 /// What is read off for another depth is what is planned for it.

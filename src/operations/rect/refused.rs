@@ -90,24 +90,31 @@ pub(crate) fn diagnostic(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
         .and(place(asked, asked.residual.span), "strips in other places in each layer")
         .help("use `through = 1`, or another `residual`"),
         Refusal::Scallop { left, limit } => scallop(asked, *left, *limit),
-        Refusal::Changes { changes, limit } => over(
+        Refusal::Changes {
+            changes,
+            limit,
+            works,
+        } => over(
             asked,
             format!("the plan has {changes} changes of blade, the limit is {limit}"),
-            limit_place(asked, asked.limits.changes),
+            asked.limits.changes,
+            works.map(|works| works.to_string()),
         ),
-        Refusal::Cuts { cuts, limit } => over(
+        Refusal::Cuts { cuts, limit, works } => over(
             asked,
             format!("the plan has {cuts} slits and strips, the limit is {limit}"),
-            limit_place(asked, asked.limits.cuts),
+            asked.limits.cuts,
+            works.map(|works| works.to_string()),
         ),
-        Refusal::Time { time, limit } => over(
+        Refusal::Time { time, limit, works } => over(
             asked,
             format!(
                 "the plan takes {}, the limit is {}",
                 duration_words(*time),
                 duration_words(*limit)
             ),
-            limit_place(asked, asked.limits.time),
+            asked.limits.time,
+            works.map(|works| format!("{} s", show((works.to_s() * 10.0).ceil() / 10.0))),
         ),
         Refusal::Bounds { field, least, most } => {
             let (name, bounds) = match field {
@@ -330,11 +337,26 @@ fn closed(asked: &RoughRect, closed: &Closed) -> Diagnostic {
     diagnostic.fix_all(advice, &asked.setup.stated("down_to", asked.down_to.span, &text))
 }
 
-fn over(asked: &RoughRect, message: String, limit: Span) -> Diagnostic {
-    Diagnostic::new(Code::LimitsConflict, message, limit, "this limit").and(
+/// A limit on the whole that no plan keeps, and one that a plan keeps.
+fn over<T>(
+    asked: &RoughRect,
+    message: String,
+    limit: Option<Sourced<T>>,
+    works: Option<String>,
+) -> Diagnostic {
+    let span = limit.and_then(|limit| limit.span);
+    let diagnostic = Diagnostic::new(Code::LimitsConflict, message, place(asked, span), "this limit").and(
         asked.setup.head_span,
         "no plan of this operation that was tried keeps it",
-    )
+    );
+    match (span, works) {
+        (Some(span), Some(works)) => {
+            let advice = format!("use a limit of {works}, which a plan keeps");
+            diagnostic.fix(advice, span, works)
+        }
+        (Some(_), None) => diagnostic.help("take it out to see what else is in the way"),
+        (None, _) => diagnostic,
+    }
 }
 
 fn limit_place<T>(asked: &RoughRect, limit: Option<Sourced<T>>) -> Span {

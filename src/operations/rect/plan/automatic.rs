@@ -7,7 +7,7 @@
 use super::ground::{Sizes, Terms};
 use super::refusal::{Closed, Refusal, SizeField};
 use super::trial::{self, Choice};
-use super::{Blades, PlannedRect, Rounding, Span, Wish, Work};
+use super::{Blades, Limits, PlannedRect, Rounding, Span, Wish, Work};
 use crate::asked::Residual;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::grid;
@@ -47,7 +47,8 @@ pub fn plan(work: Work<'_>, blades: &Blades, wish: &Wish, most: usize) -> Result
     };
     match search.best(wish.down_to) {
         Err(Refusal::Closed(closed)) => Err(Refusal::Closed(search.opened(closed))),
-        planned => planned,
+        Err(refusal) => Err(search.with_a_limit_that_works(refusal)),
+        Ok(plan) => Ok(plan),
     }
 }
 
@@ -169,13 +170,21 @@ impl Search<'_> {
             && counts.changes > limit as usize
         {
             let changes = u32::try_from(counts.changes).unwrap_or(u32::MAX);
-            return Err(Refusal::Changes { changes, limit });
+            return Err(Refusal::Changes {
+                changes,
+                limit,
+                works: None,
+            });
         }
         let cuts = counts.slits + counts.strips;
         if let Some(limit) = limits.cuts
             && cuts > limit
         {
-            return Err(Refusal::Cuts { cuts, limit });
+            return Err(Refusal::Cuts {
+                cuts,
+                limit,
+                works: None,
+            });
         }
         if let Some(limit) = limits.time
             && plan.time > limit
@@ -183,6 +192,7 @@ impl Search<'_> {
             return Err(Refusal::Time {
                 time: plan.time,
                 limit,
+                works: None,
             });
         }
         Ok(plan)
@@ -269,6 +279,49 @@ impl Search<'_> {
         match self.wish.rounding {
             Rounding::Exact => size,
             Rounding::Grid => Length::mm(grid::down(size.to_mm())),
+        }
+    }
+
+    /// A refusal by a limit on the whole, with a limit in its place that was tried: what is in the way may be another limit too.
+    fn with_a_limit_that_works(&self, refusal: Refusal) -> Refusal {
+        let planned = |limits: Limits| {
+            let wish = Wish {
+                limits,
+                ..self.wish.clone()
+            };
+            Search { wish: &wish, ..*self }.best(self.wish.down_to).ok()
+        };
+        let limits = self.wish.limits;
+        match refusal {
+            Refusal::Changes { changes, limit, .. } => {
+                let raised = Limits {
+                    changes: Some(changes),
+                    ..limits
+                };
+                let works = planned(raised).and_then(|plan| u32::try_from(plan.counts().changes).ok());
+                Refusal::Changes {
+                    changes,
+                    limit,
+                    works,
+                }
+            }
+            Refusal::Cuts { cuts, limit, .. } => {
+                let raised = Limits {
+                    cuts: Some(cuts),
+                    ..limits
+                };
+                let works = planned(raised).map(|plan| plan.counts().slits + plan.counts().strips);
+                Refusal::Cuts { cuts, limit, works }
+            }
+            Refusal::Time { time, limit, .. } => {
+                let raised = Limits {
+                    time: Some(time),
+                    ..limits
+                };
+                let works = planned(raised).map(|plan| plan.time);
+                Refusal::Time { time, limit, works }
+            }
+            other => other,
         }
     }
 

@@ -65,11 +65,24 @@ pub enum Refusal {
     /// More stays on the part than may.
     Scallop { left: Length, limit: Length },
     /// More changes of blade than there may be.
-    Changes { changes: u32, limit: u32 },
+    Changes {
+        changes: u32,
+        limit: u32,
+        /// A limit with which there is a plan, tried.
+        works: Option<u32>,
+    },
     /// More slits and strips than there may be.
-    Cuts { cuts: usize, limit: usize },
+    Cuts {
+        cuts: usize,
+        limit: usize,
+        works: Option<usize>,
+    },
     /// It takes longer than it may.
-    Time { time: Duration, limit: Duration },
+    Time {
+        time: Duration,
+        limit: Duration,
+        works: Option<Duration>,
+    },
     /// No layer or step within the bounds: the least that the job allows is more than blades or bounds do.
     Bounds {
         field: SizeField,
