@@ -73,6 +73,7 @@ fn of_interest(case: &Case, mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic>
     diagnostics
 }
 
+/// In one test, because to compile the jobs takes most of its time.
 #[test]
 fn jobs_that_cannot_be_cut_are_explained() {
     let mut surprises = Vec::new();
@@ -82,6 +83,7 @@ fn jobs_that_cannot_be_cut_are_explained() {
         insta::with_settings!({ omit_expression => true, prepend_module_to_snapshot => false }, {
             insta::assert_snapshot!(format!("{}\n{}", case.text, told(&diagnostics, &outcome)));
         });
+        fixes_mend(path, &case, &outcome, &diagnostics);
         let codes = numbers(&of_interest(&case, diagnostics));
         if codes.iter().any(|code| !case.expected().contains(code)) || codes.is_empty() {
             surprises.push(format!("{}: {codes:?}", path.display()));
@@ -91,31 +93,26 @@ fn jobs_that_cannot_be_cut_are_explained() {
 }
 
 /// Every fix that is offered leaves one fault less of its kind.
-#[test]
-fn fixes_of_the_process_mend() {
-    insta::glob!("../process/err", "*.vcut", |path| {
-        let case = Case::read(path);
-        let (outcome, diagnostics) = case.run();
-        for diagnostic in &diagnostics {
-            for fix in &diagnostic.fixes {
-                let (after, left) = run(&fixed(&case.files, &outcome, fix));
-                let messages = told(&left, &after);
-                let of_its_kind =
-                    |all: &[Diagnostic]| all.iter().filter(|other| other.code == diagnostic.code).count();
-                let errors = |all: &[Diagnostic]| {
-                    all.iter()
-                        .filter(|other| other.severity() == Severity::Error)
-                        .count()
-                };
-                assert!(
-                    of_its_kind(&left) < of_its_kind(&diagnostics) && errors(&left) <= errors(&diagnostics),
-                    "{}: {}\n{messages}",
-                    path.display(),
-                    fix.title
-                );
-            }
+fn fixes_mend(path: &Path, case: &Case, outcome: &Outcome, diagnostics: &[Diagnostic]) {
+    for diagnostic in diagnostics {
+        for fix in &diagnostic.fixes {
+            let (after, left) = run(&fixed(&case.files, outcome, fix));
+            let of_its_kind =
+                |all: &[Diagnostic]| all.iter().filter(|other| other.code == diagnostic.code).count();
+            let errors = |all: &[Diagnostic]| {
+                all.iter()
+                    .filter(|other| other.severity() == Severity::Error)
+                    .count()
+            };
+            assert!(
+                of_its_kind(&left) < of_its_kind(diagnostics) && errors(&left) <= errors(diagnostics),
+                "{}: {}\n{}",
+                path.display(),
+                fix.title,
+                told(&left, &after)
+            );
         }
-    });
+    }
 }
 
 #[test]

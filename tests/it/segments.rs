@@ -32,7 +32,8 @@ fn tip_of(op: &Op) -> Option<Point3> {
         | Action::AxisTravel { to, .. }
         | Action::Approach { to, .. }
         | Action::Retract { to, .. }
-        | Action::Cut { to, .. } => Some(to),
+        | Action::Cut { to, .. }
+        | Action::Follow { to, .. } => Some(to),
         _ => None,
     }
 }
@@ -40,7 +41,9 @@ fn tip_of(op: &Op) -> Option<Point3> {
 /// How an op leaves the blade turned.
 fn orientation_of(op: &Op) -> Option<OrientationId> {
     match op.action {
-        Action::Travel { orientation, .. } | Action::AxisTravel { orientation, .. } => Some(orientation),
+        Action::Travel { orientation, .. }
+        | Action::AxisTravel { orientation, .. }
+        | Action::Follow { orientation, .. } => Some(orientation),
         Action::Turn { to, .. } => Some(to),
         _ => None,
     }
@@ -57,7 +60,10 @@ fn place_after(ops: &[Op]) -> Place {
     let lost = ops.iter().rposition(loses_tip);
     let since = &ops[lost.map_or(0, |lost| lost + 1)..];
     // Only an op that states both leads from home, or from nowhere, to a pose.
-    let states_both = |op: &Op| tip_of(op).is_some() && orientation_of(op).is_some();
+    let states_both = |op: &Op| {
+        let leads_from_anywhere = !matches!(op.action, Action::Follow { .. });
+        leads_from_anywhere && tip_of(op).is_some() && orientation_of(op).is_some()
+    };
     let Some(first) = since.iter().position(states_both) else {
         return match lost.map(|lost| (ops[lost].action, &ops[..lost])) {
             Some((Action::Home, _)) => Place::Home,
@@ -99,7 +105,7 @@ fn angle(from: Orientation, to: Orientation) -> f64 {
 /// Seconds that the tip and the turn of a straight op need, each on its own.
 fn seconds(program: &Program, op: &Op, from: TipPose, to: TipPose) -> [f64; 2] {
     let (feed, rate) = match op.action {
-        Action::Travel { feed, rate, .. } => (Some(feed), Some(rate)),
+        Action::Travel { feed, rate, .. } | Action::Follow { feed, rate, .. } => (Some(feed), Some(rate)),
         Action::Approach { feed, .. } | Action::Retract { feed, .. } | Action::Cut { feed, .. } => {
             (Some(feed), None)
         }
@@ -170,12 +176,17 @@ fn is_as_walked(program: &Program, index: usize, segment: &Segment<'_>) {
             | Action::Approach { .. }
             | Action::Retract { .. }
             | Action::Cut { .. }
+            | Action::Follow { via: None, .. }
             | Action::Turn { .. },
             Some(_),
             Path::Linear(line),
         ) => is_straight(program, op, before, &line),
         (
-            Action::Approach { .. } | Action::Retract { .. } | Action::Cut { .. } | Action::Turn { .. },
+            Action::Approach { .. }
+            | Action::Retract { .. }
+            | Action::Cut { .. }
+            | Action::Follow { .. }
+            | Action::Turn { .. },
             None,
             Path::Still,
         )
