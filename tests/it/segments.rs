@@ -60,10 +60,7 @@ fn place_after(ops: &[Op]) -> Place {
     let lost = ops.iter().rposition(loses_tip);
     let since = &ops[lost.map_or(0, |lost| lost + 1)..];
     // Only an op that states both leads from home, or from nowhere, to a pose.
-    let states_both = |op: &Op| {
-        let leads_from_anywhere = !matches!(op.action, Action::Follow { .. });
-        leads_from_anywhere && tip_of(op).is_some() && orientation_of(op).is_some()
-    };
+    let states_both = |op: &Op| tip_of(op).is_some() && orientation_of(op).is_some();
     let Some(first) = since.iter().position(states_both) else {
         return match lost.map(|lost| (ops[lost].action, &ops[..lost])) {
             Some((Action::Home, _)) => Place::Home,
@@ -165,6 +162,9 @@ fn is_as_walked(program: &Program, index: usize, segment: &Segment<'_>) {
         | (
             Action::Travel {
                 to: tip, orientation, ..
+            }
+            | Action::Follow {
+                to: tip, orientation, ..
             },
             None,
             Path::Axes(to),
@@ -182,11 +182,7 @@ fn is_as_walked(program: &Program, index: usize, segment: &Segment<'_>) {
             Path::Linear(line),
         ) => is_straight(program, op, before, &line),
         (
-            Action::Approach { .. }
-            | Action::Retract { .. }
-            | Action::Cut { .. }
-            | Action::Follow { .. }
-            | Action::Turn { .. },
+            Action::Approach { .. } | Action::Retract { .. } | Action::Cut { .. } | Action::Turn { .. },
             None,
             Path::Still,
         )

@@ -264,14 +264,18 @@ fn scallop(asked: &RoughRect, left: Length, limit: Length) -> Diagnostic {
         limit_place(asked, asked.limits.scallop),
         "this limit",
     );
-    let diagnostic = if asked.allowance.value > Length::ZERO || sink > Length::ZERO {
-        diagnostic.note(format!(
-            "in that are the allowance of {} mm, and up to {} mm where the edge of the disc rises towards its rim, by its lead",
-            mm(asked.allowance.value),
+    let allowance = (asked.allowance.value > Length::ZERO)
+        .then(|| format!("the allowance of {} mm", mm(asked.allowance.value)));
+    let rise = (sink > Length::ZERO).then(|| {
+        format!(
+            "up to {} mm where the edge of the disc rises towards its rim, by its lead",
             mm(sink)
-        ))
-    } else {
-        diagnostic
+        )
+    });
+    let diagnostic = match (allowance, rise) {
+        (Some(allowance), Some(rise)) => diagnostic.note(format!("in that are {allowance}, and {rise}")),
+        (Some(one), None) | (None, Some(one)) => diagnostic.note(format!("in that: {one}")),
+        (None, None) => diagnostic,
     };
     let diagnostic = if asked.down_to.value > Length::ZERO {
         diagnostic.note("what `down_to` leaves counts too: a job that cuts it otherwise needs no limit here")
