@@ -68,6 +68,14 @@ impl Mesh {
         Ok(Self { corners, triangles })
     }
 
+    /// A mesh of nothing.
+    pub(crate) const fn empty() -> Self {
+        Self {
+            corners: Vec::new(),
+            triangles: Vec::new(),
+        }
+    }
+
     /// The corners.
     #[must_use]
     pub fn corners(&self) -> &[Point3] {

@@ -348,7 +348,7 @@ proptest! {
             tobj::load_obj_buf(&mut Cursor::new(&text), &options, |_| Err(tobj::LoadError::OpenFileFailed)).unwrap();
         let theirs: Vec<Triangle> = models.iter().flat_map(|model| {
             let (faces, _) = model.mesh.indices.as_chunks::<3>();
-            faces.iter().map(|face| face.map(|i| core::array::from_fn(|k| model.mesh.positions[i as usize * 3 + k] as f32)))
+            faces.iter().map(|face| face.map(|i| core::array::from_fn(|k| model.mesh.positions[i as usize * 3 + k])))
         }).collect();
         // Doubles where tobj has singles: equal after rounding. Corners may be equal without having one number in an OBJ.
         match obj(text.as_bytes()) {

@@ -1,0 +1,105 @@
+//! Surfaces for tests.
+
+use crate::mesh::Mesh;
+use crate::surface::{Accuracy, Placement, Plan, Surface};
+use proptest::prelude::*;
+use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
+use vcutc_backend_api::units::{Angle, Length};
+
+/// The frame of the workpiece itself.
+pub(crate) const FIXED: [f64; 4] = [0.0; 4];
+
+/// A placement that moves by x, y, z in mm and turns about z by an angle in degrees.
+pub(crate) fn placement([x, y, z, turn]: [f64; 4]) -> Placement {
+    let angles = Zyx {
+        a: Angle::deg(turn),
+        b: Angle::ZERO,
+        c: Angle::ZERO,
+    };
+    Placement {
+        frame: Frame {
+            origin: Point3::new(x, y, z),
+            orientation: Orientation::from_zyx(angles),
+        },
+        unit: Length::mm(1.0),
+    }
+}
+
+/// Small moves and turns.
+pub(crate) fn placed() -> impl Strategy<Value = [f64; 4]> {
+    prop_oneof![
+        Just(FIXED),
+        (-9.0..9.0, -9.0..9.0, -9.0..9.0, -5.0..5.0).prop_map(|(x, y, z, turn)| [x, y, z, turn]),
+    ]
+}
+
+pub(crate) fn surface_over(mesh: &Mesh, frame: [f64; 4], width: f64, depth: f64) -> Surface {
+    let plan = Plan {
+        width: Length::mm(width),
+        depth: Length::mm(depth),
+    };
+    let accuracy = Accuracy {
+        tolerance: Length::mm(0.01),
+        weld: Length::mm(0.01),
+    };
+    Surface::new(mesh, &placement(frame), plan, accuracy).unwrap()
+}
+
+/// A height field over `0..width`, `0..depth`, in so many cells along x and y.
+pub(crate) fn sampled(width: f64, depth: f64, cells: [u32; 2], height: &dyn Fn(f64, f64) -> f64) -> Mesh {
+    let [across, along] = cells;
+    let mut corners = Vec::new();
+    for j in 0..=along {
+        for i in 0..=across {
+            let (x, y) = (
+                width * f64::from(i) / f64::from(across),
+                depth * f64::from(j) / f64::from(along),
+            );
+            corners.push(Point3::new(x, y, height(x, y)));
+        }
+    }
+    let mut triangles = Vec::new();
+    for j in 0..along {
+        for i in 0..across {
+            let a = j * (across + 1) + i;
+            let [b, c, d] = [a + 1, a + across + 1, a + across + 2];
+            triangles.extend([[a, b, d], [a, d, c]]);
+        }
+    }
+    Mesh::new(corners, triangles).unwrap()
+}
+
+/// A wavy sheet that reaches well beyond the plan of this size.
+pub(crate) fn wavy(width: f64, depth: f64) -> Mesh {
+    let wave = |x: f64, y: f64| 5.0 * libm::sin(x / 11.0) + 4.0 * libm::cos(y / 7.0 + x / 30.0);
+    let mesh = sampled(width + 80.0, depth + 80.0, [23, 17], &wave);
+    let corners = mesh
+        .corners()
+        .iter()
+        .map(|p| Point3::new(p.x - 40.0, p.y - 40.0, p.z))
+        .collect();
+    Mesh::new(corners, mesh.triangles().to_vec()).unwrap()
+}
+
+/// Triangles that lie about at random.
+#[derive(Clone, Debug)]
+pub(crate) struct Sheets(Vec<[[f64; 3]; 3]>);
+
+impl Sheets {
+    /// These triangles together with a mesh.
+    pub(crate) fn over(&self, mesh: Mesh) -> Mesh {
+        let mut corners = mesh.corners().to_vec();
+        let mut triangles = mesh.triangles().to_vec();
+        for face in &self.0 {
+            let first = corners.len() as u32;
+            corners.extend(face.map(Point3::from));
+            triangles.push([first, first + 1, first + 2]);
+        }
+        Mesh::new(corners, triangles).unwrap()
+    }
+}
+
+pub(crate) fn sheets() -> impl Strategy<Value = Sheets> {
+    let corner = (-20.0..120.0, -20.0..80.0, -10.0..20.0).prop_map(|(x, y, z)| [x, y, z]);
+    prop::collection::vec(prop::array::uniform3(corner), 0..12).prop_map(Sheets)
+}
