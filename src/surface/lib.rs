@@ -1,13 +1,18 @@
 //! Surfaces of parts over the plan of the stock, in the workpiece frame: x across the cuts, y along them, z up. All
 //! coordinates in mm.
 //!
-//! 1. Files of triangles are read by [`import`] into a [`mesh::Mesh`].
+//! 1. Files of triangles are read by [`import`] into a [`mesh::Mesh`]. Heights on a [`grid`], rulings between profiles
+//!    ([`loft`]), formulas ([`formula`]) and patches ([`patch`]) become meshes too.
 //! 2. A mesh in its place, over the plan of the stock, is a [`surface::Surface`].
 //! 3. A surface has a shadow along y, sections, and a height at each place ([`shadow`]).
 
 mod envelope;
+pub mod formula;
+pub mod grid;
 pub mod import;
+pub mod loft;
 pub mod mesh;
+pub mod patch;
 pub mod shadow;
 pub mod surface;
 #[cfg(test)]
