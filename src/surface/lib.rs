@@ -4,8 +4,10 @@
 //! 1. Files of triangles are read by [`import`] into a [`mesh::Mesh`]. Heights on a [`grid`], rulings between profiles
 //!    ([`loft`]), formulas ([`formula`]) and patches ([`patch`]) become meshes too.
 //! 2. A mesh in its place, over the plan of the stock, is a [`surface::Surface`].
-//! 3. A surface has a shadow along y, sections, and a height at each place ([`shadow`]).
+//! 3. [`coverage`] says whether each place of the plan lies under a triangle, and what is odd about them.
+//! 4. A surface has a shadow along y, sections, and a height at each place ([`shadow`]).
 
+pub mod coverage;
 mod envelope;
 pub mod formula;
 pub mod grid;
@@ -13,6 +15,7 @@ pub mod import;
 pub mod loft;
 pub mod mesh;
 pub mod patch;
+mod region;
 pub mod shadow;
 pub mod surface;
 #[cfg(test)]

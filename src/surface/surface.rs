@@ -138,7 +138,7 @@ impl Surface {
         accuracy: Accuracy,
     ) -> Result<Self, SurfaceError> {
         let (width, depth) = (plan.width.to_mm(), plan.depth.to_mm());
-        let proper = |length: f64| length >= 1e-3 && length <= LARGEST_COORDINATE;
+        let proper = |length: f64| (1e-3..=LARGEST_COORDINATE).contains(&length);
         let small = |length: Length| length.to_mm() >= 0.0 && length.to_mm() <= LARGEST_COORDINATE;
         if !(proper(width) && proper(depth) && small(accuracy.tolerance) && small(accuracy.weld)) {
             return Err(SurfaceError::BadPlan);

@@ -18,7 +18,7 @@ pub(super) fn pieces(
     let (spans_u, spans_v) = (spans(in_u, p, rows), spans(in_v, q, columns));
     let mut pieces = Vec::with_capacity(spans_u.len() * spans_v.len());
     for &u in &spans_u {
-        // Bezier rows in u, of all columns.
+        // Bezier points in u, of all columns.
         let lines: Vec<Vec<Weighted>> = (0..columns)
             .map(|column| {
                 let points: Vec<Weighted> = (u - p..=u).map(|row| control[row * columns + column]).collect();
@@ -27,8 +27,8 @@ pub(super) fn pieces(
             .collect();
         for &v in &spans_v {
             let mut net = Vec::with_capacity((p + 1) * (q + 1));
-            for row in 0..=p {
-                let points: Vec<Weighted> = (v - q..=v).map(|column| lines[column][row]).collect();
+            for place in 0..=p {
+                let points: Vec<Weighted> = lines[v - q..=v].iter().map(|line| line[place]).collect();
                 net.extend(bezier_points(in_v, q, v, &points));
             }
             pieces.push(Piece {

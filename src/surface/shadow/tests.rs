@@ -16,7 +16,7 @@ fn brute(mesh: &Mesh, x: f64, y: f64) -> Option<f64> {
             let u = ((x - a.x) * (c.y - a.y) - (y - a.y) * (c.x - a.x)) / twice;
             let v = ((b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x)) / twice;
             let inside = u >= -1e-12 && v >= -1e-12 && u + v <= 1.0 + 1e-12;
-            inside.then(|| a.z + u * (b.z - a.z) + v * (c.z - a.z))
+            inside.then_some(a.z + u * (b.z - a.z) + v * (c.z - a.z))
         })
         .reduce(f64::max)
 }
