@@ -96,7 +96,7 @@ impl Surface {
                 holes.insert((cell.row, cell.column), hole);
             }
         }
-        let uncovered = holes.values().map(|hole| hole.area).sum::<f64>();
+        let uncovered = holes.values().fold(0.0, |sum, hole| sum + hole.area);
         let [width, depth] = self.size();
         let covered = width * depth - uncovered;
         let undercut = edges.facing[0].max(edges.facing[1]) - covered;

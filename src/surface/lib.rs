@@ -6,6 +6,7 @@
 //! 2. A mesh in its place, over the plan of the stock, is a [`surface::Surface`].
 //! 3. [`coverage`] says whether each place of the plan lies under a triangle, and what is odd about them.
 //! 4. A surface has a shadow along y, sections, and a height at each place ([`shadow`]).
+//! 5. [`residual`] says what straight cuts leave over it.
 
 pub mod coverage;
 mod envelope;
@@ -14,9 +15,12 @@ pub mod grid;
 pub mod import;
 pub mod loft;
 pub mod mesh;
+mod nearest;
 pub mod patch;
 mod region;
+pub mod residual;
 pub mod shadow;
 pub mod surface;
 #[cfg(test)]
 mod testkit;
+mod visible;

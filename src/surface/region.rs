@@ -10,7 +10,7 @@ use vcutc_backend_api::geometry::Point3;
 pub(crate) type Region = Vec<[f64; 2]>;
 
 /// What lies this near to a line in mm lies on it.
-pub(crate) const SLACK: f64 = 1e-7;
+pub(crate) const SLACK: f64 = 1e-8;
 
 /// All places on one side of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,14 +50,14 @@ impl Half {
         let is_first = a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
         let (a, b) = if is_first { (a, b) } else { (b, a) };
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-        let length = libm::hypot(dx, dy);
+        let length = (dx * dx + dy * dy).sqrt();
         let normal = [dy / length, -dx / length];
         let half = Self::new(normal, normal[0] * a[0] + normal[1] * a[1]);
         let beyond = half.beyond(inner);
         // Upright triangles have no sides; NaN compares as false.
-        if beyond > SLACK / 100.0 {
+        if beyond > SLACK / 10.0 {
             Some(half.other())
-        } else if beyond < -SLACK / 100.0 {
+        } else if beyond < -SLACK / 10.0 {
             Some(half)
         } else {
             None
@@ -170,15 +170,20 @@ pub(crate) fn middle(region: &[[f64; 2]]) -> [f64; 2] {
 
 /// Its least width, over the directions of its sides; the least one of all is among them.
 pub(crate) fn width(region: &[[f64; 2]]) -> f64 {
-    let Some(last) = region.last() else { return 0.0 };
+    let Some(last) = region.last().filter(|_| region.len() >= 3) else {
+        return 0.0;
+    };
     let starts = core::iter::once(last).chain(region);
     starts
         .zip(region)
         .filter(|(a, b)| a != b)
         .map(|(a, b)| {
-            let length = libm::hypot(b[0] - a[0], b[1] - a[1]);
+            let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+            let length = (dx * dx + dy * dy).sqrt();
             let far = |p: &[f64; 2]| twice_area([*a, *b, *p]).abs() / length;
             region.iter().map(far).fold(0.0, f64::max)
         })
-        .fold(f64::INFINITY, f64::min)
+        // None of a region all of whose corners are one place.
+        .reduce(f64::min)
+        .unwrap_or(0.0)
 }

@@ -127,11 +127,6 @@ impl Bins {
         self.rows
     }
 
-    /// The size of a bin along x and y, in mm.
-    pub(crate) const fn size(&self) -> [f64; 2] {
-        self.size
-    }
-
     /// All bins, row by row.
     pub(crate) fn all(&self) -> impl Iterator<Item = Cell> + use<> {
         let columns = self.columns;

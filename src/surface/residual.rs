@@ -1,0 +1,216 @@
+//! What straight cuts leave over a surface.
+//!
+//! After straight cuts along y the stock ends at heights `E(x)`, the same at every y: a polyline that may step. Between it and
+//! the upper side `p(x, y)` of the surface lies what is left. Over each part of a triangle that no other one covers, and each
+//! segment of the polyline, `E - p` is linear: the largest height is at a corner, and the volume is that of prisms. Both are
+//! exact up to rounding.
+//!
+//! The largest *distance* from the machined surface to the part is bounded: distances change no faster than places do, so
+//! that a patch of the machined surface of radius r holds none above that at its middle plus r (Shubert: A sequential
+//! method seeking the global maximum of a function, 1972, in two parameters). The patch with the highest bound is halved
+//! next, within a budget.
+
+mod distance;
+mod machined;
+
+pub use machined::{Machined, MachinedError};
+
+use crate::coverage::Tangled;
+use crate::region::{Half, middle, rectangle, twice_area, width, within};
+use crate::surface::Surface;
+use crate::visible::Part;
+use vcutc_backend_api::units::Length;
+use vcutc_geometry::curve::Point2;
+
+/// Polygons that are looked at before a surface counts as too tangled.
+const MOST_LOOKS: usize = 200_000_000;
+
+/// A volume.
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
+pub struct Volume(f64);
+
+impl Volume {
+    /// Cubic millimetres.
+    #[must_use]
+    pub const fn mm3(value: f64) -> Self {
+        Self(value)
+    }
+
+    /// Cubic millimetres.
+    #[must_use]
+    pub const fn to_mm3(self) -> f64 {
+        self.0
+    }
+
+    /// Litres.
+    #[must_use]
+    pub const fn to_litres(self) -> f64 {
+        self.0 / 1e6
+    }
+}
+
+/// A height over a place of the plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Over {
+    /// The height.
+    pub height: Length,
+    /// The place, along x and y.
+    pub place: [Length; 2],
+}
+
+/// A length that lies between two others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Between {
+    /// It is no less.
+    pub least: Length,
+    /// It is no more.
+    pub most: Length,
+}
+
+/// What is left over a surface. The surface counts as its triangles, without their tolerance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Residual {
+    /// The largest height of the machined surface above the part, and where.
+    pub highest: Over,
+    /// The least one, and where; below 0 it was cut into the part.
+    pub lowest: Over,
+    /// The largest distance from the machined surface to the part.
+    pub farthest: Between,
+    /// What is left. Where it was cut into the part nothing is; nor where the surface has a gap.
+    pub volume: Volume,
+}
+
+impl Surface {
+    /// What a machined profile that stands the same at every y leaves over the surface. Of triangles over each other the
+    /// highest count. Strips of lower ones, seen past the border of higher ones, count for the largest height only if they are
+    /// wider than the surface's `weld`: narrower ones are cracks.
+    ///
+    /// None when the surface has no area in plan.
+    ///
+    /// # Errors
+    /// If triangles lie over each other in such numbers that this takes too long.
+    pub fn residual(&self, machined: &Machined) -> Result<Option<Residual>, Tangled> {
+        let mut sum = Sum::default();
+        let mut looks = 0;
+        let mut parts = Vec::new();
+        let weld = self.accuracy().weld.to_mm();
+        for cell in self.bins().all() {
+            self.visible(cell, &mut looks, &mut parts);
+            if looks > MOST_LOOKS {
+                let place = middle(&rectangle(self.bins().bounds(cell))).map(Length::mm);
+                return Err(Tangled { place });
+            }
+            for part in &parts {
+                let is_crack = part.is_cut && width(&part.region) <= weld;
+                sum.add(
+                    part,
+                    machined,
+                    if is_crack { Counts::Volume } else { Counts::All },
+                );
+            }
+        }
+        let (Some(highest), Some(lowest)) = (sum.highest, sum.lowest) else {
+            return Ok(None);
+        };
+        let start = Point2::new(highest.1[0], highest.1[1]);
+        let [least, most] = distance::farthest(self, machined, start);
+        // Something of the part lies straight below.
+        let most = most.min(highest.0.max(-lowest.0)).max(least);
+        let over = |(height, place): (f64, [f64; 2])| Over {
+            height: Length::mm(height),
+            place: place.map(Length::mm),
+        };
+        Ok(Some(Residual {
+            highest: over(highest),
+            lowest: over(lowest),
+            farthest: Between {
+                least: Length::mm(least),
+                most: Length::mm(most),
+            },
+            volume: Volume(sum.volume),
+        }))
+    }
+}
+
+/// What a part counts for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Counts {
+    All,
+    Volume,
+}
+
+#[derive(Debug, Default)]
+struct Sum {
+    highest: Option<(f64, [f64; 2])>,
+    lowest: Option<(f64, [f64; 2])>,
+    volume: f64,
+}
+
+impl Sum {
+    fn add(&mut self, part: &Part, machined: &Machined, counts: Counts) {
+        let xs = || part.region.iter().map(|place| place[0]);
+        let from = xs().fold(f64::INFINITY, f64::min);
+        let to = xs().fold(f64::NEG_INFINITY, f64::max);
+        for [a, b] in machined.between(from, to) {
+            let left = within(&part.region, Half::new([-1.0, 0.0], -a.x));
+            let strip = within(&left, Half::new([1.0, 0.0], b.x));
+            if strip.len() < 3 {
+                continue;
+            }
+            let height = |place: [f64; 2]| machined::height(a, b, place[0]) - part.plane.at(place);
+            let corners: Vec<([f64; 2], f64)> = strip.iter().map(|&place| (place, height(place))).collect();
+            if counts == Counts::All {
+                for &(place, height) in &corners {
+                    if self.highest.is_none_or(|(most, _)| height > most) {
+                        self.highest = Some((height, place));
+                    }
+                    if self.lowest.is_none_or(|(least, _)| height < least) {
+                        self.lowest = Some((height, place));
+                    }
+                }
+            }
+            self.volume += volume(&above(&corners));
+        }
+    }
+}
+
+/// The part of a polygon where a linear height over it is not below 0, with the heights.
+fn above(corners: &[([f64; 2], f64)]) -> Vec<([f64; 2], f64)> {
+    if corners.iter().all(|&(_, height)| height >= 0.0) {
+        return corners.to_vec();
+    }
+    let mut out = Vec::with_capacity(corners.len() + 1);
+    let Some(&(mut last)) = corners.last() else {
+        return out;
+    };
+    for &(place, height) in corners {
+        if (last.1 >= 0.0) != (height >= 0.0) {
+            let share = last.1 / (last.1 - height);
+            let at = |axis: usize| last.0[axis] + (place[axis] - last.0[axis]) * share;
+            out.push(([at(0), at(1)], 0.0));
+        }
+        if height >= 0.0 {
+            out.push((place, height));
+        }
+        last = (place, height);
+    }
+    out
+}
+
+/// The volume of a prism with a linear height over a convex polygon.
+fn volume(corners: &[([f64; 2], f64)]) -> f64 {
+    let Some(&(first, low)) = corners.first() else {
+        return 0.0;
+    };
+    corners
+        .windows(2)
+        .skip(1)
+        .map(|pair| {
+            let [(a, u), (b, v)] = [pair[0], pair[1]];
+            twice_area([first, a, b]).abs() / 6.0 * (low + u + v)
+        })
+        .sum()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,103 @@
+//! A height over x that may step.
+
+use core::fmt;
+use vcutc_geometry::curve::Point2;
+
+/// The surface that straight cuts along y leave: a polyline whose x never decrease. Beyond its ends it goes on level.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Machined {
+    points: Vec<Point2>,
+}
+
+/// Why points are no machined profile. Indices count them from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MachinedError {
+    /// Fewer than two points, or all over one place.
+    TooFew,
+    /// A coordinate is not a number or out of range.
+    OutOfRange {
+        /// The point.
+        index: usize,
+    },
+    /// It turns back.
+    TurnsBack {
+        /// The first point that lies before the one before it.
+        index: usize,
+    },
+}
+
+impl fmt::Display for MachinedError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooFew => write!(f, "a machined profile takes two places or more"),
+            Self::OutOfRange { index } => write!(f, "point {index} is out of range"),
+            Self::TurnsBack { index } => write!(f, "point {index} lies before the one before it"),
+        }
+    }
+}
+
+impl core::error::Error for MachinedError {}
+
+impl Machined {
+    /// The machined surface over a polyline from left to right, in mm.
+    ///
+    /// # Errors
+    /// See [`MachinedError`].
+    pub fn new(points: Vec<Point2>) -> Result<Self, MachinedError> {
+        if let Some(index) = points.iter().position(|point| !point.is_in_range()) {
+            return Err(MachinedError::OutOfRange { index });
+        }
+        if let Some(index) = points.windows(2).position(|pair| pair[1].x < pair[0].x) {
+            return Err(MachinedError::TurnsBack { index: index + 1 });
+        }
+        match (points.first(), points.last()) {
+            (Some(first), Some(last)) if first.x < last.x => Ok(Self { points }),
+            _ => Err(MachinedError::TooFew),
+        }
+    }
+
+    /// The polyline.
+    #[must_use]
+    pub fn points(&self) -> &[Point2] {
+        &self.points
+    }
+
+    /// Its segments that reach over places from one x to another, without upright ones, and level ones beyond its ends.
+    pub(super) fn between(&self, from: f64, to: f64) -> impl Iterator<Item = [Point2; 2]> + '_ {
+        let level = |x: f64, z: f64, other: f64| [Point2::new(x.min(other), z), Point2::new(x.max(other), z)];
+        let first = self.points.first().filter(|first| from < first.x);
+        let last = self.points.last().filter(|last| to > last.x);
+        let start = self
+            .points
+            .partition_point(|point| point.x < from)
+            .saturating_sub(1);
+        let inner = self.points.get(start..).unwrap_or_default().windows(2);
+        let inner = inner
+            .take_while(move |pair| pair[0].x <= to)
+            .filter(|pair| pair[0].x < pair[1].x)
+            .map(|pair| [pair[0], pair[1]]);
+        let before = first.map(|first| level(first.x, first.z, from));
+        let after = last.map(|last| level(last.x, last.z, to));
+        before.into_iter().chain(inner).chain(after)
+    }
+
+    /// All its segments from one x to another, cut there, upright ones too.
+    pub(super) fn clipped(&self, from: f64, to: f64) -> Vec<[Point2; 2]> {
+        let upright = self
+            .points
+            .windows(2)
+            .filter(|pair| pair[0].x == pair[1].x && (from..=to).contains(&pair[0].x));
+        let upright = upright.map(|pair| [pair[0], pair[1]]);
+        let cut = |[a, b]: [Point2; 2]| {
+            let at = |x: f64| Point2::new(x, height(a, b, x));
+            [at(a.x.max(from)), at(b.x.min(to))]
+        };
+        self.between(from, to).map(cut).chain(upright).collect()
+    }
+}
+
+/// The height of the segment between two points over a place.
+pub(super) fn height(a: Point2, b: Point2, x: f64) -> f64 {
+    let z = a.z + (b.z - a.z) * ((x - a.x) / (b.x - a.x));
+    z.clamp(a.z.min(b.z), a.z.max(b.z))
+}
