@@ -20,7 +20,7 @@ use vcutc_backend_api::units::{Area, Length};
 const MOST_GAPS: usize = 16;
 
 /// Polygons that are looked at before a surface counts as too tangled.
-const MOST_LOOKS: usize = 100_000_000;
+const MOST_LOOKS: usize = 50_000_000;
 
 /// Areas below this share of the plan are rounding.
 const ROUNDING: f64 = 1e-9;

@@ -7,9 +7,9 @@ use vcutc_backend_api::geometry::Point3;
 impl Surface {
     /// The distance of a point in mm from the nearest triangle, in mm.
     ///
-    /// Bins are looked at in rings about the point's own, until a ring is farther away in plan than the nearest triangle so far.
+    /// `looks` counts the triangles that were looked at. Bins are looked at in rings about the point's own, until a ring is farther away in plan than the nearest triangle so far.
     #[must_use]
-    pub(crate) fn distance(&self, point: Point3) -> f64 {
+    pub(crate) fn distance(&self, point: Point3, looks: &mut usize) -> f64 {
         let bins = self.bins();
         let centre = bins.at(point.x, point.y);
         let mut least = f64::INFINITY;
@@ -22,8 +22,12 @@ impl Surface {
                 let [low, high] = bins.bounds(cell);
                 let dx = (low[0] - point.x).max(point.x - high[0]).max(0.0);
                 let dy = (low[1] - point.y).max(point.y - high[1]).max(0.0);
-                if dx * dx + dy * dy < least {
-                    is_near = true;
+                let flat = dx * dx + dy * dy;
+                is_near |= flat < least;
+                let [bottom, top] = bins.heights(cell);
+                let dz = (bottom - point.z).max(point.z - top).max(0.0);
+                if flat + dz * dz < least {
+                    *looks += bins.triangles(cell).len();
                     for &number in bins.triangles(cell) {
                         let offset = difference(point, closest(self.triangle(number), point));
                         least = least.min(dot(offset, offset));

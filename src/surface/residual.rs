@@ -16,14 +16,11 @@ mod machined;
 pub use machined::{Machined, MachinedError};
 
 use crate::coverage::Tangled;
-use crate::region::{Half, middle, rectangle, twice_area, width, within};
+use crate::region::{Half, twice_area, width, within};
 use crate::surface::Surface;
 use crate::visible::Part;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
-
-/// Polygons that are looked at before a surface counts as too tangled.
-const MOST_LOOKS: usize = 200_000_000;
 
 /// A volume.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
@@ -95,11 +92,7 @@ impl Surface {
         let mut parts = Vec::new();
         let weld = self.accuracy().weld.to_mm();
         for cell in self.bins().all() {
-            self.visible(cell, &mut looks, &mut parts);
-            if looks > MOST_LOOKS {
-                let place = middle(&rectangle(self.bins().bounds(cell))).map(Length::mm);
-                return Err(Tangled { place });
-            }
+            self.visible(cell, &mut looks, &mut parts)?;
             for part in &parts {
                 let is_crack = part.is_cut && width(&part.region) <= weld;
                 sum.add(

@@ -4,10 +4,15 @@
 //! which both planes meet. These parts are taken off one after the other. The line is computed alike from both, so that what
 //! one loses the other one keeps.
 
+use crate::coverage::Tangled;
 use crate::mesh::{cross, difference};
 use crate::region::{Half, Region, SLACK, middle, rectangle, sides, subtract, width, within};
 use crate::surface::{Cell, Surface};
 use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::units::Length;
+
+/// Polygons that are looked at before a surface counts as too tangled.
+const MOST_LOOKS: usize = 100_000_000;
 
 /// Narrower strips, in mm, are rounding: neighbours that touch, and bins that a triangle only touches.
 const THINNEST: f64 = 4.0 * SLACK;
@@ -81,12 +86,15 @@ pub(crate) struct Part {
 }
 
 impl Surface {
-    /// The parts of the upper side in a bin. `looks` counts the work.
-    pub(crate) fn visible(&self, cell: Cell, looks: &mut usize, out: &mut Vec<Part>) {
+    /// The parts of the upper side in a bin.
+    ///
+    /// # Errors
+    /// If there is too much work: `looks` counts it.
+    pub(crate) fn visible(&self, cell: Cell, looks: &mut usize, out: &mut Vec<Part>) -> Result<(), Tangled> {
         out.clear();
         let bin = rectangle(self.bins().bounds(cell));
         let centre = middle(&bin);
-        let faces: Vec<(Region, [Half; 3], Plane)> = self
+        let mut faces: Vec<(Region, [Half; 3], Plane)> = self
             .bins()
             .triangles(cell)
             .iter()
@@ -99,14 +107,24 @@ impl Surface {
                 (width(&region) > THINNEST).then(|| (region, sides, Plane::of(face, centre)))
             })
             .collect();
+        // Those that reach highest first: they hide most. Stable, so that equal ones keep their order.
+        faces.sort_by(|(_, _, a), (_, _, b)| b.range[1].total_cmp(&a.range[1]));
         for (place, (region, _, plane)) in faces.iter().enumerate() {
             let mut left = vec![region.clone()];
             let mut is_cut = false;
             for (other, (_, sides, higher)) in faces.iter().enumerate() {
-                if other == place || higher.range[1] < plane.range[0] {
-                    continue;
+                if left.is_empty() || higher.range[1] < plane.range[0] {
+                    break;
                 }
                 *looks += left.len();
+                if *looks > MOST_LOOKS {
+                    return Err(Tangled {
+                        place: centre.map(Length::mm),
+                    });
+                }
+                if other == place {
+                    continue;
+                }
                 let [a, b, c] = *sides;
                 let before = (left.len(), left.first().map(Vec::len));
                 match higher.above(*plane) {
@@ -117,9 +135,6 @@ impl Surface {
                     Above::Within(half) => subtract(&mut left, &[a, b, c, half]),
                 }
                 is_cut |= before != (left.len(), left.first().map(Vec::len));
-                if left.is_empty() {
-                    break;
-                }
             }
             left.retain(|region| width(region) > THINNEST);
             out.extend(left.into_iter().map(|region| Part {
@@ -128,5 +143,6 @@ impl Surface {
                 is_cut,
             }));
         }
+        Ok(())
     }
 }

@@ -10,6 +10,9 @@ use vcutc_geometry::curve::Point2;
 /// Distances that are computed.
 const MOST_PROBES: usize = 20_000;
 
+/// Triangles that are looked at for these.
+const MOST_LOOKS: usize = 200_000_000;
+
 /// Bounds this near to each other in mm are good enough.
 const ENOUGH: f64 = 0.01;
 
@@ -22,18 +25,37 @@ struct Patch {
     most: f64,
 }
 
-impl Patch {
-    fn new(surface: &Surface, ends: [Point2; 2], along: [f64; 2], known: &mut f64) -> Self {
+/// What was found so far, and at what expense.
+#[derive(Debug, Default)]
+struct Search {
+    /// The largest distance.
+    known: f64,
+    probes: usize,
+    looks: usize,
+}
+
+impl Search {
+    fn distance(&mut self, surface: &Surface, point: Point3) -> f64 {
+        let distance = surface.distance(point, &mut self.looks);
+        self.probes += 1;
+        self.known = self.known.max(distance);
+        distance
+    }
+
+    const fn is_over(&self) -> bool {
+        self.probes >= MOST_PROBES || self.looks >= MOST_LOOKS
+    }
+
+    fn patch(&mut self, surface: &Surface, ends: [Point2; 2], along: [f64; 2]) -> Patch {
         let middle = ends[0].lerp(ends[1], 0.5);
         let y = along[0] + (along[1] - along[0]) / 2.0;
-        let distance = surface.distance(Point3::new(middle.x, y, middle.z));
-        *known = known.max(distance);
         let radius = libm::hypot(ends[0].distance(ends[1]), along[1] - along[0]) / 2.0;
-        Self {
-            ends,
-            along,
-            most: distance + radius,
-        }
+        let most = if self.is_over() {
+            f64::INFINITY
+        } else {
+            self.distance(surface, Point3::new(middle.x, y, middle.z)) + radius
+        };
+        Patch { ends, along, most }
     }
 }
 
@@ -61,38 +83,24 @@ impl Ord for Patch {
     }
 }
 
-/// Bounds of the largest distance. `start` is a place in plan (y as z) at which it is probably large.
+/// Bounds of the largest distance; the upper one is infinite where nothing is known. `start` is a place in plan (y as z) at
+/// which it is probably large.
 pub(super) fn farthest(surface: &Surface, machined: &Machined, start: Point2) -> [f64; 2] {
     let [width, depth] = surface.size();
     let segments = machined.clipped(0.0, width);
-    let mut known: f64 = 0.0;
-    let over = segments
-        .iter()
-        .filter(|[a, b]| a.x <= start.x && start.x <= b.x && a.x < b.x);
-    for &[a, b] in over {
+    let mut search = Search::default();
+    let over = |[a, b]: &&[Point2; 2]| a.x <= start.x && start.x <= b.x && a.x < b.x;
+    for &[a, b] in segments.iter().filter(over) {
         let height = super::machined::height(a, b, start.x);
-        known = known.max(surface.distance(Point3::new(start.x, start.z, height)));
+        search.distance(surface, Point3::new(start.x, start.z, height));
     }
-    let mut patches: BinaryHeap<Patch> = BinaryHeap::new();
-    // Of a profile with very many segments only so many are looked at, each for all its neighbours: the bound of such a
-    // group is that of one point plus the way to the others.
-    let group = segments.len().div_ceil(MOST_PROBES / 4).max(1);
-    let mut rest = 0.0_f64;
-    for segments in segments.chunks(group) {
-        let (Some(first), Some(last)) = (segments.first(), segments.last()) else {
-            continue;
-        };
-        if let [segment] = segments {
-            patches.push(Patch::new(surface, *segment, [0.0, depth], &mut known));
-        } else {
-            let whole = Patch::new(surface, [first[0], first[0]], [0.0, depth], &mut known);
-            let way: f64 = segments.iter().map(|[a, b]| a.distance(*b)).sum();
-            rest = rest.max(whole.most + way + first[0].distance(last[1]));
-        }
+    // The budget goes first to every segment, so that profiles with very many get no bound.
+    let mut patches: BinaryHeap<Patch> = BinaryHeap::with_capacity(segments.len());
+    for segment in segments {
+        patches.push(search.patch(surface, segment, [0.0, depth]));
     }
-    let mut probes = patches.len();
     while let Some(patch) = patches.peek().copied() {
-        if patch.most - known <= ENOUGH || probes >= MOST_PROBES {
+        if patch.most - search.known <= ENOUGH || search.is_over() {
             break;
         }
         patches.pop();
@@ -106,10 +114,9 @@ pub(super) fn farthest(surface: &Surface, machined: &Machined, start: Point2) ->
             [([a, b], [from, middle]), ([a, b], [middle, to])]
         };
         for (ends, along) in halves {
-            patches.push(Patch::new(surface, ends, along, &mut known));
-            probes += 1;
+            patches.push(search.patch(surface, ends, along));
         }
     }
     let most = patches.peek().map_or(0.0, |patch| patch.most);
-    [known, most.max(rest).max(known)]
+    [search.known, most.max(search.known)]
 }

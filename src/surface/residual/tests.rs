@@ -129,6 +129,65 @@ fn cracks_show_no_floor() {
     assert_eq!(residual.highest.height.to_mm(), 2.0);
 }
 
+/// The largest height left by straight cuts infinitely close, on 600 by 1000 mm: numbers that scripts without any code of
+/// this repository computed.
+#[test]
+fn straight_cuts_leave_what_was_computed_elsewhere() {
+    use crate::formula::formula;
+    use crate::surface::{Accuracy, Plan};
+    use vcutc_geometry::number::{Interval, OnPlane, Scalar};
+    type Jet = OnPlane<Interval>;
+    let dome = |x: Jet, y: Jet| {
+        let (u, v) = (x.plus(-300.0), y.plus(-500.0));
+        Some((u * u + v * v).times(-1.0).plus(9e6).root())
+    };
+    let bowl = |x: Jet, y: Jet| dome(x, y).map(|z| z.times(-1.0));
+    let hypar = |x: Jet, y: Jet| Some((x.plus(-300.0) * y.plus(-500.0)).times(1.0 / 3000.0));
+    let plan = Plan {
+        width: Length::mm(600.0),
+        depth: Length::mm(1000.0),
+    };
+    let tolerance = Length::mm(0.05);
+    let accuracy = Accuracy {
+        tolerance,
+        weld: Length::mm(0.01),
+    };
+    let all: [(&crate::formula::Formula<'_>, f64); 3] = [(&dome, 42.175), (&bowl, 42.175), (&hypar, 100.0)];
+    for (f, wanted) in all {
+        let mesh = formula(f, plan, tolerance).unwrap();
+        let surface = Surface::new(&mesh, &crate::testkit::placement(FIXED), plan, accuracy).unwrap();
+        assert_eq!(surface.coverage().unwrap().uncovered.to_mm2(), 0.0);
+        let shadow = surface.shadow().unwrap();
+        let residual = surface
+            .residual(&Machined::new(shadow.points().to_vec()).unwrap())
+            .unwrap()
+            .unwrap();
+        let highest = residual.highest.height.to_mm();
+        // Shadow and surface are each within the tolerance.
+        assert!((highest - wanted).abs() <= 0.1 + 5e-4, "{highest} {wanted}");
+        assert!(residual.lowest.height.to_mm() >= -1e-7, "{residual:?}");
+    }
+}
+
+/// Very many sheets over each other: the uppermost counts, and nothing takes long.
+#[test]
+fn stacked_sheets_are_the_uppermost_one() {
+    let (mut corners, mut triangles) = (Vec::new(), Vec::new());
+    for sheet in 0..4000_u32 {
+        let first = corners.len() as u32;
+        let z = f64::from(sheet) / 400.0;
+        corners.extend([[0.0, 0.0, z], [100.0, 0.0, z], [100.0, 60.0, z], [0.0, 60.0, z]].map(Point3::from));
+        triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    }
+    let surface = surface_over(&Mesh::new(corners, triangles).unwrap(), FIXED, 100.0, 60.0);
+    let residual = surface
+        .residual(&machined(&[(0.0, 12.0), (100.0, 12.0)]))
+        .unwrap()
+        .unwrap();
+    assert!((residual.volume.to_mm3() - 6000.0 * (12.0 - 3999.0 / 400.0)).abs() < 1e-6);
+    assert_eq!(surface.coverage().unwrap().uncovered.to_mm2(), 0.0);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
@@ -185,7 +244,7 @@ proptest! {
             for y in [0.0, 17.3, 41.9, 60.0] {
                 let point = Point3::new(x, y, e(x));
                 let distance = surface.mesh().faces().map(|face| far(face, point)).fold(f64::INFINITY, f64::min);
-                prop_assert!((surface.distance(point) - distance).abs() < 1e-6);
+                prop_assert!((surface.distance(point, &mut 0) - distance).abs() < 1e-6);
                 prop_assert!(distance <= farthest.most.to_mm() + 1e-9, "{distance} {farthest:?}");
             }
         }

@@ -18,6 +18,8 @@ pub(crate) struct Bins {
     /// Where the entries of a bin start; one more at the end.
     starts: Vec<u32>,
     entries: Vec<u32>,
+    /// The least and the greatest height of the triangles of each bin, wherever they reach it.
+    heights: Vec<[f64; 2]>,
 }
 
 /// A bin by its column and row.
@@ -49,6 +51,7 @@ impl Bins {
             bins = Self::empty(across, along, width, depth);
         }
         bins.fill(&boxes);
+        bins.heights = bins.all().map(|cell| bins.reach(cell, mesh)).collect();
         bins
     }
 
@@ -59,6 +62,7 @@ impl Bins {
             size: [width / columns as f64, depth / rows as f64],
             starts: Vec::new(),
             entries: Vec::new(),
+            heights: Vec::new(),
         }
     }
 
@@ -125,6 +129,23 @@ impl Bins {
 
     pub(crate) const fn rows(&self) -> usize {
         self.rows
+    }
+
+    /// The least and the greatest height that the triangles of a bin reach.
+    fn reach(&self, cell: Cell, mesh: &Mesh) -> [f64; 2] {
+        let numbers = self.triangles(cell).iter();
+        let faces = numbers.filter_map(|&number| Some(mesh.face(*mesh.triangles().get(number as usize)?)));
+        faces
+            .flatten()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
+                [low.min(p.z), high.max(p.z)]
+            })
+    }
+
+    /// The least and the greatest height that the triangles of a bin reach; the wrong way round without any.
+    pub(crate) fn heights(&self, cell: Cell) -> [f64; 2] {
+        let none = [f64::INFINITY, f64::NEG_INFINITY];
+        self.heights.get(self.place(cell)).copied().unwrap_or(none)
     }
 
     /// All bins, row by row.
