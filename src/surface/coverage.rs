@@ -9,7 +9,7 @@
 //! off the bin one after the other, as convex polygons; what is left is a gap. So the work is that of sorting edges, and
 //! little more, for all but tangled surfaces.
 
-use crate::region::{Half, Region, area, grown_sides, middle, rectangle, sides, subtract, twice_area};
+use crate::region::{Half, Region, SLACK, area, grown_sides, middle, rectangle, sides, subtract, twice_area};
 use crate::surface::{Cell, Surface};
 use core::fmt;
 use std::collections::BTreeMap;
@@ -132,7 +132,7 @@ impl Surface {
         let mut keys: Vec<u64> = Vec::with_capacity(3 * self.mesh().triangles().len());
         for (named, face) in self.mesh().triangles().iter().zip(self.mesh().faces()) {
             let twice = twice_area(face.map(|p| [p.x, p.y]));
-            let stands = sides(face).is_none();
+            let stands = is_upright(face, twice);
             if stands {
                 edges.upright += 1;
             } else {
@@ -249,6 +249,14 @@ impl Surface {
         }
         Ok(left)
     }
+}
+
+/// Whether a triangle of this area in plan, twice, has no width to speak of there, as [`sides`] judges it.
+fn is_upright([a, b, c]: [Point3; 3], twice: f64) -> bool {
+    let square = |a: Point3, b: Point3| (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y);
+    let longest = square(a, b).max(square(b, c)).max(square(c, a));
+    let least = SLACK / 10.0;
+    twice * twice <= least * least * longest
 }
 
 /// What the edges of a surface say.

@@ -11,7 +11,7 @@ use vcutc_geometry::curve::Point2;
 const MOST_PROBES: usize = 20_000;
 
 /// Triangles that are looked at for these.
-const MOST_LOOKS: usize = 200_000_000;
+const MOST_LOOKS: usize = 30_000_000;
 
 /// Bounds this near to each other in mm are good enough.
 const ENOUGH: f64 = 0.01;

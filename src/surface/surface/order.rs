@@ -1,7 +1,7 @@
 //! Triangles clipped to the plan and brought into one order.
 
 use super::clip::{clipped, order};
-use crate::mesh::{Mesh, is_degenerate};
+use crate::mesh::{Mesh, is_degenerate, packed, unpacked};
 use vcutc_backend_api::geometry::Point3;
 
 /// The triangles of a mesh over the plan: corners that are used, each once and in the order of their coordinates;
@@ -96,7 +96,14 @@ fn sorted(corners: &[Point3], mut triangles: Vec<[u32; 3]>) -> Mesh {
         let least = (0..3).min_by_key(|&i| named[i]).unwrap_or(0);
         named.rotate_left(least);
     }
-    triangles.sort_unstable();
+    let keys: Option<Vec<u64>> = triangles.iter().map(|named| packed(*named)).collect();
+    if let Some(mut keys) = keys {
+        keys.sort_unstable();
+        triangles.clear();
+        triangles.extend(keys.into_iter().map(unpacked));
+    } else {
+        triangles.sort_unstable();
+    }
     triangles.dedup();
     triangles.retain(|named| {
         !is_degenerate(named.map(|index| kept.get(index as usize).copied().unwrap_or(ORIGIN)))
