@@ -1,4 +1,4 @@
-//! Files of triangles: STL, OBJ and PLY.
+//! Files of triangles, STL, OBJ and PLY, and of heights on a grid.
 //!
 //! All readers take the bytes of a file and never guess silently. What cannot be read is a [`DataError`] that says where
 //! and why; what was read but passed over is counted in [`Remarks`]. None of these files carries a unit: numbers are given
@@ -8,11 +8,13 @@
 //! length at most: counts in a file never make room before its data is seen to be there.
 
 mod gather;
+mod heights;
 mod obj;
 mod ply;
 mod stl;
 mod words;
 
+pub use heights::heights;
 pub use obj::obj;
 pub use ply::ply;
 pub use stl::stl;
