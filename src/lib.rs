@@ -25,6 +25,7 @@ pub use vcutc_registry as registry;
 pub use vcutc_remedy as remedy;
 pub use vcutc_report as report;
 pub use vcutc_simulation as simulation;
+pub use vcutc_surface as surface;
 pub use vcutc_syntax as syntax;
 pub use vcutc_vcut as vcut;
 pub use vcutc_vcut_optimize as vcut_optimize;

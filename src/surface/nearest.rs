@@ -7,7 +7,8 @@ use vcutc_backend_api::geometry::Point3;
 impl Surface {
     /// The distance of a point in mm from the nearest triangle, in mm.
     ///
-    /// `looks` counts the triangles that were looked at. Bins are looked at in rings about the point's own, until a ring is farther away in plan than the nearest triangle so far.
+    /// `looks` counts the triangles that were looked at. Bins are looked at in rings about the point's own, until a ring is
+    /// farther away in plan than the nearest triangle so far.
     #[must_use]
     pub(crate) fn distance(&self, point: Point3, looks: &mut usize) -> f64 {
         let bins = self.bins();

@@ -1,8 +1,9 @@
 //! The surface of a part over the plan of the stock.
 //!
-//! A [`Surface`] is a mesh that was put in its place in the workpiece frame, clipped to the plan `0 <= x <= W`, `0 <= y <= D`,
-//! and brought into one order: corners by their coordinates, triangles by their corners, each from its least corner on. So
-//! the same triangles in another order make the same surface to the last bit, and so does everything computed from it.
+//! A [`Surface`] is a mesh that was put in its place in the workpiece frame, clipped to the plan `0 <= x <= W`,
+//! `0 <= y <= D` (corners within 1e-9 mm of its sides are put on them), and brought into one order: corners by their
+//! coordinates, triangles by their corners, each from its least corner on. So the same triangles in another order make the
+//! same surface to the last bit, and so does everything computed from it.
 //!
 //! The height of the surface over a place is the highest of its triangles there: what lies below stays covered. Proofs use
 //! these triangles; the true surface lies within a stated tolerance of them.
@@ -196,3 +197,6 @@ impl Surface {
         self.mesh.face(named.unwrap_or_default())
     }
 }
+
+#[cfg(test)]
+mod tests;

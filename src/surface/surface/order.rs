@@ -12,7 +12,7 @@ pub(super) fn clipped_in_order(mesh: Mesh, width: f64, depth: f64) -> Mesh {
     let mut corners: Vec<Point3> = mesh
         .corners()
         .iter()
-        .map(|p| Point3::new(p.x + 0.0, p.y + 0.0, p.z + 0.0))
+        .map(|p| Point3::new(onto(p.x, width) + 0.0, onto(p.y, depth) + 0.0, p.z + 0.0))
         .collect();
     let mut triangles: Vec<[u32; 3]> = Vec::with_capacity(mesh.triangles().len());
     for &named in mesh.triangles() {
@@ -39,6 +39,19 @@ pub(super) fn clipped_in_order(mesh: Mesh, width: f64, depth: f64) -> Mesh {
 }
 
 const ORIGIN: Point3 = Point3::new(0.0, 0.0, 0.0);
+
+/// Corners as near as this to a side of the plan, in mm, are put on it: turning a part rounds, and would leave slivers there.
+const ON_SIDE: f64 = 1e-9;
+
+fn onto(coordinate: f64, size: f64) -> f64 {
+    if coordinate.abs() <= ON_SIDE {
+        0.0
+    } else if (coordinate - size).abs() <= ON_SIDE {
+        size
+    } else {
+        coordinate
+    }
+}
 
 enum Side {
     Inside,
