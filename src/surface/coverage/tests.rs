@@ -60,6 +60,9 @@ proptest! {
         let coverage = surface.coverage().unwrap();
         prop_assert_eq!(coverage.uncovered, Area::ZERO);
         prop_assert!(coverage.gaps.is_empty());
+        // Neighbours are clipped at the same points.
+        let coverage = surface_over(&wavy(100.0, 60.0), frame, 100.0, 60.0).coverage().unwrap();
+        prop_assert_eq!((coverage.open_edges, coverage.crowded_edges, coverage.turned_edges), (0, 0, 0));
     }
 }
 
