@@ -205,8 +205,9 @@ impl Profile {
     }
 }
 
-/// The height at x of the segment between two points, clamped to its ends and never beyond their heights.
-fn height_between(left: Point2, right: Point2, x: f64) -> f64 {
+/// The height at x of the segment between two points, clamped to its ends and never beyond their heights. All in mm.
+#[must_use]
+pub fn height_between(left: Point2, right: Point2, x: f64) -> f64 {
     if x <= left.x {
         left.z
     } else if x >= right.x {

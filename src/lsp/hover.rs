@@ -11,7 +11,7 @@ use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_job::sema::study::{Definition, Meaning};
 use vcutc_job::sema::vocabulary::{self, walk};
 use vcutc_machine::catalogue;
-use vcutc_syntax::ast::{Block, Entry, Expr, HeadPart, Item};
+use vcutc_syntax::ast::{Block, Entry, Expr, Item};
 use vcutc_syntax::lexical::{TokenKind, tokens};
 
 /// What there is to say about a place.
@@ -423,14 +423,4 @@ fn model(name: &str) -> Option<String> {
 
 fn manual_of_formula() -> Option<String> {
     manual::about("profile")
-}
-
-/// The words of a head, for symbols.
-pub(super) fn head_text(block: &Block) -> String {
-    let words = block.head.iter().map(|part| match &part.node {
-        HeadPart::Word(word) => word.clone(),
-        HeadPart::Text(text) => format!("\"{text}\""),
-        HeadPart::Equals => "=".to_owned(),
-    });
-    words.collect::<Vec<_>>().join(" ")
 }

@@ -1,6 +1,5 @@
 //! The outline of a file: its items, and the fields of its blocks.
 
-use super::hover::head_text;
 use super::text::Text;
 use lsp_types::{DocumentSymbol, SymbolKind};
 use vcutc_diagnostics::source::Span;
@@ -48,10 +47,10 @@ fn of_block(block: &Block, text: &Text) -> DocumentSymbol {
     let (kind, name) = match word(0) {
         "blade" => (SymbolKind::CLASS, word(1).to_owned()),
         "machine" => (SymbolKind::OBJECT, word(1).to_owned()),
-        _ if !word(1).is_empty() => (SymbolKind::FUNCTION, head_text(block)),
-        _ => (SymbolKind::STRUCT, head_text(block)),
+        _ if !word(1).is_empty() => (SymbolKind::FUNCTION, block.head_text()),
+        _ => (SymbolKind::STRUCT, block.head_text()),
     };
-    let detail = head_text(block);
+    let detail = block.head_text();
     let head = block.head.iter().map(|part| part.span);
     let head = head.reduce(Span::to).unwrap_or(block.span);
     let name = if name.is_empty() { detail.clone() } else { name };

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::units::{Area, Length};
 
-/// Gaps that are told.
+/// Gaps that are listed.
 const MOST_GAPS: usize = 16;
 
 /// Polygons that are looked at before a surface counts as too tangled.
@@ -338,14 +338,15 @@ fn gaps(mut holes: BTreeMap<(usize, usize), Hole>) -> Vec<Gap> {
     }
     // Stable: of equal ones the first along y comes first.
     found.sort_by(|a, b| b.area.total_cmp(&a.area));
-    let told = found.iter().take(MOST_GAPS);
-    told.map(|hole| Gap {
-        area: Area::mm2(hole.area),
-        place: hole.place.map(Length::mm),
-        low: hole.low.map(Length::mm),
-        high: hole.high.map(Length::mm),
-    })
-    .collect()
+    let listed = found.iter().take(MOST_GAPS);
+    listed
+        .map(|hole| Gap {
+            area: Area::mm2(hole.area),
+            place: hole.place.map(Length::mm),
+            low: hole.low.map(Length::mm),
+            high: hole.high.map(Length::mm),
+        })
+        .collect()
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 //! often a piece is cut. Where two segments change places is computed in one way for the same segments in the same order.
 
 use vcutc_geometry::curve::Point2;
-use vcutc_geometry::profile::Profile;
+use vcutc_geometry::profile::{Profile, height_between};
 
 /// Steps in x that a profile cannot hold are drawn this wide, in mm, or a few times the resolution of a double where that
 /// is coarser.
@@ -22,15 +22,7 @@ struct Segment {
 
 impl Segment {
     fn height(self, x: f64) -> f64 {
-        let Self { from, to } = self;
-        if x <= from.x {
-            from.z
-        } else if x >= to.x {
-            to.z
-        } else {
-            let z = from.z + (to.z - from.z) * ((x - from.x) / (to.x - from.x));
-            z.clamp(from.z.min(to.z), from.z.max(to.z))
-        }
+        height_between(self.from, self.to, x)
     }
 }
 

@@ -30,7 +30,7 @@ const MOST_BOXES: usize = 4_000_000;
 const NARROWEST: f64 = 1e-7;
 const NARROWEST_SHARE: f64 = 1e-13;
 
-/// Why a formula is no surface.
+/// Why a formula does not make a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FormulaError {
     /// The plan is empty or out of range.
@@ -42,7 +42,7 @@ pub enum FormulaError {
         /// Where, in mm.
         y: f64,
     },
-    /// However near two places are, their heights differ by more than the tolerance, or cannot be told not to.
+    /// However near two places are, their heights differ by more than the tolerance, or may do so for all that is known.
     Jump {
         /// Where, in mm.
         x: f64,

@@ -10,7 +10,7 @@ use vcutc_backend_api::geometry::Point3;
 /// Why points are not heights on a grid. Indices count the points from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GridError {
-    /// A coordinate is no number or out of range.
+    /// A coordinate is not a number, or out of range.
     OutOfRange {
         /// The point.
         index: usize,

@@ -49,7 +49,7 @@ pub struct Remarks {
 }
 
 impl Remarks {
-    /// Kinds of things passed over that are told by name; what comes after them is counted together.
+    /// Kinds of things passed over that are listed by name; what comes after them is counted together.
     const MOST_KINDS: usize = 32;
 
     fn pass_over(&mut self, name: &str, times: usize) {

@@ -126,7 +126,7 @@ pub(crate) fn is_in_range(point: Point3) -> bool {
         .all(|value| value.abs() <= LARGEST_COORDINATE)
 }
 
-/// Whether three corners span no area at all, as far as doubles tell.
+/// Whether three corners span no area at all, as far as doubles show.
 pub(crate) fn is_degenerate([a, b, c]: [Point3; 3]) -> bool {
     let (u, v) = (difference(b, a), difference(c, a));
     cross(u, v).iter().all(|&part| part == 0.0)
@@ -170,7 +170,7 @@ pub(crate) const fn unpacked(key: u64) -> [u32; 3] {
 
 /// Removes the triangles whose three corners, in whatever order, another one before has too. Says how many there were.
 pub(crate) fn remove_doubled(triangles: &mut Vec<[u32; 3]>) -> usize {
-    // Most meshes have none, which short keys tell faster.
+    // Most meshes have none, which short keys show faster.
     let keys: Option<Vec<u64>> = triangles
         .iter()
         .map(|named| {

@@ -13,12 +13,11 @@
 mod blossom;
 mod bound;
 
-use crate::mesh::{MOST_TRIANGLES, Mesh};
+use crate::mesh::{MOST_TRIANGLES, Mesh, is_in_range};
 use bound::divisions;
 use core::fmt;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::units::Length;
-use vcutc_geometry::curve::LARGEST_COORDINATE;
 
 /// The highest degree.
 pub const MOST_DEGREE: usize = 24;
@@ -51,14 +50,14 @@ pub struct Bezier {
     pub control: Vec<Point3>,
 }
 
-/// Why there is no surface of patches.
+/// Why control points do not make a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PatchError {
     /// A degree is 0 or above [`MOST_DEGREE`].
     Degree,
     /// Another number of control points than degrees and knots ask for, or more than [`MOST_CONTROL`].
     ControlCount,
-    /// A knot is no number or smaller than the one before, or repeats so often that the surface falls apart.
+    /// A knot is not a number or smaller than the one before, or repeats so often that the surface falls apart.
     Knots,
     /// All knots that count are equal, or there is no patch.
     NoExtent,
@@ -188,13 +187,7 @@ fn check_control(control: &[Point3], before: usize) -> Result<(), PatchError> {
     if before + control.len() > MOST_CONTROL {
         return Err(PatchError::ControlCount);
     }
-    let bad = |point: &Point3| {
-        !point
-            .to_array()
-            .iter()
-            .all(|part| part.abs() <= LARGEST_COORDINATE)
-    };
-    match control.iter().position(bad) {
+    match control.iter().position(|&point| !is_in_range(point)) {
         Some(index) => Err(PatchError::OutOfRange {
             index: before + index,
         }),

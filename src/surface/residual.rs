@@ -21,6 +21,7 @@ use crate::surface::Surface;
 use crate::visible::Part;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::height_between;
 
 /// A volume.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
@@ -58,9 +59,9 @@ pub struct Over {
 /// A length that lies between two others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Between {
-    /// It is no less.
+    /// It is at least this.
     pub least: Length,
-    /// It is no more.
+    /// It is at most this.
     pub most: Length,
 }
 
@@ -150,7 +151,7 @@ impl Sum {
             if strip.len() < 3 {
                 continue;
             }
-            let height = |place: [f64; 2]| machined::height(a, b, place[0]) - part.plane.at(place);
+            let height = |place: [f64; 2]| height_between(a, b, place[0]) - part.plane.at(place);
             let corners: Vec<([f64; 2], f64)> = strip.iter().map(|&place| (place, height(place))).collect();
             if counts == Counts::All {
                 for &(place, height) in &corners {

@@ -140,7 +140,7 @@ impl Surface {
     }
 }
 
-/// The number from 0 to `most` that is nearest; 0 for what is no number.
+/// The number from 0 to `most` that is nearest; 0 for what is not a number.
 fn nearest(value: f64, most: f64) -> f64 {
     // `max` gives the other one of NaN.
     value.max(0.0).min(most)

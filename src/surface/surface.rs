@@ -46,7 +46,7 @@ pub struct Placement {
 pub struct Accuracy {
     /// The true surface lies within this of the triangles.
     pub tolerance: Length,
-    /// Gaps between triangles that are no wider in plan than this are closed.
+    /// Gaps between triangles that are at most this wide in plan are closed.
     pub weld: Length,
 }
 

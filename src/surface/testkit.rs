@@ -69,6 +69,29 @@ pub(crate) fn sampled(width: f64, depth: f64, cells: [u32; 2], height: &dyn Fn(f
     Mesh::new(corners, triangles).unwrap()
 }
 
+/// A mesh with a needle of 0.01 mm on it, up to a point.
+pub(crate) fn with_needle(mesh: &Mesh, foot: [f64; 3], point: [f64; 3]) -> Mesh {
+    let [x, y, z] = foot;
+    let mut corners = mesh.corners().to_vec();
+    let first = corners.len() as u32;
+    let feet = [[x - 0.005, y, z], [x + 0.005, y, z], [x, y + 0.005, z]];
+    corners.extend(feet.into_iter().chain([point]).map(Point3::from));
+    let mut triangles = mesh.triangles().to_vec();
+    triangles.extend([[0, 1, 3], [1, 2, 3], [2, 0, 3]].map(|t: [u32; 3]| t.map(|i| i + first)));
+    Mesh::new(corners, triangles).unwrap()
+}
+
+/// Rectangles across 100 mm, each of two triangles: from and to where along y, and how high.
+pub(crate) fn rectangles(all: impl IntoIterator<Item = [f64; 3]>) -> Mesh {
+    let (mut corners, mut triangles) = (Vec::new(), Vec::new());
+    for [from, to, z] in all {
+        let first = corners.len() as u32;
+        corners.extend([[0.0, from, z], [100.0, from, z], [100.0, to, z], [0.0, to, z]].map(Point3::from));
+        triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    }
+    Mesh::new(corners, triangles).unwrap()
+}
+
 /// A wavy sheet that reaches well beyond the plan of this size.
 pub(crate) fn wavy(width: f64, depth: f64) -> Mesh {
     let wave = |x: f64, y: f64| 5.0 * libm::sin(x / 11.0) + 4.0 * libm::cos(y / 7.0 + x / 30.0);

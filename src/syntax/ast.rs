@@ -40,6 +40,19 @@ pub struct Block {
     pub span: Span,
 }
 
+impl Block {
+    /// The words of its head as they are written, with single blanks.
+    #[must_use]
+    pub fn head_text(&self) -> String {
+        let words = self.head.iter().map(|part| match &part.node {
+            HeadPart::Word(word) => word.clone(),
+            HeadPart::Text(text) => format!("\"{text}\""),
+            HeadPart::Equals => "=".to_owned(),
+        });
+        words.collect::<Vec<_>>().join(" ")
+    }
+}
+
 /// A piece of a block's head.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum HeadPart {

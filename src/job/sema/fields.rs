@@ -152,7 +152,7 @@ impl<'a> Fields<'a> {
         }
         let [head] = inner.head.as_slice() else {
             let span = head_span(inner);
-            reports.push(unknown_block(self.spec, &head_text(inner), span));
+            reports.push(unknown_block(self.spec, &inner.head_text(), span));
             return;
         };
         match &head.node {
@@ -330,20 +330,6 @@ pub fn head_span(block: &Block) -> Span {
         (Some(first), Some(last)) => first.span.to(last.span),
         _ => block.span,
     }
-}
-
-/// The head of a block as it is written, with single blanks.
-fn head_text(block: &Block) -> String {
-    let words: Vec<String> = block
-        .head
-        .iter()
-        .map(|part| match &part.node {
-            HeadPart::Word(word) => word.clone(),
-            HeadPart::Text(text) => format!("\"{text}\""),
-            HeadPart::Equals => "=".to_owned(),
-        })
-        .collect();
-    words.join(" ")
 }
 
 fn unknown_block(spec: &BlockSpec, word: &str, span: Span) -> Diagnostic {

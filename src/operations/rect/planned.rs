@@ -28,8 +28,7 @@ impl PlannedOperation for Planned {
     }
 
     fn cuts(&self) -> usize {
-        let counts = self.plan.counts();
-        counts.slits + counts.strips
+        self.plan.counts().cuts()
     }
 
     /// Of each layer its slits, then its strips, as they are numbered.

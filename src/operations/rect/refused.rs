@@ -3,7 +3,7 @@
 use crate::asked::RoughRect;
 use crate::plan::LEAST_LAYER;
 use crate::plan::blades::WidthBound;
-use crate::plan::refusal::{Closed, Refusal, SizeField};
+use crate::plan::refusal::{Closed, Exceeded, Over, Refusal, SizeField};
 use vcutc_backend_api::script::duration_words;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::number::show;
@@ -90,32 +90,7 @@ pub(crate) fn diagnostic(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
         .and(place(asked, asked.residual.span), "strips in other places in each layer")
         .help("use `through = 1`, or another `residual`"),
         Refusal::Scallop { left, limit } => scallop(asked, *left, *limit),
-        Refusal::Changes {
-            changes,
-            limit,
-            works,
-        } => over(
-            asked,
-            format!("the plan has {changes} changes of blade, the limit is {limit}"),
-            asked.limits.changes,
-            works.map(|works| works.to_string()),
-        ),
-        Refusal::Cuts { cuts, limit, works } => over(
-            asked,
-            format!("the plan has {cuts} slits and strips, the limit is {limit}"),
-            asked.limits.cuts,
-            works.map(|works| works.to_string()),
-        ),
-        Refusal::Time { time, limit, works } => over(
-            asked,
-            format!(
-                "the plan takes {}, the limit is {}",
-                duration_words(*time),
-                duration_words(*limit)
-            ),
-            asked.limits.time,
-            works.map(|works| format!("{} s", show((works.to_s() * 10.0).ceil() / 10.0))),
-        ),
+        Refusal::Over(limit) => over(asked, *limit),
         Refusal::Bounds { field, least, most } => {
             let (name, bounds) = match field {
                 SizeField::Layer => ("layer", asked.limits.layer),
@@ -342,13 +317,29 @@ fn closed(asked: &RoughRect, closed: &Closed) -> Diagnostic {
 }
 
 /// A limit on the whole that no plan keeps, and one that a plan keeps.
-fn over<T>(
-    asked: &RoughRect,
-    message: String,
-    limit: Option<Sourced<T>>,
-    works: Option<String>,
-) -> Diagnostic {
-    let span = limit.and_then(|limit| limit.span);
+fn over(asked: &RoughRect, over: Over) -> Diagnostic {
+    let limits = &asked.limits;
+    let (message, span, works) = match over {
+        Over::Changes(Exceeded { found, limit, works }) => (
+            format!("the plan has {found} changes of blade, the limit is {limit}"),
+            limits.changes.and_then(|limit| limit.span),
+            works.map(|works| works.to_string()),
+        ),
+        Over::Cuts(Exceeded { found, limit, works }) => (
+            format!("the plan has {found} slits and strips, the limit is {limit}"),
+            limits.cuts.and_then(|limit| limit.span),
+            works.map(|works| works.to_string()),
+        ),
+        Over::Time(Exceeded { found, limit, works }) => (
+            format!(
+                "the plan takes {}, the limit is {}",
+                duration_words(found),
+                duration_words(limit)
+            ),
+            limits.time.and_then(|limit| limit.span),
+            works.map(|works| format!("{} s", show((works.to_s() * 10.0).ceil() / 10.0))),
+        ),
+    };
     let diagnostic = Diagnostic::new(Code::LimitsConflict, message, place(asked, span), "this limit").and(
         asked.setup.head_span,
         "no plan of this operation that was tried keeps it",

@@ -103,10 +103,10 @@ fn cracks_are_welded_or_told() {
         (welded.gaps.len(), welded.uncovered, welded.open_edges),
         (0, Area::ZERO, 9)
     );
-    let told = cracked(28.0, 30.0).coverage().unwrap();
-    assert!((told.uncovered.to_mm2() - 200.0).abs() < 1e-6);
-    assert_eq!(told.gaps.len(), 1);
-    let gap = told.gaps[0];
+    let coverage = cracked(28.0, 30.0).coverage().unwrap();
+    assert!((coverage.uncovered.to_mm2() - 200.0).abs() < 1e-6);
+    assert_eq!(coverage.gaps.len(), 1);
+    let gap = coverage.gaps[0];
     let [x, y] = gap.place.map(Length::to_mm);
     assert!((28.0..=30.0).contains(&y) && (0.0..=100.0).contains(&x));
     assert_eq!(gap.low.map(|l| l.to_mm().round()), [0.0, 28.0]);

@@ -6,6 +6,7 @@ use core::cmp::Ordering;
 use std::collections::BinaryHeap;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::height_between;
 
 /// Distances that are computed.
 const MOST_PROBES: usize = 20_000;
@@ -91,7 +92,7 @@ pub(super) fn farthest(surface: &Surface, machined: &Machined, start: Point2) ->
     let mut search = Search::default();
     let over = |[a, b]: &&[Point2; 2]| a.x <= start.x && start.x <= b.x && a.x < b.x;
     for &[a, b] in segments.iter().filter(over) {
-        let height = super::machined::height(a, b, start.x);
+        let height = height_between(a, b, start.x);
         search.distance(surface, Point3::new(start.x, start.z, height));
     }
     // The budget goes first to every segment, so that profiles with very many get no bound.

@@ -2,6 +2,7 @@
 
 use core::fmt;
 use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::height_between;
 
 /// The surface that straight cuts along y leave: a polyline whose x never decrease. Beyond its ends it goes on level.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,7 +10,7 @@ pub struct Machined {
     points: Vec<Point2>,
 }
 
-/// Why points are no machined profile. Indices count them from 0.
+/// Why points are not a machined profile. Indices count them from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MachinedError {
     /// Fewer than two points, or all over one place.
@@ -89,15 +90,9 @@ impl Machined {
             .filter(|pair| pair[0].x == pair[1].x && (from..=to).contains(&pair[0].x));
         let upright = upright.map(|pair| [pair[0], pair[1]]);
         let cut = |[a, b]: [Point2; 2]| {
-            let at = |x: f64| Point2::new(x, height(a, b, x));
+            let at = |x: f64| Point2::new(x, height_between(a, b, x));
             [at(a.x.max(from)), at(b.x.min(to))]
         };
         self.between(from, to).map(cut).chain(upright).collect()
     }
-}
-
-/// The height of the segment between two points over a place.
-pub(super) fn height(a: Point2, b: Point2, x: f64) -> f64 {
-    let z = a.z + (b.z - a.z) * ((x - a.x) / (b.x - a.x));
-    z.clamp(a.z.min(b.z), a.z.max(b.z))
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::mesh::Mesh;
-use crate::testkit::{FIXED, placed, sampled, sheets, surface_over, wavy};
+use crate::testkit::{FIXED, placed, rectangles, sampled, sheets, surface_over, wavy, with_needle};
 use proptest::prelude::*;
 use vcutc_backend_api::geometry::Point3;
 
@@ -73,12 +73,8 @@ fn a_floor_does_not_count_and_a_needle_does() {
     let count = corners.len() as u32;
     corners.extend(flat.corners().iter().map(|p| Point3::new(p.x, p.y, -50.0)));
     triangles.extend(flat.triangles().iter().map(|t| t.map(|i| i + count)));
-    let surface = surface_over(
-        &Mesh::new(corners.clone(), triangles.clone()).unwrap(),
-        FIXED,
-        100.0,
-        60.0,
-    );
+    let mesh = Mesh::new(corners, triangles).unwrap();
+    let surface = surface_over(&mesh, FIXED, 100.0, 60.0);
     let level = machined(&[(0.0, 12.0), (100.0, 12.0)]);
     let residual = surface.residual(&level).unwrap().unwrap();
     assert!(
@@ -87,19 +83,8 @@ fn a_floor_does_not_count_and_a_needle_does() {
     );
     assert!((residual.volume.to_mm3() - 12_000.0).abs() < 1e-5);
     // The needle stands above E.
-    let first = corners.len() as u32;
-    let (x, y) = (33.333, 17.7);
-    corners.extend(
-        [
-            [x - 0.005, y, 10.0],
-            [x + 0.005, y, 10.0],
-            [x, y + 0.005, 10.0],
-            [x, y + 0.001, 15.0],
-        ]
-        .map(Point3::from),
-    );
-    triangles.extend([[0, 1, 3], [1, 2, 3], [2, 0, 3]].map(|t: [u32; 3]| t.map(|i| i + first)));
-    let surface = surface_over(&Mesh::new(corners, triangles).unwrap(), FIXED, 100.0, 60.0);
+    let mesh = with_needle(&mesh, [33.333, 17.7, 10.0], [33.333, 17.701, 15.0]);
+    let surface = surface_over(&mesh, FIXED, 100.0, 60.0);
     let residual = surface.residual(&level).unwrap().unwrap();
     assert!(
         (residual.highest.height.to_mm() - 2.0).abs() < 1e-9,
@@ -113,14 +98,8 @@ fn a_floor_does_not_count_and_a_needle_does() {
 
 #[test]
 fn cracks_show_no_floor() {
-    let mut corners = Vec::new();
-    let mut triangles = Vec::new();
-    for (from, to, z) in [(0.0, 29.995, 10.0), (30.0, 60.0, 10.0), (0.0, 60.0, -50.0)] {
-        let first = corners.len() as u32;
-        corners.extend([[0.0, from, z], [100.0, from, z], [100.0, to, z], [0.0, to, z]].map(Point3::from));
-        triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
-    }
-    let surface = surface_over(&Mesh::new(corners, triangles).unwrap(), FIXED, 100.0, 60.0);
+    let mesh = rectangles([[0.0, 29.995, 10.0], [30.0, 60.0, 10.0], [0.0, 60.0, -50.0]]);
+    let surface = surface_over(&mesh, FIXED, 100.0, 60.0);
     let residual = surface
         .residual(&machined(&[(0.0, 12.0), (100.0, 12.0)]))
         .unwrap()
@@ -171,14 +150,8 @@ fn straight_cuts_leave_what_was_computed_elsewhere() {
 /// Very many sheets over each other: the uppermost counts, and nothing takes long.
 #[test]
 fn stacked_sheets_are_the_uppermost_one() {
-    let (mut corners, mut triangles) = (Vec::new(), Vec::new());
-    for sheet in 0..1000_u32 {
-        let first = corners.len() as u32;
-        let z = f64::from(sheet) / 100.0;
-        corners.extend([[0.0, 0.0, z], [100.0, 0.0, z], [100.0, 60.0, z], [0.0, 60.0, z]].map(Point3::from));
-        triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
-    }
-    let surface = surface_over(&Mesh::new(corners, triangles).unwrap(), FIXED, 100.0, 60.0);
+    let mesh = rectangles((0..1000_u32).map(|sheet| [0.0, 60.0, f64::from(sheet) / 100.0]));
+    let surface = surface_over(&mesh, FIXED, 100.0, 60.0);
     let residual = surface
         .residual(&machined(&[(0.0, 12.0), (100.0, 12.0)]))
         .unwrap()

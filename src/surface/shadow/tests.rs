@@ -93,22 +93,9 @@ fn the_shadow_of_a_dome_is_its_highest_section() {
 #[test]
 fn a_needle_is_seen_wherever_it_stands() {
     let flat = |_: f64, _: f64| 10.0;
-    let mut mesh = crate::testkit::sampled(100.0, 60.0, [10, 6], &flat);
-    let mut corners = mesh.corners().to_vec();
-    let mut triangles = mesh.triangles().to_vec();
-    let first = corners.len() as u32;
     let (x, y) = (33.333, 17.7);
-    corners.extend(
-        [
-            [x - 0.005, y, 10.0],
-            [x + 0.005, y, 10.0],
-            [x, y + 0.005, 10.0],
-            [x, y, 15.0],
-        ]
-        .map(Point3::from),
-    );
-    triangles.extend([[0, 1, 3], [1, 2, 3], [2, 0, 3]].map(|t: [u32; 3]| t.map(|i| i + first)));
-    mesh = Mesh::new(corners, triangles).unwrap();
+    let sheet = crate::testkit::sampled(100.0, 60.0, [10, 6], &flat);
+    let mesh = crate::testkit::with_needle(&sheet, [x, y, 10.0], [x, y, 15.0]);
     let surface = surface_over(&mesh, crate::testkit::FIXED, 100.0, 60.0);
     assert_eq!(surface.shadow().unwrap().height(x), 15.0);
     assert_eq!(surface.height(x, y), Some(15.0));

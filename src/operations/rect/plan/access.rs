@@ -51,9 +51,13 @@ impl Access<'_> {
                 stuck.reverse();
             }
             stuck.retain(|&piece| {
+                // It came out with its neighbour.
+                if self.ground.is_gone(piece.extent, terrain) {
+                    return false;
+                }
                 let strip = self.free(piece, open, terrain);
                 strips.extend(strip);
-                strip.is_none() && !self.ground.is_gone(piece.extent, terrain)
+                strip.is_none()
             });
             if open == Side::Right {
                 stuck.reverse();
@@ -68,8 +72,7 @@ impl Access<'_> {
     fn free(&self, piece: Piece, open: Side, terrain: &mut Terrain) -> Option<Strip> {
         let centre = self.on_grid(self.wheel.centre_over(piece.extent, open), open);
         let stands = self.ground.stands(piece.extent.floor);
-        let is_free = !self.ground.is_gone(piece.extent, terrain)
-            && self.is_uncovered(piece, terrain)
+        let is_free = self.is_uncovered(piece, terrain)
             && self.passes(piece, open, centre, terrain)
             && self
                 .wheel

@@ -5,9 +5,9 @@
 //! through is decided by the time of the plans.
 
 use super::ground::{Sizes, Terms};
-use super::refusal::{Closed, Refusal, SizeField};
+use super::refusal::{Closed, Exceeded, Over, Refusal, SizeField};
 use super::trial::{self, Choice};
-use super::{Blades, Limits, PlannedRect, Rounding, Span, Wish, Work};
+use super::{Blades, PlannedRect, Rounding, Span, Wish, Work};
 use crate::asked::Residual;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::grid;
@@ -47,8 +47,8 @@ pub fn plan(work: Work<'_>, blades: &Blades, wish: &Wish, most: usize) -> Result
     };
     match search.best(wish.down_to) {
         Err(Refusal::Closed(closed)) => Err(Refusal::Closed(search.opened(closed))),
-        Err(refusal) => Err(search.with_a_limit_that_works(refusal)),
-        Ok(plan) => Ok(plan),
+        Err(Refusal::Over(over)) => Err(Refusal::Over(search.with_a_limit_that_works(over))),
+        planned => planned,
     }
 }
 
@@ -166,34 +166,13 @@ impl Search<'_> {
             });
         }
         let counts = plan.counts();
-        if let Some(limit) = limits.changes
-            && counts.changes > limit as usize
-        {
-            let changes = u32::try_from(counts.changes).unwrap_or(u32::MAX);
-            return Err(Refusal::Changes {
-                changes,
-                limit,
-                works: None,
-            });
-        }
-        let cuts = counts.slits + counts.strips;
-        if let Some(limit) = limits.cuts
-            && cuts > limit
-        {
-            return Err(Refusal::Cuts {
-                cuts,
-                limit,
-                works: None,
-            });
-        }
-        if let Some(limit) = limits.time
-            && plan.time > limit
-        {
-            return Err(Refusal::Time {
-                time: plan.time,
-                limit,
-                works: None,
-            });
+        let changes = u32::try_from(counts.changes).unwrap_or(u32::MAX);
+        let over = Exceeded::of(changes, limits.changes)
+            .map(Over::Changes)
+            .or_else(|| Exceeded::of(counts.cuts(), limits.cuts).map(Over::Cuts))
+            .or_else(|| Exceeded::of(plan.time, limits.time).map(Over::Time));
+        if let Some(over) = over {
+            return Err(Refusal::Over(over));
         }
         Ok(plan)
     }
@@ -282,46 +261,32 @@ impl Search<'_> {
         }
     }
 
-    /// A refusal by a limit on the whole, with a limit in its place that was tried: what is in the way may be another limit too.
-    fn with_a_limit_that_works(&self, refusal: Refusal) -> Refusal {
-        let planned = |limits: Limits| {
-            let wish = Wish {
-                limits,
-                ..self.wish.clone()
-            };
-            Search { wish: &wish, ..*self }.best(self.wish.down_to).ok()
+    /// A broken limit on the whole with one in its place that was tried: what is in the way may be another limit too.
+    fn with_a_limit_that_works(&self, over: Over) -> Over {
+        let mut raised = self.wish.clone();
+        match over {
+            Over::Changes(changes) => raised.limits.changes = Some(changes.found),
+            Over::Cuts(cuts) => raised.limits.cuts = Some(cuts.found),
+            Over::Time(time) => raised.limits.time = Some(time.found),
+        }
+        let search = Search {
+            wish: &raised,
+            ..*self
         };
-        let limits = self.wish.limits;
-        match refusal {
-            Refusal::Changes { changes, limit, .. } => {
-                let raised = Limits {
-                    changes: Some(changes),
-                    ..limits
-                };
-                let works = planned(raised).and_then(|plan| u32::try_from(plan.counts().changes).ok());
-                Refusal::Changes {
-                    changes,
-                    limit,
-                    works,
-                }
-            }
-            Refusal::Cuts { cuts, limit, .. } => {
-                let raised = Limits {
-                    cuts: Some(cuts),
-                    ..limits
-                };
-                let works = planned(raised).map(|plan| plan.counts().slits + plan.counts().strips);
-                Refusal::Cuts { cuts, limit, works }
-            }
-            Refusal::Time { time, limit, .. } => {
-                let raised = Limits {
-                    time: Some(time),
-                    ..limits
-                };
-                let works = planned(raised).map(|plan| plan.time);
-                Refusal::Time { time, limit, works }
-            }
-            other => other,
+        let plan = search.best(raised.down_to).ok();
+        match over {
+            Over::Changes(changes) => Over::Changes(Exceeded {
+                works: plan.and_then(|plan| u32::try_from(plan.counts().changes).ok()),
+                ..changes
+            }),
+            Over::Cuts(cuts) => Over::Cuts(Exceeded {
+                works: plan.map(|plan| plan.counts().cuts()),
+                ..cuts
+            }),
+            Over::Time(time) => Over::Time(Exceeded {
+                works: plan.map(|plan| plan.time),
+                ..time
+            }),
         }
     }
 

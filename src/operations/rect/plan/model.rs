@@ -29,6 +29,14 @@ pub struct Counts {
     pub layers: u32,
 }
 
+impl Counts {
+    /// Slits and strips together.
+    #[must_use]
+    pub const fn cuts(self) -> usize {
+        self.slits + self.strips
+    }
+}
+
 /// How fast everything goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace {

@@ -64,25 +64,8 @@ pub enum Refusal {
     NoColumns { through: u32 },
     /// More stays on the part than may.
     Scallop { left: Length, limit: Length },
-    /// More changes of blade than there may be.
-    Changes {
-        changes: u32,
-        limit: u32,
-        /// A limit with which there is a plan, tried.
-        works: Option<u32>,
-    },
-    /// More slits and strips than there may be.
-    Cuts {
-        cuts: usize,
-        limit: usize,
-        works: Option<usize>,
-    },
-    /// It takes longer than it may.
-    Time {
-        time: Duration,
-        limit: Duration,
-        works: Option<Duration>,
-    },
+    /// There is a plan, but one that breaks a limit on the whole.
+    Over(Over),
     /// No layer or step within the bounds: the least that the job allows is more than blades or bounds do.
     Bounds {
         field: SizeField,
@@ -96,9 +79,7 @@ impl Refusal {
     pub(crate) fn or_less(self, other: Self) -> Self {
         let is_less = match (&self, &other) {
             (Self::Scallop { left, .. }, Self::Scallop { left: less, .. }) => less < left,
-            (Self::Changes { changes, .. }, Self::Changes { changes: fewer, .. }) => fewer < changes,
-            (Self::Cuts { cuts, .. }, Self::Cuts { cuts: fewer, .. }) => fewer < cuts,
-            (Self::Time { time, .. }, Self::Time { time: less, .. }) => less < time,
+            (Self::Over(over), Self::Over(other)) => other.is_less_than(over),
             _ => false,
         };
         if is_less { other } else { self }
@@ -107,7 +88,7 @@ impl Refusal {
     /// Whether there is a plan, but one that is too long: other ones may be shorter.
     pub(crate) const fn is_about_the_whole(&self) -> bool {
         match self {
-            Self::Changes { .. } | Self::Cuts { .. } | Self::Time { .. } => true,
+            Self::Over(_) => true,
             Self::Nothing
             | Self::NoEdge { .. }
             | Self::TooMany { .. }
@@ -120,6 +101,48 @@ impl Refusal {
             | Self::NoColumns { .. }
             | Self::Scallop { .. }
             | Self::Bounds { .. } => false,
+        }
+    }
+}
+
+/// A limit on the whole that a plan breaks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Over {
+    /// On changes of blade.
+    Changes(Exceeded<u32>),
+    /// On slits and strips together.
+    Cuts(Exceeded<usize>),
+    /// On the time by the model.
+    Time(Exceeded<Duration>),
+}
+
+/// A limit, and what is above it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exceeded<T> {
+    pub found: T,
+    pub limit: T,
+    /// A limit with which there is a plan, tried.
+    pub works: Option<T>,
+}
+
+impl<T: Copy + PartialOrd> Exceeded<T> {
+    /// Where something is above its limit.
+    pub(crate) fn of(found: T, limit: Option<T>) -> Option<Self> {
+        limit.filter(|limit| found > *limit).map(|limit| Self {
+            found,
+            limit,
+            works: None,
+        })
+    }
+}
+
+impl Over {
+    fn is_less_than(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Changes(one), Self::Changes(other)) => one.found < other.found,
+            (Self::Cuts(one), Self::Cuts(other)) => one.found < other.found,
+            (Self::Time(one), Self::Time(other)) => one.found < other.found,
+            (Self::Changes(_) | Self::Cuts(_) | Self::Time(_), _) => false,
         }
     }
 }

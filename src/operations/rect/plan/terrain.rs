@@ -11,19 +11,19 @@ use vcutc_simulation::surface::Side;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Terrain {
     /// From left to right, each up to the next one's start; at least one, the first one starts at 0.
-    pieces: Vec<Stretch>,
+    pieces: Vec<Segment>,
     width: f64,
 }
 
-/// A straight stretch of the surface.
+/// A straight piece of the surface, up to where the next one begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Stretch {
+struct Segment {
     from: f64,
     /// Height where it begins and where it ends.
     heights: [f64; 2],
 }
 
-/// A part of a stretch, with where it ends.
+/// A part of such a piece, with where it ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Clipped {
     from: Point2,
@@ -34,7 +34,7 @@ impl Terrain {
     /// What these corners are, from left to right over all of a width; two at one place are a wall.
     pub(crate) fn of(corners: &[Point2], width: f64) -> Self {
         let pieces = corners.windows(2).filter_map(|pair| match pair {
-            [from, to] if to.x > from.x => Some(Stretch {
+            [from, to] if to.x > from.x => Some(Segment {
                 from: from.x,
                 heights: [from.z, to.z],
             }),
@@ -101,21 +101,20 @@ impl Terrain {
             let Some(piece) = self.clipped(index, 0.0, self.width) else {
                 continue;
             };
-            if piece.from.x < from - TOUCH {
+            let (mut start, mut end) = (piece.from.x, piece.to.x);
+            if start < from - TOUCH {
                 parts.extend(self.clipped(index, 0.0, from));
+                start = from;
             }
-            let start = if piece.from.x < from - TOUCH {
-                from
-            } else {
-                piece.from.x
-            };
-            let end = if piece.to.x > to + TOUCH { to } else { piece.to.x };
+            let mut rest = None;
+            if end > to + TOUCH {
+                rest = self.clipped(index, to, self.width);
+                end = to;
+            }
             if let Some(within) = self.clipped(index, start, end) {
                 within.below(height, &mut parts);
             }
-            if piece.to.x > to + TOUCH {
-                parts.extend(self.clipped(index, to, self.width));
-            }
+            parts.extend(rest);
         }
         // With its neighbours, so that level pieces of one height are one.
         let around = first.saturating_sub(1)..self.pieces.len().min(last + 1);
@@ -174,7 +173,7 @@ impl Clipped {
         self.from.x + share * (self.to.x - self.from.x)
     }
 
-    /// Adds what of it is no higher than that.
+    /// Adds its part up to a height, and that height where it stands above.
     fn below(self, height: f64, out: &mut Vec<Self>) {
         let over = [self.from.z > height, self.to.z > height];
         let level = |from: f64, to: f64| Self {
@@ -205,10 +204,10 @@ impl Clipped {
 }
 
 /// Parts that follow each other as pieces, level ones of one height as one.
-fn pieces(parts: &[Clipped]) -> Vec<Stretch> {
+fn pieces(parts: &[Clipped]) -> Vec<Segment> {
     let runs = parts.chunk_by(|one, next| one.goes_on_as(*next));
     let joined = runs.filter_map(|run| {
-        Some(Stretch {
+        Some(Segment {
             from: run.first()?.from.x,
             heights: [run.first()?.from.z, run.last()?.to.z],
         })

@@ -11,7 +11,7 @@ mod traps;
 use super::automatic::plan;
 use super::blades::{Cover, Knife, Shaft, Wheel};
 use super::model::Pace;
-use super::refusal::Refusal;
+use super::refusal::{Exceeded, Over, Refusal};
 use super::{Blades, Limits, PlannedRect, Rounding, Slit, Stage, Strip, StripOrigin, WORTH, Wish, Work};
 use crate::asked::Residual;
 use vcutc_backend_api::ir::Stock;

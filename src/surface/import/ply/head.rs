@@ -134,7 +134,7 @@ pub(super) fn head(bytes: &[u8]) -> Result<Head, DataError> {
                 return Ok(Head { form, elements, end });
             }
             _ => {
-                let message = format!("`{}` is no line of the head of a PLY file", keyword.shown());
+                let message = format!("`{}` is not a line of the head of a PLY file", keyword.shown());
                 return Err(fault(keyword.range(), message));
             }
         }

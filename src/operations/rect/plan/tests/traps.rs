@@ -393,11 +393,11 @@ fn what_cannot_be_planned_is_said() {
     few.limits.changes = Some(3);
     assert_eq!(
         sample.plan(&blades(), &few),
-        Err(Refusal::Changes {
-            changes: 7,
+        Err(Refusal::Over(Over::Changes(Exceeded {
+            found: 7,
             limit: 3,
             works: Some(7)
-        })
+        })))
     );
     for size in [0.0, 1e-9, f64::NAN, f64::INFINITY] {
         let odd = Wish {
