@@ -246,7 +246,13 @@ impl<'j> Judge<'j> {
         match stage {
             Stage::Slits { slits, .. } => {
                 assert!(!slits.is_empty());
-                slits.iter().for_each(|&slit| self.slit(slit));
+                for &slit in slits {
+                    self.slit(slit);
+                    // What a rim of the plan before has cut under is cut off on its last side.
+                    let loose = self.release();
+                    let most = 2.0 * slivers * (slit.top - slit.bottom);
+                    assert!(loose <= most + 1e-6, "{loose} comes out by {slit:?}");
+                }
             }
             Stage::Strips { strips, layers } => {
                 assert!(!strips.is_empty());
