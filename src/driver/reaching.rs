@@ -38,7 +38,9 @@ pub(super) fn reach(
 /// A plan whose extensions are still the compiler's choice where the job leaves them open, though the turns have decided them.
 pub(super) fn as_asked(mut plan: PlannedJob, job: &CheckedJob) -> PlannedJob {
     for (planned, operation) in plan.operations.iter_mut().zip(&job.operations) {
-        planned.asked_mut().setup_mut().extension = operation.setup().extension;
+        let (setup, asked) = (planned.asked_mut().setup_mut(), operation.setup());
+        setup.extension = asked.extension;
+        setup.run_out = asked.run_out;
     }
     plan
 }

@@ -57,12 +57,12 @@ fn optional<T>(value: &mut Option<Sourced<T>>, place: Span) {
 fn setup(setup: &mut Setup, place: Span) {
     setup.head_span = place;
     setup.rake.forget_place(place);
-    setup.direction.forget_place(place);
+    optional(&mut setup.direction, place);
     setup.cut_feed.forget_place(place);
     setup.travel_feed.forget_place(place);
     setup.reorient_rate.forget_place(place);
     setup.clearance.forget_place(place);
-    setup.extension.forget_place(place);
+    optional(&mut setup.extension, place);
     setup.run_out.forget_place(place);
 }
 

@@ -11,8 +11,8 @@ pub struct Setup {
     pub head_span: Span,
     /// Angle between tool axis and feed; above 0 to 90 degrees.
     pub rake: Sourced<Angle>,
-    /// Direction of the cuts. Default `alternate`.
-    pub direction: Sourced<Direction>,
+    /// Direction of the cuts. Default `alternate`; none of operations that always cut to and fro.
+    pub direction: Option<Sourced<Direction>>,
     /// Cutting speed; positive.
     pub cut_feed: Sourced<Speed>,
     /// Speed through the air; positive.
@@ -21,13 +21,69 @@ pub struct Setup {
     pub reorient_rate: Sourced<AngularSpeed>,
     /// Height of the safe plane above the stock; positive.
     pub clearance: Sourced<Length>,
-    /// How far cuts run out beyond the stock; `auto` is the blade's overhang plus `run_out`.
-    pub extension: Sourced<Auto<Length>>,
+    /// How far cuts run out beyond the stock; `auto` is the blade's overhang plus `run_out`. None of operations that do not ask for
+    /// it: their cuts run out as far as `run_out` says.
+    pub extension: Option<Sourced<Auto<Length>>>,
     /// Air between the blade and the stock where it turns; zero or more. Default 2 mm.
     pub run_out: Sourced<Length>,
 }
 
 impl Setup {
+    /// The direction of the cuts: to and fro in operations that do not ask for one.
+    #[must_use]
+    pub fn direction(&self) -> Sourced<Direction> {
+        let both = Sourced {
+            value: Direction::Alternate,
+            span: None,
+        };
+        self.direction.unwrap_or(both)
+    }
+
+    /// The extension that is asked for: the compiler's choice in operations that do not ask for one.
+    #[must_use]
+    pub fn extension(&self) -> Sourced<Auto<Length>> {
+        let open = Sourced {
+            value: Auto::Auto,
+            span: None,
+        };
+        self.extension.unwrap_or(open)
+    }
+
+    /// What puts the turns of the blade farther beside the stock: the name of the field, and where it is written.
+    #[must_use]
+    pub fn turning_field(&self) -> (&'static str, Option<Span>) {
+        match self.extension {
+            Some(extension) => ("extension", extension.span),
+            None => ("run_out", self.run_out.span),
+        }
+    }
+
+    /// How far beside the stock its field puts the turns of a plan with this extension.
+    #[must_use]
+    pub fn turning_room(&self, planned: Length) -> Length {
+        match self.extension {
+            Some(_) => planned,
+            None => self.run_out.value,
+        }
+    }
+
+    /// Gives that field another value.
+    pub fn set_turning_room(&mut self, room: Length) {
+        match &mut self.extension {
+            Some(extension) => extension.value = Auto::Given(room),
+            None => self.run_out.value = room,
+        }
+    }
+
+    /// Whether the compiler chooses how far beside the stock the blade turns.
+    #[must_use]
+    pub fn leaves_turning_room(&self) -> bool {
+        match self.extension {
+            Some(extension) => extension.value == Auto::Auto,
+            None => self.run_out.span.is_none(),
+        }
+    }
+
     /// What to write so that the job states a field: in place of the value that it has, or as a new line after the rake.
     #[must_use]
     pub fn stated(&self, field: &str, span: Option<Span>, word: &str) -> Vec<(Span, String)> {

@@ -1,16 +1,25 @@
 //! Branches, places and axis values in words.
 
-use vcutc_backend_api::ir::{Axis, AxisKind, Site};
+use vcutc_backend_api::ir::{Axis, AxisKind, OperationId, Program, Site};
 pub use vcutc_machine::kinematics::configuration::{branch_words, kuka_status};
 
-/// A place in words: `layer 7, cut 12`.
+/// A place of a program in words: `layer 7, cut 12`, where there are several operations `layer 7, cut 12 of operation 2`.
 #[must_use]
-pub fn site_words(site: Site) -> String {
+pub fn site_words(program: &Program, site: Site) -> String {
+    let number = |operation: OperationId| u32::from(operation.0) + 1;
+    let of = |operation| match program.operations.as_slice() {
+        [] | [_] => String::new(),
+        [_, _, ..] => format!(" of operation {}", number(operation)),
+    };
     match site {
         Site::Program => "the program's ends".to_owned(),
-        Site::Operation(operation) => format!("operation {}", u32::from(operation.0) + 1),
-        Site::Layer { layer, .. } => format!("layer {layer}"),
-        Site::Cut { layer, cut, .. } => format!("layer {layer}, cut {cut}"),
+        Site::Operation(operation) => format!("operation {}", number(operation)),
+        Site::Layer { operation, layer } => format!("layer {layer}{}", of(operation)),
+        Site::Cut {
+            operation,
+            layer,
+            cut,
+        } => format!("layer {layer}, cut {cut}{}", of(operation)),
     }
 }
 

@@ -234,7 +234,7 @@ fn place(program: &Program, extreme: Extreme) -> PlaceFigure {
     let words = program
         .ops
         .get(extreme.op.0 as usize)
-        .map_or_else(String::new, |op| site_words(op.site));
+        .map_or_else(String::new, |op| site_words(program, op.site));
     PlaceFigure {
         op: extreme.op.0,
         words,

@@ -103,8 +103,14 @@ impl<'s> Scene<'s> {
                         .to_owned()
                 }
             },
-            Trouble::NoCommonBranch { .. } => {
-                "let the blade come up between cuts with `direction = forward`, so that the arm can change there, or shift or turn the work with `base`".to_owned()
+            Trouble::NoCommonBranch { failing, .. } => {
+                let direction = self.asked(failing.op).and_then(|asked| asked.direction);
+                let forward = if direction.is_some() {
+                    "let the blade come up between cuts with `direction = forward`, so that the arm can change there, or "
+                } else {
+                    ""
+                };
+                format!("{forward}shift or turn the work with `base`")
             }
             Trouble::Way { .. } => {
                 "choose a `home` from which the blade comes to the work from above".to_owned()
@@ -114,7 +120,8 @@ impl<'s> Scene<'s> {
                     "turn the blade higher above the work, with a larger `clearance`".to_owned()
                 }
                 Cure::FartherOut(_) | Cure::Unknown => {
-                    "turn the blade farther beside the work, with a larger `extension`".to_owned()
+                    let field = self.asked(sweep.op).map_or("extension", |asked| asked.turning_field().0);
+                    format!("turn the blade farther beside the work, with a larger `{field}`")
                 }
             },
             Trouble::Stray(_) => {
@@ -469,10 +476,10 @@ impl<'s> Scene<'s> {
                 format!("turned {} mm higher, it clears the work", show_up(by)),
             ),
             (Cure::FartherOut(by), Some(asked)) => (
-                asked.extension.span,
+                asked.turning_field().1,
                 format!("turned {} mm farther beside it, it clears the work", show_up(by)),
             ),
-            (Cure::Unknown, Some(asked)) => (asked.extension.span, "the blade turns here".to_owned()),
+            (Cure::Unknown, Some(asked)) => (asked.turning_field().1, "the blade turns here".to_owned()),
             (_, None) => (None, "the blade turns here".to_owned()),
         };
         let span = span
@@ -566,7 +573,7 @@ impl<'s> Scene<'s> {
             return "the program".to_owned();
         };
         let tip = self.tip(op);
-        let site = site_words(found.site);
+        let site = site_words(self.program, found.site);
         let place = match tip {
             Some(tip) => format!("{site} (x {} mm, z {} mm)", show(tip.x), show(tip.z)),
             None => site,

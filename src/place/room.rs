@@ -79,5 +79,5 @@ fn failure(failing: &Failing, model: &Model, program: &Program) -> String {
 
 /// `layer 7, cut 12`, or what else an op belongs to.
 fn place(program: &Program, op: OpId) -> String {
-    site_words(program.op(op).map_or(Site::Program, |op| op.site))
+    site_words(program, program.op(op).map_or(Site::Program, |op| op.site))
 }

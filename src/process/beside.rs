@@ -103,7 +103,7 @@ impl<'b> Writer<'b> {
             front: -grid::up(out),
             back: grid::up(stock.depth.to_mm() + out),
             safe,
-            direction: setup.direction.value,
+            direction: setup.direction().value,
             at: At::Above,
             tip: Point3::new(0.0, -out, safe),
             layer: None,

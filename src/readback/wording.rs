@@ -14,7 +14,7 @@ pub(super) fn op_words(program: &Program, op: OpId) -> String {
     let Some(op) = program.op(op) else {
         return "the program".to_owned();
     };
-    let site = site_words(op.site);
+    let site = site_words(program, op.site);
     let in_cut = matches!(op.site, Site::Cut { .. });
     match op.action {
         Action::Home => "the move home".to_owned(),

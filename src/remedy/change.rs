@@ -7,7 +7,7 @@ use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_job::operation::Variant;
 use vcutc_job::setup::SpeedField as Field;
-use vcutc_job::{CheckedJob, Direction, Machine, Setup};
+use vcutc_job::{CheckedJob, Direction, Machine, Setup, Sourced};
 
 /// A change of a job: in words, as edits of its text, and as the job that comes of it.
 #[derive(Clone, Debug)]
@@ -72,10 +72,17 @@ impl Change {
         let mut changed = job.clone();
         let mut edits = Vec::new();
         for &operation in operations {
-            if let Some(setup) = setup(&mut changed, operation) {
-                let stated = setup.stated("direction", setup.direction.span, direction.word());
+            let Some(setup) = setup(&mut changed, operation) else {
+                continue;
+            };
+            // Some operations have no direction to choose.
+            if let Some(asked) = setup.direction {
+                let stated = setup.stated("direction", asked.span, direction.word());
                 edits.push(stated.into_iter().next());
-                setup.direction.value = direction;
+                setup.direction = Some(Sourced {
+                    value: direction,
+                    ..asked
+                });
             }
         }
         Self::of_field("cut with", ("direction", direction.word()), edits, changed)

@@ -1,14 +1,14 @@
-//! Extensions that the turns of a five-axis machine need.
+//! The room beside the stock that the turns of a five-axis machine need.
 
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::grid;
-use vcutc_job::{Auto, CheckedJob, PlannedJob};
+use vcutc_job::{CheckedJob, PlannedJob};
 use vcutc_motion::solve::Unreached;
 use vcutc_motion::sweep::Cure;
 use vcutc_motion::trouble::Trouble;
 
-/// The job with the extension that the turns of its machine need, and `run_out` besides. None where something else is in the
-/// way, or the job states the extension itself.
+/// The job with the room that the turns of its machine need, and `run_out` besides. None where something else is in the way, or
+/// the job states that room itself.
 #[must_use]
 pub fn farther_out(job: &CheckedJob, plan: &PlannedJob, why: &Unreached) -> Option<CheckedJob> {
     let unreachable = why.unreachable()?;
@@ -30,11 +30,10 @@ pub fn farther_out(job: &CheckedJob, plan: &PlannedJob, why: &Unreached) -> Opti
     let planned = plan.operation(operation)?;
     let mut roomier = job.clone();
     let setup = roomier.operations.get_mut(place)?.setup_mut();
-    match setup.extension.value {
-        Auto::Auto => {}
-        Auto::Given(_) => return None,
+    if !setup.leaves_turning_room() {
+        return None;
     }
-    let needed = planned.extension() + by + setup.run_out.value;
-    setup.extension.value = Auto::Given(Length::mm(grid::up(needed.to_mm())));
+    let needed = setup.turning_room(planned.extension()) + by + setup.run_out.value;
+    setup.set_turning_room(Length::mm(grid::up(needed.to_mm())));
     Some(roomier)
 }

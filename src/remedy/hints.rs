@@ -271,7 +271,7 @@ fn with(plan: &PlannedJob, change: &Change) -> PlannedJob {
         for field in Field::ALL {
             field.set(setup, field.value(asked));
         }
-        setup.direction.value = asked.direction.value;
+        setup.direction = asked.direction;
     }
     plan
 }

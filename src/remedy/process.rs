@@ -5,7 +5,7 @@ use crate::change::{Change, DIRECTIONS};
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::show;
 use vcutc_job::operation::{Operation, Variation};
-use vcutc_job::{Auto, CheckedJob, PlannedOperation};
+use vcutc_job::{CheckedJob, PlannedOperation};
 use vcutc_motion::sweep::Cure;
 
 /// The same cuts in another direction.
@@ -13,9 +13,10 @@ pub(crate) fn other_direction(case: &mut Case<'_>) -> Option<Change> {
     let Troubled {
         job, place, asked, ..
     } = Troubled::of(case)?;
+    let asked = asked.setup().direction?;
     let others = DIRECTIONS
         .into_iter()
-        .filter(|direction| *direction != asked.setup().direction.value);
+        .filter(|&direction| direction != asked.value);
     case.first(others.map(|direction| Change::direction(job, &[place], direction)))
 }
 
@@ -46,10 +47,12 @@ pub(crate) fn more_room(case: &mut Case<'_>, cure: Cure) -> Option<Change> {
     } = Troubled::of(case)?;
     let change = match cure {
         Cure::FartherOut(by) => {
-            let (extension, text) = roomy(planned.extension() + by);
-            Change::length(job, place, ("extension", &text), |setup| {
-                setup.extension.value = Auto::Given(extension);
-                setup.extension.span
+            let setup = asked.setup();
+            let (room, text) = roomy(setup.turning_room(planned.extension()) + by);
+            let (field, span) = setup.turning_field();
+            Change::length(job, place, (field, &text), |setup| {
+                setup.set_turning_room(room);
+                span
             })
         }
         Cure::HigherUp(by) => {
@@ -62,6 +65,23 @@ pub(crate) fn more_room(case: &mut Case<'_>, cure: Cure) -> Option<Change> {
         Cure::Unknown => return None,
     };
     case.first([change])
+}
+
+/// Which of the cuts' own fields can be changed where the machine does not follow, by name.
+pub(crate) fn choices(case: &Case<'_>) -> Vec<&'static str> {
+    let Some(Troubled { asked, planned, .. }) = Troubled::of(case) else {
+        return Vec::new();
+    };
+    let varies = |of| !asked.variants(planned, of).is_empty();
+    let choices = [
+        ("direction", asked.setup().direction.is_some()),
+        ("order", varies(Variation::Order)),
+        ("swing", varies(Variation::SmallerSwing)),
+    ];
+    choices
+        .into_iter()
+        .filter_map(|(field, is_there)| is_there.then_some(field))
+        .collect()
 }
 
 /// A length rounded up to what people like to paste: tenths of a millimetre.

@@ -59,9 +59,12 @@ pub fn diagnose<'c>(
         // That nothing helps is not known.
         diagnostic
     } else {
-        diagnostic.note(
-            "changing any one of speed, direction, order, swing, home or base did not help, as far as was tried",
-        )
+        let mut changed = vec!["speed"];
+        changed.extend(process::choices(&case));
+        diagnostic.note(format!(
+            "changing any one of {}, home or base did not help, as far as was tried",
+            changed.join(", ")
+        ))
     };
     Some(diagnostic.help(LOOK_ON))
 }

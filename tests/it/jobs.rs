@@ -225,7 +225,7 @@ fn subjects(outcome: &Outcome) -> BTreeSet<String> {
     let auto = |name: &str, is_auto: bool| format!("{name} {}", if is_auto { "auto" } else { "given" });
     for asked in job.operations.iter().filter_map(|asked| RoughVcut::of(&**asked)) {
         subjects.extend([
-            format!("{:?} {:?}", asked.blade.edges, asked.setup.direction.value),
+            format!("{:?} {:?}", asked.blade.edges, asked.setup.direction().value),
             auto("lattice", asked.lattice.value == Auto::Auto),
             auto("order", asked.order.value == Auto::Auto),
             auto("sequence", asked.sequence.value == Auto::Auto),
@@ -236,7 +236,7 @@ fn subjects(outcome: &Outcome) -> BTreeSet<String> {
             auto("swing", asked.swing.value == Auto::Auto),
             auto("layer", asked.layer.value == Auto::Auto),
             auto("step", asked.step.value == Auto::Auto),
-            auto("extension", asked.setup.extension.value == Auto::Auto),
+            auto("extension", asked.setup.extension().value == Auto::Auto),
             auto("standoff", asked.standoff.value == Auto::Auto),
         ]);
     }

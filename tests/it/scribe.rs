@@ -160,7 +160,11 @@ impl Operation for Mark {
         let overhang = self
             .holder()
             .turning_overhang(blade.cutting_length.value, blade.half_apex.value);
-        let extension = self.setup.extension.value.or(overhang + self.setup.run_out.value);
+        let extension = self
+            .setup
+            .extension()
+            .value
+            .or(overhang + self.setup.run_out.value);
         let vee = self.vee(ground.job.stock);
         ground.before.release(vee);
         Ok(Laid {

@@ -78,7 +78,7 @@ pub fn check(fields: &Fields<'_>, written: Written<'_>, session: &mut Session<'_
         .and_then(|inner| feeds(&FEEDS, inner, written, session));
     with_feeds(
         feeds.map(|(feeds, _)| feeds),
-        Rake::Stated,
+        Blades::Straight,
         fields,
         written,
         session,
@@ -96,20 +96,22 @@ pub fn check_without_rake(
         .and_then(|inner| feeds(&FEEDS, inner, written, session));
     with_feeds(
         feeds.map(|(feeds, _)| feeds),
-        Rake::None,
+        Blades::Round,
         fields,
         written,
         session,
     )
 }
 
-/// Whether the blade of an operation has a rake.
+/// The blades of an operation, which decide what it states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Rake {
-    /// The operation states it.
-    Stated,
-    /// It has none: its axis is taken to be square to the feed.
-    None,
+enum Blades {
+    /// A straight one: the operation states its rake, how far its cuts run out, and their direction.
+    Straight,
+    /// A straight one and a disc: the operation states the rake, and cuts to and fro.
+    Both,
+    /// A disc: the operation states the direction; the axis is taken to be square to the feed.
+    Round,
 }
 
 /// The same of an operation with [`FEED_OF_TWO`], with the speed of its disc in the material.
@@ -129,33 +131,42 @@ pub fn check_of_two(
         Ok((feeds, free)) => (Ok(feeds), Ok(free)),
         Err(reported) => (Err(reported), Err(reported)),
     };
-    let setup = with_feeds(feeds, Rake::Stated, fields, written, session);
+    let setup = with_feeds(feeds, Blades::Both, fields, written, session);
     Ok((setup?, free?))
 }
 
 // The block of feeds comes first: it needs the session, of which the reader holds a part.
 fn with_feeds(
     feeds: Checked<Feeds>,
-    rake: Rake,
+    blades: Blades,
     fields: &Fields<'_>,
     written: Written<'_>,
     session: &mut Session<'_>,
 ) -> Checked<Setup> {
     let scope = written.scope;
     let mut reader = Reader::new(scope, &mut session.reports);
-    let rake = match rake {
-        Rake::Stated => reader.required(fields, "rake"),
-        Rake::None => Ok(default(Angle::deg(90.0))),
+    let rake = match blades {
+        Blades::Straight | Blades::Both => reader.required(fields, "rake"),
+        Blades::Round => Ok(default(Angle::deg(90.0))),
     };
-    let direction = reader.choice(fields, "direction", Direction::WORDS);
+    let direction = match blades {
+        Blades::Straight | Blades::Round => {
+            let asked = reader.choice(fields, "direction", Direction::WORDS);
+            asked.map(|asked| Some(asked.unwrap_or(default(Direction::Alternate))))
+        }
+        Blades::Both => Ok(None),
+    };
     let clearance = reader.required(fields, "clearance");
-    let extension = reader.auto(fields, "extension");
+    let extension = match blades {
+        Blades::Straight => reader.auto(fields, "extension").map(Some),
+        Blades::Both | Blades::Round => Ok(None),
+    };
     let run_out = reader.defaulted(fields, "run_out", RUN_OUT);
     let feeds = feeds?;
     Ok(Setup {
         head_span: written.place.head,
         rake: rake?,
-        direction: direction?.unwrap_or(default(Direction::Alternate)),
+        direction: direction?,
         cut_feed: feeds.cut,
         travel_feed: feeds.travel,
         reorient_rate: feeds.reorient,

@@ -48,8 +48,8 @@ fn run_out(operation: &dyn Operation) -> (&'static str, Option<Span>) {
         .iter()
         .map(measure)
         .max_by(|(_, one), (_, other)| one.value.total_cmp(&other.value));
-    match (setup.extension.value, longest) {
-        (Auto::Given(_), _) => ("`extension`", setup.extension.span),
+    match (setup.extension().value, longest) {
+        (Auto::Given(_), _) => ("`extension`", setup.extension().span),
         (Auto::Auto, Some((field, longest))) if setup.run_out.value <= longest.value => (field, longest.span),
         (Auto::Auto, _) => ("`run_out`", setup.run_out.span),
     }

@@ -5,7 +5,7 @@ use crate::plan::LEAST_LAYER;
 use crate::plan::blades::WidthBound;
 use crate::plan::refusal::{Closed, Exceeded, Over, Refusal, SizeField};
 use vcutc_backend_api::script::duration_words;
-use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -118,7 +118,7 @@ fn nothing(asked: &RoughRect) -> Diagnostic {
         asked.setup.head_span,
         "this operation",
     )
-    .help("check the heights of stock and part, `allowance` and `down_to`")
+    .help("check the heights of stock and part, `allowance` and `down_to`; if operations before have taken it all, leave this one out")
 }
 
 fn too_wide(asked: &RoughRect, widest: Length, limit: Length, bound: WidthBound) -> Diagnostic {
@@ -323,12 +323,12 @@ fn over(asked: &RoughRect, over: Over) -> Diagnostic {
         Over::Changes(Exceeded { found, limit, works }) => (
             format!("the plan has {found} changes of blade, the limit is {limit}"),
             limits.changes.and_then(|limit| limit.span),
-            works.map(|works| works.to_string()),
+            works.map(|works| (works.to_string(), works.to_string())),
         ),
         Over::Cuts(Exceeded { found, limit, works }) => (
             format!("the plan has {found} slits and strips, the limit is {limit}"),
             limits.cuts.and_then(|limit| limit.span),
-            works.map(|works| works.to_string()),
+            works.map(|works| (works.to_string(), works.to_string())),
         ),
         Over::Time(Exceeded { found, limit, works }) => (
             format!(
@@ -337,7 +337,7 @@ fn over(asked: &RoughRect, over: Over) -> Diagnostic {
                 duration_words(limit)
             ),
             limits.time.and_then(|limit| limit.span),
-            works.map(|works| format!("{} s", show((works.to_s() * 10.0).ceil() / 10.0))),
+            works.map(time_limit),
         ),
     };
     let diagnostic = Diagnostic::new(Code::LimitsConflict, message, place(asked, span), "this limit").and(
@@ -345,13 +345,26 @@ fn over(asked: &RoughRect, over: Over) -> Diagnostic {
         "no plan of this operation that was tried keeps it",
     );
     match (span, works) {
-        (Some(span), Some(works)) => {
-            let advice = format!("use a limit of {works}, which a plan keeps");
-            diagnostic.fix(advice, span, works)
+        (Some(span), Some((written, said))) => {
+            let advice = format!("use a limit of {said}, which a plan keeps");
+            diagnostic.fix(advice, span, written)
         }
         (Some(_), None) => diagnostic.help("take it out to see what else is in the way"),
         (None, _) => diagnostic,
     }
+}
+
+/// A limit on time, rounded up to what people like to write, and how a message says it: as it states other times, too.
+fn time_limit(time: Duration) -> (String, String) {
+    let seconds = (time.to_s() * 10.0).ceil() / 10.0;
+    let written = format!("{} s", show(seconds));
+    let stated = duration_words(Duration::s(seconds));
+    let said = if stated == written {
+        written.clone()
+    } else {
+        format!("{written} ({stated})")
+    };
+    (written, said)
 }
 
 fn limit_place<T>(asked: &RoughRect, limit: Option<Sourced<T>>) -> Span {

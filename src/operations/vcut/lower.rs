@@ -138,7 +138,7 @@ impl<'b> Writer<'b> {
             operation,
             postures: Postures::of(holder),
             order: planned.order,
-            direction: asked.setup.direction.value,
+            direction: asked.setup.direction().value,
             cut_feed,
             travel_feed,
             rate,

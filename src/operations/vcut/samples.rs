@@ -47,12 +47,12 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
             setup: Setup {
                 head_span: span,
                 rake: given(Angle::deg(60.0)),
-                direction: given(Direction::Alternate),
+                direction: Some(given(Direction::Alternate)),
                 cut_feed: given(Speed::mm_per_s(200.0)),
                 travel_feed: given(Speed::mm_per_s(200.0)),
                 reorient_rate: given(AngularSpeed::deg_per_s(90.0)),
                 clearance: mm(10.0),
-                extension: given(Auto::Auto),
+                extension: Some(given(Auto::Auto)),
                 run_out: mm(2.0),
             },
             blade: StraightBlade {

@@ -158,14 +158,18 @@ pub(crate) fn parameters(vcut: &PlannedVcut) -> Vec<ParameterFigure> {
     all.extend([
         ParameterFigure::open("swing", &asked.swing, degrees(found.swing)),
         ParameterFigure::fixed("rake", &asked.setup.rake, degrees(asked.setup.rake.value)),
-        ParameterFigure::open("extension", &asked.setup.extension, millimetres(found.extension)),
+        ParameterFigure::open(
+            "extension",
+            &asked.setup.extension(),
+            millimetres(found.extension),
+        ),
         ParameterFigure::open("standoff", &asked.standoff, millimetres(found.standoff)),
         ParameterFigure::fixed("allowance", &asked.allowance, millimetres(asked.allowance.value)),
         ParameterFigure::open("order", &asked.order, word(vcut.order.word())),
         ParameterFigure::fixed(
             "direction",
-            &asked.setup.direction,
-            word(asked.setup.direction.value.word()),
+            &asked.setup.direction(),
+            word(asked.setup.direction().value.word()),
         ),
         ParameterFigure::fixed(
             "clearance",

@@ -116,7 +116,7 @@ fn without_lattice(asked: &RoughVcut, mut rows: Vec<ParameterRow>) -> Vec<Parame
 
 fn motion(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<ParameterRow> {
     let found = &planned.parameters;
-    let direction = asked.setup.direction.value.word();
+    let direction = asked.setup.direction().value.word();
     // Where both are open, the order is decided with the sequence.
     let sequence = decided(planned, "sequence");
     let order = decided(planned, "order").or_else(|| sequence.clone());
@@ -134,7 +134,7 @@ fn motion(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<ParameterRow> {
             planned.sequence.word().to_owned(),
             sequence.unwrap_or_else(fastest),
         ),
-        ParameterRow::of("direction", asked.setup.direction, |_| direction.to_owned()),
+        ParameterRow::of("direction", asked.setup.direction(), |_| direction.to_owned()),
         ParameterRow::of("feed cut", asked.setup.cut_feed, |speed| {
             format!("{} mm/s", show(speed.to_mm_per_s()))
         }),
@@ -147,7 +147,7 @@ fn motion(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<ParameterRow> {
         ParameterRow::of("clearance", asked.setup.clearance, length_text),
         ParameterRow::open(
             "extension",
-            &asked.setup.extension,
+            &asked.setup.extension(),
             length_text(found.extension),
             "the blade's overhang and the run-out",
         ),

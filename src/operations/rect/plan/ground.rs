@@ -204,6 +204,13 @@ impl<'w> Ground<'w> {
         highest.is_none_or(|height| height <= self.stands(strip.floor) + TOUCH)
     }
 
+    /// Whether so little of a strip stands that it is not worth a pass: operations before have taken the rest.
+    pub(crate) fn is_scrap(&self, strip: Extent, terrain: &Terrain) -> bool {
+        let Extent { left, right, floor } = strip;
+        let layer = (right - left) * self.sizes.layer;
+        terrain.area_above(left, right, self.stands(floor)) <= self.worth * layer
+    }
+
     /// What a strip leaves standing.
     pub(crate) fn stands(&self, floor: f64) -> f64 {
         floor + self.rise

@@ -86,6 +86,32 @@ impl Layout {
         Self::of(ground, levels, pieces)
     }
 
+    /// Without the strips of which operations before have left next to nothing, if there are any. What stands of such a strip comes
+    /// out with the one below it.
+    pub(crate) fn without_scraps(&self, ground: &Ground<'_>) -> Option<Self> {
+        let mut standing = ground.before();
+        if standing.is_level() {
+            return None;
+        }
+        let mut pieces = Vec::with_capacity(self.pieces.len());
+        for &piece in &self.pieces {
+            let Extent { left, right, floor } = piece.extent;
+            if ground.is_scrap(piece.extent, &standing) {
+                continue;
+            }
+            let stands = standing.highest(left, right);
+            pieces.push(Piece {
+                top: stands.map_or(piece.top, |height| height.max(piece.top)),
+                ..piece
+            });
+            standing.lower(left, right, ground.stands(floor));
+        }
+        (pieces.len() < self.pieces.len()).then(|| Self {
+            levels: self.levels.clone(),
+            pieces,
+        })
+    }
+
     /// How many layers have strips; the lower ones may have none.
     pub(crate) fn layers(&self) -> u32 {
         self.pieces.iter().map(|piece| piece.layer).max().unwrap_or(0)
@@ -109,11 +135,16 @@ impl Layout {
         widths.fold(0.0, f64::max)
     }
 
-    /// The layer that is the thickest, in mm.
+    /// The layer that is the thickest, or the strip that is thicker than any layer, in mm.
     pub(crate) fn thickest(&self, ground: &Ground<'_>) -> f64 {
         let above = core::iter::once(&ground.top).chain(&self.levels);
         let heights = above.zip(&self.levels).map(|(above, level)| above - level);
-        heights.fold(0.0, f64::max)
+        let layer = heights.fold(0.0, f64::max);
+        let strips = self.pieces.iter();
+        let heights = strips.map(|piece| piece.top - ground.stands(piece.extent.floor));
+        heights
+            .filter(|&height| height > layer + TOUCH)
+            .fold(layer, f64::max)
     }
 }
 

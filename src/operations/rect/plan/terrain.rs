@@ -60,6 +60,18 @@ impl Terrain {
         clipped.map(|part| part.from.z.max(part.to.z)).reduce(f64::max)
     }
 
+    /// Whether it is one level piece.
+    pub(crate) fn is_level(&self) -> bool {
+        self.pieces.len() == 1 && self.clipped(0, 0.0, self.width).is_some_and(Clipped::is_level)
+    }
+
+    /// The area that stands above a height over a range, in mm2.
+    pub(crate) fn area_above(&self, from: f64, to: f64, height: f64) -> f64 {
+        let (from, to) = (from.max(0.0), to.min(self.width));
+        let parts = (0..self.pieces.len()).filter_map(|index| self.clipped(index, from, to));
+        parts.map(|part| part.area_above(height)).sum()
+    }
+
     /// The height just beside a place; none where the stock ends.
     pub(crate) fn beside(&self, x: f64, side: Side) -> Option<f64> {
         match side {
@@ -173,6 +185,18 @@ impl Clipped {
         self.from.x + share * (self.to.x - self.from.x)
     }
 
+    fn area_above(self, height: f64) -> f64 {
+        let [from, to] = [self.from.z, self.to.z].map(|z| z - height);
+        let length = self.to.x - self.from.x;
+        match [from > 0.0, to > 0.0] {
+            [false, false] => 0.0,
+            [true, true] => length * f64::midpoint(from, to),
+            // A triangle up to where it passes the height.
+            [true, false] => length * from * from / (from - to) / 2.0,
+            [false, true] => length * to * to / (to - from) / 2.0,
+        }
+    }
+
     /// Adds its part up to a height, and that height where it stands above.
     fn below(self, height: f64, out: &mut Vec<Self>) {
         let over = [self.from.z > height, self.to.z > height];
@@ -244,6 +268,8 @@ mod tests {
                     prop_assert_eq!(terrain.beside(x as f64, Side::Left), left);
                     prop_assert_eq!(terrain.beside(x as f64, Side::Right), Some(cells[x]));
                 }
+                let area: f64 = cells[from..to].iter().map(|cell| (cell - 7.5).max(0.0)).sum();
+                prop_assert!((terrain.area_above(from as f64, to as f64, 7.5) - area).abs() < 1e-9);
                 let wide = cells[from..to].iter().copied().fold(f64::NEG_INFINITY, f64::max);
                 prop_assert_eq!(terrain.highest(from as f64, to as f64), Some(wide));
                 let walls = cells.windows(2).filter(|pair| pair[0] != pair[1]).count();
@@ -282,6 +308,9 @@ mod tests {
             let ends = [from + 2.0 * TOUCH, to - 2.0 * TOUCH];
             let sampled = within.chain(ends).map(height).fold(f64::NEG_INFINITY, f64::max);
             let highest = terrain.highest(from, to).unwrap();
+            let above = places.iter().filter(|x| (range.0..range.0 + range.1).contains(x));
+            let area: f64 = above.map(|&x| (height(x) - 8.0).max(0.0) * 0.01).sum();
+            prop_assert!((terrain.area_above(from, to, 8.0) - area).abs() < 0.5, "{}", area);
             // Slopes are at most 2, and places a hundredth apart.
             prop_assert!(highest >= sampled - 1e-9 && highest <= sampled + 0.021, "{} {}", highest, sampled);
             for x in places {

@@ -46,7 +46,10 @@ pub(crate) fn plan(terms: Terms<'_>, blades: &Blades, choice: Choice) -> Result<
     };
     let mut first: Option<Refusal> = None;
     for layout in layouts {
-        match trial.planned(&layout) {
+        match trial
+            .without_scraps(&layout)
+            .unwrap_or_else(|| trial.planned(&layout))
+        {
             Ok(plan) => return Ok(plan),
             Err(refusal) => first = first.or(Some(refusal)),
         }
@@ -83,6 +86,22 @@ struct Trial<'t> {
 }
 
 impl Trial<'_> {
+    /// A plan that leaves scraps of earlier operations where they are: none where there are no scraps, where they would stay as
+    /// more than the part may keep, and where they are in the way of other strips.
+    fn without_scraps(&self, layout: &Layout) -> Option<Result<PlannedRect, Refusal>> {
+        let rest = layout.without_scraps(self.ground)?;
+        if let Some(limit) = self.choice.limit {
+            let contour = rest.after(self.ground).corners(0.0, self.ground.width);
+            if self.ground.left_by(&contour) > limit {
+                return None;
+            }
+        }
+        match self.planned(&rest) {
+            Err(Refusal::Nothing) => Some(Err(Refusal::Nothing)),
+            planned => planned.ok().map(Ok),
+        }
+    }
+
     fn planned(&self, layout: &Layout) -> Result<PlannedRect, Refusal> {
         if layout.pieces.is_empty() {
             return Err(Refusal::Nothing);

@@ -26,7 +26,7 @@ fn job(order: Order, direction: Direction, edges: Edges) -> CheckedJob {
     let mut job = paper_job(corners.map(|(x, z)| Point2 { x, z }).to_vec());
     let asked = operation(&mut job);
     asked.order.value = Auto::Given(order);
-    asked.setup.direction.value = direction;
+    asked.setup.direction = Some(given(direction));
     asked.blade.edges = edges;
     asked.blade.cutting_length.value = Length::mm(20.0);
     asked.swing.value = Auto::Given(Angle::deg(30.0));

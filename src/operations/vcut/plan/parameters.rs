@@ -124,7 +124,7 @@ impl VcutParameters {
             length("layer", asked.layer.value, self.layer),
             length("step", asked.step.value, self.step),
             overlap,
-            length("extension", asked.setup.extension.value, self.extension),
+            length("extension", asked.setup.extension().value, self.extension),
             length("standoff", asked.standoff.value, self.standoff),
         ]
         .into_iter()
@@ -430,7 +430,7 @@ fn complete(
 fn edge_overhang(asked: &RoughVcut, swing: Angle) -> Length {
     let (length, half_apex) = (asked.blade.cutting_length.value, asked.blade.half_apex.value);
     let cutting = length * (asked.setup.rake.value - half_apex).cos();
-    match asked.setup.direction.value {
+    match asked.setup.direction().value {
         Direction::Alternate => {
             let holder = Holder {
                 swing,
@@ -501,7 +501,7 @@ fn resolve_extension(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Length> {
     let on_grid = |extension: Length| Length::mm(grid::up(extension.to_mm()));
-    match asked.setup.extension.value {
+    match asked.setup.extension().value {
         Auto::Auto => Some(on_grid(body_overhang.max(edge) + asked.setup.run_out.value)),
         Auto::Given(extension) if on_grid(extension) >= on_grid(edge) => Some(on_grid(extension)),
         Auto::Given(extension) => {

@@ -50,7 +50,7 @@ prop_compose! {
         let asked = operation(&mut job);
         asked.lattice.value = Auto::Given(lattice);
         asked.order.value = Auto::Given(order);
-        asked.setup.direction.value = direction;
+        asked.setup.direction = Some(given(direction));
         asked.blade.edges = edges;
         asked.swing.value = swing.map_or(Auto::Auto, |swing| Auto::Given(Angle::deg(swing)));
         asked.setup.rake.value = Angle::deg(rake);
@@ -128,7 +128,7 @@ prop_compose! {
         asked.objective.value = objective;
         asked.formulas.value = formulas;
         all_auto(asked);
-        asked.setup.extension.value = Auto::Auto;
+        asked.setup.extension = Some(given(Auto::Auto));
         asked.standoff.value = Auto::Auto;
         asked.limits = Limits {
             swing: Bounds {
@@ -203,7 +203,7 @@ prop_compose! {
         asked.residual.value = Auto::Given(residual);
         asked.layer.value = auto(layer);
         asked.step.value = auto(step);
-        asked.setup.extension.value = auto(extension);
+        asked.setup.extension = Some(given(auto(extension)));
         asked.standoff.value = auto(standoff);
         asked.setup.run_out.value = Length::mm(run_out);
         job

@@ -88,7 +88,9 @@ fn remedy(attempts: &mut Attempts<'_>, needed: Length) -> Option<Remedy> {
     }
     let extend = |asked: &mut RoughVcut| {
         lengthen(asked);
-        asked.setup.extension.value = Auto::Auto;
+        if let Some(extension) = &mut asked.setup.extension {
+            extension.value = Auto::Auto;
+        }
     };
     let vcut = attempts.planned(extend)?;
     Some(Remedy::EdgeAndExtension(longer, vcut.parameters.extension))

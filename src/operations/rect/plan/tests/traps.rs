@@ -451,3 +451,85 @@ fn a_thick_blade_keeps_off_the_part() {
     let entered = entry(lower, &sample.part, &blades.knife).unwrap();
     assert!((entered - 1e-3).abs() < 1e-9);
 }
+
+/// A sample of which operations before have left a floor at 20 mm, a strip at its left, and a block of 2.5 mm on it.
+fn with_a_block(height: f64) -> Sample {
+    let mut sample = Sample::flat(100.0, 50.0);
+    let corners = [
+        (0.0, 30.0),
+        (10.0, 30.0),
+        (10.0, 20.0),
+        (42.0, 20.0),
+        (42.0, 20.0 + height),
+        (44.5, 20.0 + height),
+        (44.5, 20.0),
+        (100.0, 20.0),
+    ];
+    sample.before = corners.map(|(x, z)| Point2::new(x, z)).to_vec();
+    sample
+}
+
+#[test]
+fn scraps_of_operations_before_are_left() {
+    let counted = |sample: &Sample, blades: &Blades, wish: &Wish| {
+        let plan = sample.plan(blades, wish).unwrap();
+        plan.counts().strips
+    };
+    let upper = Wish {
+        worth: WORTH,
+        down_to: Length::mm(20.0),
+        ..wish(Residual::Discard)
+    };
+    // A twentieth of a strip is 5 mm2.
+    assert_eq!(counted(&with_a_block(2.1), &blades(), &upper), 2);
+    let scrap = with_a_block(1.9);
+    assert_eq!(counted(&scrap, &blades(), &upper), 1);
+    // It comes out with the strip below, where both blades go so deep.
+    let mut long = blades();
+    long.knife.edge = Length::mm(16.0);
+    let lower = Wish {
+        worth: WORTH,
+        ..wish(Residual::Discard)
+    };
+    let plan = scrap.plan(&long, &lower).unwrap();
+    assert_eq!(plan.counts().strips, 1 + 10);
+    let strip = plan.strips().find(|strip| strip.left == 40.0).unwrap();
+    assert_eq!((strip.top, strip.floor), (21.9, 10.0));
+    assert_eq!(counted(&scrap, &blades(), &lower), 2 + 10);
+    // It is cut all the same where less may stay, and where the disc takes no thicker strip.
+    let mut limited = upper;
+    limited.limits.scallop = Some(Length::mm(11.0));
+    assert_eq!(counted(&scrap, &blades(), &limited), 2);
+    let mut thin = long;
+    thin.wheel.depth = Length::mm(11.0);
+    assert_eq!(counted(&scrap, &thin, &lower), 2 + 10);
+    // Nothing but scraps is nothing to cut.
+    let mut alone = scrap;
+    alone.before = alone.before.split_off(2);
+    alone.before.insert(0, Point2::new(0.0, 20.0));
+    assert_eq!(
+        alone
+            .plan(
+                &blades(),
+                &Wish {
+                    layer: given(30.0),
+                    ..limited.clone()
+                }
+            )
+            .err(),
+        None
+    );
+    limited.limits.scallop = None;
+    assert_eq!(
+        alone
+            .plan(
+                &blades(),
+                &Wish {
+                    layer: given(30.0),
+                    ..limited
+                }
+            )
+            .err(),
+        Some(Refusal::Nothing)
+    );
+}

@@ -58,7 +58,7 @@ pub(super) fn standoff_too_small(asked: &RoughVcut, standoff: Length) -> Diagnos
 
 pub(super) fn extension_too_short(asked: &RoughVcut, extension: Length, least: Length) -> Diagnostic {
     let blade = &asked.blade;
-    let span = asked.setup.extension.span.unwrap_or(asked.setup.head_span);
+    let span = asked.setup.extension().span.unwrap_or(asked.setup.head_span);
     let (extension, least) = (show(extension.to_mm()), show(least.to_mm()));
     Diagnostic::new(
         Code::ExtensionTooShort,

@@ -106,7 +106,7 @@ pub(super) fn problem(
 
 fn work(job: &PlanningJob<'_>, asked: &RoughVcut, swing: Range<Angle>, standoff: Length) -> Work {
     let stock = job.stock;
-    let extension = match (asked.setup.extension.value, asked.formulas.value) {
+    let extension = match (asked.setup.extension().value, asked.formulas.value) {
         (Auto::Given(extension), Formulas::Paper | Formulas::Exact) => Extension::Fixed(extension),
         (Auto::Auto, Formulas::Paper) => Extension::EdgeInUse,
         (Auto::Auto, Formulas::Exact) => Extension::Leaning {
