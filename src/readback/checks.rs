@@ -6,7 +6,7 @@
 
 use super::comparison::Comparison;
 use super::rebuild::{Obstacle, Rebuilt};
-use super::wording::op_words;
+use super::wording::{cut_words, op_words};
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Flank, OpId, Program, Purpose, Site, ToolId};
@@ -18,10 +18,11 @@ use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::PlannedJob;
 use vcutc_machine::Model;
+use vcutc_motion::describe::site_words;
 use vcutc_motion::solve::{Changes, LEAST_CLEARANCE, Reached, Unreachable, Unreached, solve};
 use vcutc_motion::verdict as reach_verdict;
 use vcutc_process::verdict;
-use vcutc_simulation::prove::{CutFault, Finding};
+use vcutc_simulation::prove::{CutFault, Finding, Passes};
 use vcutc_simulation::report::report;
 use vcutc_simulation::slit::{Entry, deepest, edge};
 use vcutc_simulation::timing::timing;
@@ -103,6 +104,10 @@ impl Checker<'_> {
     fn span(&self, given: usize) -> Span {
         self.comparison.span(given)
     }
+}
+
+const fn frees_strips(passes: Option<Passes>) -> bool {
+    matches!(passes, Some(Passes::Strips(_)))
 }
 
 /// Why nothing of this was looked at.
@@ -392,9 +397,20 @@ impl Read<'_> {
             layer: finding.layer,
             cut: finding.cut,
         };
-        let cut = self.cuts().filter(|cut| cut.site == site).last()?;
-        let place = op_words(self.program(), cut.op);
+        let op = self.last_in_material(site)?;
+        let passes = self.passes(finding);
+        let place = match passes {
+            Some(_) => cut_words(self.program(), op),
+            None => op_words(self.program(), op),
+        };
         let (message, label) = match finding.fault {
+            CutFault::NotFreed { needed, .. } if !needed.is_finite() && frees_strips(passes) => (
+                format!(
+                    "the slit of {} goes on below what its strips leave",
+                    site_words(self.program(), site)
+                ),
+                "a strip beside it stays attached".to_owned(),
+            ),
             CutFault::NotFreed { needed, .. } if !needed.is_finite() => (
                 format!("{place} is the only flank of its cut, and its tip lies in the material"),
                 "its chip is not cut free".to_owned(),
@@ -416,16 +432,32 @@ impl Read<'_> {
                 (format!("at {place}, {what}"), label)
             }
             // The slits of changed cuts have been told already, and are the same.
-            CutFault::Overcut { .. } if is_reported => return None,
+            CutFault::Overcut { .. } if is_reported && self.cuts().any(|cut| cut.op == op) => return None,
             CutFault::Overcut { at, depth } => (
                 format!("{place} enters the part by {} mm", show(depth.to_mm())),
                 format!("deepest at x {} mm, z {} mm", show(at.x), show(at.z)),
             ),
         };
         let diagnostic = self
-            .at(Code::ProgramCuts, message, cut.op, label)
+            .at(Code::ProgramCuts, message, op, label)
             .help("restore the changed lines before this one, or compile the job again");
         Some(and_more(diagnostic, count.saturating_sub(1)))
+    }
+
+    /// The last op of a cut that goes through the material.
+    fn last_in_material(&self, site: Site) -> Option<OpId> {
+        let ops = (0..).map(OpId).zip(&self.program().ops);
+        let within = ops.filter(|(_, op)| {
+            let cuts = matches!(op.action, Action::Cut { .. } | Action::Follow { .. });
+            cuts && op.site == site
+        });
+        within.map(|(id, _)| id).last()
+    }
+
+    /// What the operation of a finding takes a disc for, if it has one.
+    fn passes(&self, finding: &Finding) -> Option<Passes> {
+        let bounds = verdict::bounds(self.checker.plan);
+        bounds.get(usize::from(finding.operation.0))?.passes
     }
 
     fn reach(&self, verified: VerifiedProgram) -> Vec<Diagnostic> {

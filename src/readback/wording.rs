@@ -43,6 +43,15 @@ pub(super) fn op_words(program: &Program, op: OpId) -> String {
     }
 }
 
+/// An op that goes through the material, of an operation with a disc: `the pass of layer 2, cut 3`, or as [`op_words`].
+pub(super) fn cut_words(program: &Program, id: OpId) -> String {
+    let op = program.op(id);
+    match op.filter(|op| matches!(op.action, Action::Follow { .. })) {
+        Some(op) => format!("the pass of {}", site_words(program, op.site)),
+        None => op_words(program, id),
+    }
+}
+
 /// What a command does, in a few words.
 pub(super) fn command_words(command: &Command) -> String {
     match command {

@@ -220,6 +220,52 @@ fn on_curved_parts_the_disc_has_to_be_as_fast_as_the_independent_model_says() {
     }
 }
 
+/// The faster one changes between disc feeds of 10 and 10.4 m/min on the curve, and between depths of 1120 and 1180 mm on the block.
+#[test]
+fn the_faster_process_changes_where_the_independent_model_says() {
+    let (_, width, profile, ..) = CURVED[0];
+    let at_feed = |free| Job {
+        free,
+        ..curved(width, profile)
+    };
+    let best = Job {
+        vcut: "limits { swing <= 50 deg }",
+        ..FLAT
+    };
+    let at_depth = |depth| Job {
+        size: [60.0, depth, 70.0],
+        ..best
+    };
+    for (job, rect_wins) in [
+        (at_feed(10.0), false),
+        (at_feed(10.4), true),
+        (at_depth(1120.0), false),
+        (at_depth(1180.0), true),
+    ] {
+        let [vcut, rect] = job.planned();
+        assert_eq!(seconds(&rect) < seconds(&vcut), rect_wins);
+    }
+    near(seconds(&best.planned()[0]), 505.07);
+    for (feed, published) in [(6.0, 369.6), (10.0, 285.6), (10.5, 279.6), (12.0, 264.6)] {
+        near(seconds(&at_feed(feed).planned()[1]), published);
+    }
+}
+
+/// Without a machine nobody says how long a change takes, and the summary says that it is not counted.
+#[test]
+fn changes_without_a_machine_are_said_not_to_count() {
+    let text = SLOW.text();
+    let outcome = compiled(text.replace(ROBOT, ""));
+    assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
+    let summary = &outcome.compiled.as_ref().unwrap().summary;
+    for words in [
+        "11 changes of blade, not counted)",
+        "(programmed speeds, without the time of changes)",
+    ] {
+        assert!(summary.iter().any(|line| line.contains(words)), "{summary:?}");
+    }
+}
+
 /// A program takes what the formula of rectangular cutting adds up, term by term:
 /// `N_s (D + 2 b_s) / v_t + N_p (D + 2 b_p) / v_d + C t_c`, a step aside after every pass but the last of a run, and the ways from
 /// layer to layer.

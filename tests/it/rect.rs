@@ -2,22 +2,29 @@
 
 use crate::pipeline::Files;
 use crate::repository::root;
-use vcutc::diagnostics::{Code, Fix, fix, has_errors};
+use vcutc::diagnostics::{Code, Diagnostic, Fix, fix, has_errors};
 use vcutc::driver::{self, Outcome, Request, Typed};
 use vcutc::picture::Prefix;
+use vcutc::process::verdict::bounds;
 use vcutc::readback::{Fresh, Reference};
 use vcutc::rect::Planned;
 use vcutc::registry;
 use vcutc::report::page::Further;
 use vcutc::report::playback::taken::Taken;
 use vcutc::report::{self, Material, pictures};
+use vcutc::simulation::disc::{Hold, PassFault};
+use vcutc::simulation::prove::{CutFault, replay};
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::ir::{Action, Program};
 use vcutc_backend_api::readback::ProgramFile;
+use vcutc_backend_api::verify::verify;
 
 const SLOPE: &str = "start (0 mm, 10 mm) line to (100 mm, 40 mm)";
 const HILL: &str = "start (0 mm, 12 mm) line to (50 mm, 38 mm) line to (100 mm, 12 mm)";
 const PARABOLA: &str = "z(x) = 32.172 mm - (x - 56.471 mm)^2 / 103.97 mm";
+/// As high as the stock in its middle.
+const PLATEAU: &str = "start (0 mm, 20 mm) line to (30 mm, 20 mm) line to (30.1 mm, 50 mm) line to (60 mm, 50 mm) \
+                       line to (60.1 mm, 20 mm) line to (100 mm, 20 mm)";
 const VALLEY: &str =
     "start (0 mm, 40 mm) line to (30 mm, 10 mm) line to (70 mm, 10 mm) line to (100 mm, 40 mm)";
 
@@ -115,6 +122,10 @@ fn slopes_and_hills_are_proven_as_planned() {
         (HILL, "step = 10 mm, through = 2, residual = lift"),
         (HILL, "limits { scallop <= 6 mm }"),
         (SLOPE, "beyond = 0 mm"),
+        (
+            PLATEAU,
+            "layer = 10 mm, step = 10 mm, residual = shift, lead = 0 deg",
+        ),
         (PARABOLA, "beyond = 0 mm, step = 13.78 mm"),
     ] {
         let outcome = compiled(job(profile, more), "kuka");
@@ -202,14 +213,125 @@ fn all_targets_write_strips_and_read_them_back() {
     }
 }
 
+#[test]
+fn a_job_of_eleven_changes_reads_back_on_all_targets() {
+    let block = job(
+        "start (0 mm, 10 mm) line to (60 mm, 10 mm)",
+        "layer = 10 mm, step = 10 mm",
+    )
+    .replace("size = (100 mm, 60 mm, 50 mm)", "size = (60 mm, 60 mm, 70 mm)");
+    for (machine, target, ..) in CELLS {
+        let outcome = compiled(block.clone(), machine);
+        assert!(
+            !has_errors(&outcome.diagnostics),
+            "{machine}: {:?}",
+            outcome.diagnostics
+        );
+        let counts = planned(&outcome).plan.counts();
+        assert_eq!((counts.slits, counts.strips, counts.changes), (30, 36, 11));
+        let backend = registry::backend(target).unwrap();
+        let written = driver::write(&outcome, backend).unwrap().unwrap();
+        assert!(is_same(&outcome, backend, &written.files), "{target}");
+    }
+}
+
+/// What a verified program says of passes and slits that were changed, in the words of strips.
+#[test]
+fn changed_strips_are_told_as_strips() {
+    let outcome = compiled(job(SLOPE, TENS), "kuka");
+    let backend = registry::backend("krl").unwrap();
+    let written = driver::write(&outcome, backend).unwrap().unwrap();
+    let changed = |from: &str, to: &str| {
+        let mut files = written.files.clone();
+        for file in &mut files {
+            file.text = file.text.replace(from, to);
+        }
+        let messages = said(&outcome, backend, &files);
+        move |words: &str| {
+            assert!(
+                messages.iter().any(|message| message.contains(words)),
+                "{words}: {messages:?}"
+            )
+        }
+    };
+    // The last pass 4 mm lower.
+    let low = changed("X 5.500,Y 87.105,Z 20.459", "X 5.500,Y 87.105,Z 16.459");
+    low("the pass of layer 4, cut 6 enters the part by");
+    // A slit 3 micrometres higher: its rim passes at 20.19863 there.
+    let high = changed("Z 20.198", "Z 20.201");
+    high("at the pass of layer 4, cut 6, the strip from x 20 mm to 30.5 mm stays attached");
+    high("the slit of layer 4, cut 3 goes on below what its strips leave");
+}
+
+/// The proof alone, on a program with a slit raised by 2 micrometres, of which 0.63 were to spare.
+#[test]
+fn a_slit_that_is_short_by_a_micrometre_is_found_in_the_program() {
+    let outcome = compiled(job(SLOPE, TENS), "kuka");
+    let mut edited = program(&outcome).clone();
+    for op in &mut edited.ops {
+        if let Action::Approach { to, .. } | Action::Travel { to, .. } | Action::Cut { to, .. } =
+            &mut op.action
+            && (to.x - 30.0).abs() < 1e-9
+            && (to.z - 20.198).abs() < 1e-9
+        {
+            to.z += 0.002;
+        }
+    }
+    let bounds = bounds(outcome.plan.as_ref().unwrap());
+    let verified = verify(edited).unwrap();
+    let (_, finding) = replay(&verified, &bounds).findings.strips.unwrap();
+    let CutFault::Strip(PassFault::Attached {
+        hold: Hold::SlitShort { x, above },
+        ..
+    }) = finding.fault
+    else {
+        panic!("{finding:?}")
+    };
+    assert_eq!(x, 30.0);
+    assert!((above.to_mm() - 0.00137).abs() < 1e-4, "{above:?}");
+}
+
+/// The disc hangs lower than the straight blade reaches: on this gantry the wheel alone decides whether the work is in reach.
+#[cfg(feature = "gcode")]
+#[test]
+fn the_tool_frame_of_the_disc_decides_where_it_cuts() {
+    let with_wheel = |z: &str| {
+        job(SLOPE, TENS)
+            .replace(
+                "z = 0 mm, a = 0 deg, b = 0 deg, c = 0 deg)",
+                "z = 930 mm, a = 0 deg, b = 0 deg, c = 0 deg)",
+            )
+            .replace("z = -200 mm, b = 0", "z = 290 mm, b = 0")
+            .replace("z = 150 mm, a = -90", &format!("z = {z} mm, a = -90"))
+    };
+    assert_eq!(codes(&compiled(with_wheel("160"), "gantry")), []);
+    let outcome = compiled(with_wheel("220"), "gantry");
+    assert_eq!(codes(&outcome), [Code::AxisLimit]);
+    assert!(
+        outcome.diagnostics[0].message.contains("takes Z to"),
+        "{:?}",
+        outcome.diagnostics
+    );
+}
+
 /// Whether files are the program of a job.
 pub(crate) fn is_same(outcome: &Outcome, backend: &dyn Backend, files: &[ProgramFile]) -> bool {
+    !has_errors(&verdict(outcome, backend, files))
+}
+
+/// What is said of files.
+fn said(outcome: &Outcome, backend: &dyn Backend, files: &[ProgramFile]) -> Vec<String> {
+    let found = verdict(outcome, backend, files).into_iter();
+    found.map(|diagnostic| diagnostic.message).collect()
+}
+
+fn verdict(outcome: &Outcome, backend: &dyn Backend, files: &[ProgramFile]) -> Vec<Diagnostic> {
     let written = driver::write(outcome, backend).unwrap().unwrap();
     let reached = outcome.compiled.as_ref().unwrap().program.reached();
     let (job, plan) = (outcome.job.as_ref(), outcome.plan.as_ref());
     let fresh = Fresh::of(job, plan, reached, &written, backend.reader().unwrap()).unwrap();
     let verdict = Reference::new(fresh).verify(files, &[], &mut outcome.sources.clone());
-    !has_errors(&verdict.diagnostics)
+    verdict.diagnostics
 }
 
 /// The files with the first place that reads like this changed.

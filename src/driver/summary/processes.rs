@@ -2,7 +2,7 @@
 
 use super::{row, time};
 use crate::ways::{Came, ComparedWay, Comparison, WayFigures};
-use vcutc_backend_api::units::{Length, Speed};
+use vcutc_backend_api::units::{Duration, Length, Speed};
 use vcutc_diagnostics::number::show;
 use vcutc_process::comparison::Faster;
 
@@ -28,20 +28,28 @@ pub fn of_one(comparison: &Comparison) -> Vec<String> {
     lines
 }
 
-/// `rect: 11 min 10.7 s (66 cuts, 11 changes of blade: 1 min 50.0 s)`, or `rect: no, strips of 16 mm are wider than ...`.
+/// `rect: 11 min 10.7 s (66 cuts, 11 changes of blade: 1 min 50.0 s)`, or `rect: no, strips of 16 mm are wider than ...`. Changes
+/// whose time is not known are `not counted`.
 fn way(way: &ComparedWay) -> String {
     let word = way.word;
     match &way.came {
         Came::Compiled(figures) => {
-            let changes = match figures.planned.changes {
+            let count = figures.planned.changes;
+            let number = match count {
                 0 => String::new(),
-                count => format!(
-                    ", {count} change{} of blade: {}",
-                    if count == 1 { "" } else { "s" },
-                    time(figures.planned.changing)
-                ),
+                1 => ", 1 change of blade".to_owned(),
+                _ => format!(", {count} changes of blade"),
             };
-            format!("{word}: {} ({} cuts{changes})", time(figures.time), figures.cuts)
+            let changing = match (count, has_uncounted_changes(figures)) {
+                (0, _) => String::new(),
+                (_, true) => ", not counted".to_owned(),
+                (_, false) => format!(": {}", time(figures.planned.changing)),
+            };
+            format!(
+                "{word}: {} ({} cuts{number}{changing})",
+                time(figures.time),
+                figures.cuts
+            )
         }
         Came::Refused(Some(why)) => format!("{word}: no, {}", why.message),
         Came::Refused(None) => format!("{word}: no"),
@@ -67,7 +75,17 @@ fn even(taken: (&str, &WayFigures), other: (&str, &WayFigures)) -> String {
                 "; at {depth} {word} is the faster one {from} a disc feed of {feed}{on}"
             ))
         });
-    format!("{depth}{} (programmed speeds)", feed.unwrap_or_default())
+    let basis = if has_uncounted_changes(taken.1) || has_uncounted_changes(other.1) {
+        "programmed speeds, without the time of changes"
+    } else {
+        "programmed speeds"
+    };
+    format!("{depth}{} ({basis})", feed.unwrap_or_default())
+}
+
+/// Whether blades are changed in no time: a job without a machine does not say how long that takes.
+fn has_uncounted_changes(figures: &WayFigures) -> bool {
+    figures.planned.changes > 0 && figures.planned.changing == Duration::ZERO
 }
 
 /// To a tenth.

@@ -86,6 +86,46 @@ fn a_rim_that_is_a_micrometre_short_holds_the_strip() {
 }
 
 #[test]
+fn a_micrometre_decides_with_a_lead_too() {
+    let leaning = |beyond: f64| DiscPass {
+        centre: at(10.0 + beyond - 25.0, 30.0),
+        lead: Angle::deg(3.0),
+        ..beside(&wheel(), 10.0, 30.0, Side::Right)
+    };
+    let rim = leaning(0.5).rim(&wheel());
+    for (short, is_free) in [(0.0, true), (0.001, false)] {
+        let mut section = block(60.0, 40.0);
+        section.slit(10.0, rim.height(10.0) + short);
+        let outcome = free(&mut section, &wheel(), leaning(0.5));
+        let is_short = |fault: &PassFault| {
+            matches!(fault, PassFault::Attached { hold: Hold::SlitShort { x: 10.0, above }, .. }
+                if (above.to_mm() - 0.001).abs() < 1e-9)
+        };
+        assert_eq!(outcome.freed.len(), usize::from(is_free), "{outcome:?}");
+        assert_eq!(outcome.faults.iter().any(is_short), !is_free, "{outcome:?}");
+        // A deeper slit frees it afterwards.
+        section.slit(10.0, 29.0);
+        assert!(section.surface().height(5.0) < 30.0);
+    }
+    let mut section = block(60.0, 40.0);
+    section.slit(10.0, 20.0);
+    let outcome = free(&mut section, &wheel(), leaning(-0.001));
+    let is_short = |fault: &PassFault| {
+        matches!(
+            fault,
+            PassFault::Attached {
+                hold: Hold::RimShort { x: 10.0, .. },
+                ..
+            }
+        )
+    };
+    assert!(
+        outcome.freed.is_empty() && outcome.faults.iter().any(is_short),
+        "{outcome:?}"
+    );
+}
+
+#[test]
 fn a_strip_without_a_slit_is_held_at_the_next_end() {
     let mut section = block(60.0, 40.0);
     section.slit(20.0, 30.0);
@@ -196,21 +236,21 @@ fn a_strip_with_a_groove_in_it_comes_free_at_once() {
 
 #[test]
 fn a_pocket_narrower_than_the_shank_is_closed() {
-    let mut section = block(100.0, 40.0);
-    for x in [45.0, 55.0] {
-        section.slit(x, 30.0);
+    // The narrower one is narrower than the radius of the shank, too.
+    for half in [5.0, 3.0] {
+        let (left, right) = (50.0 - half, 50.0 + half);
+        let mut section = block(100.0, 40.0);
+        for x in [left, right] {
+            section.slit(x, 30.0);
+        }
+        let outcome = free(&mut section, &wheel(), beside(&wheel(), right, 30.0, Side::Right));
+        // It is cut free, but neither the shank nor the rest of the rim has room.
+        assert_eq!(outcome.freed.len(), 1);
+        let deep = |fault: &PassFault| matches!(fault, PassFault::Body { stage: 0, depth, .. } if (depth.to_mm() - 10.0).abs() < 1e-9);
+        assert!(outcome.faults.iter().any(deep), "{outcome:?}");
+        let meets = |fault: &PassFault| matches!(fault, PassFault::Meets(stretch) if (stretch.from, stretch.to) == (right + 0.5 - 50.0, left));
+        assert!(outcome.faults.iter().any(meets), "{outcome:?}");
     }
-    let outcome = free(&mut section, &wheel(), beside(&wheel(), 55.0, 30.0, Side::Right));
-    // It is cut free, but neither the shank nor the rest of the rim has room.
-    assert_eq!(outcome.freed.len(), 1);
-    assert!(
-        outcome
-            .faults
-            .iter()
-            .any(|fault| matches!(fault, PassFault::Body { stage: 0, .. }))
-    );
-    let meets = |fault: &PassFault| matches!(fault, PassFault::Meets(stretch) if (stretch.from, stretch.to) == (5.5, 45.0));
-    assert!(outcome.faults.iter().any(meets), "{outcome:?}");
     // Without the other slit nothing is open.
     let mut section = block(100.0, 40.0);
     section.slit(55.0, 30.0);
@@ -245,6 +285,23 @@ fn a_floor_exactly_on_the_part_is_clear() {
             _ => None,
         });
         assert_eq!(found.is_some(), depth.is_some());
+        assert!((found.unwrap_or(0.0) - depth.unwrap_or(0.0)).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_leaning_rim_exactly_on_the_part_is_clear() {
+    let part = Profile::new(vec![at(-40.0, 30.0), at(60.0, 30.0)]).unwrap();
+    let sink = 25.0 * libm::sin(3_f64.to_radians());
+    for (down, depth) in [(0.0, None), (0.001, Some(0.001))] {
+        let leaning = DiscPass {
+            centre: at(-14.5, 30.0 + sink - down),
+            lead: Angle::deg(3.0),
+            ..beside(&wheel(), 10.0, 30.0, Side::Right)
+        };
+        let found = Guard::new(&part).deepest(&leaning.rim(&wheel()));
+        let found = found.map(|(_, depth)| depth);
+        assert_eq!(found.is_some(), depth.is_some(), "{found:?}");
         assert!((found.unwrap_or(0.0) - depth.unwrap_or(0.0)).abs() < 1e-9);
     }
 }

@@ -118,6 +118,7 @@ impl<'j> Judge<'j> {
             .map(|side| self.height(side))
             .fold(surface, f64::min);
         assert!((lower - slit.uncut).abs() < 1e-6, "{lower} {slit:?}");
+        assert!(lower > slit.bottom + SAME, "a slit beside a wall: {slit:?}");
         let covered = match self.blades.knife.covers {
             Cover::Standing => surface,
             Cover::Uncut => lower,
