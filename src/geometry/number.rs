@@ -4,9 +4,11 @@
 //! * An [`Interval`] encloses a number; all bounds are rounded outward (`interval` says how far).
 //! * An [`Along`] encloses a function of one parameter on a span, by Taylor's theorem, without branching on any value.
 //! * A [`Jet`] is a function of one or two coordinates with its slopes and, where asked for, curvatures, at a place or over a
-//!   box. Formulas that are written for any [`Scalar`] give values, enclosures, slopes and curvatures alike.
+//!   box. Formulas that are written for any [`Scalar`] give values, enclosures, slopes and curvatures alike. Jets over boxes also have
+//!   sines, arcs, roots and powers where these have a value (`functions`).
 
 mod along;
+mod functions;
 mod interval;
 mod jet;
 mod plain;

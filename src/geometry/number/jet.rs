@@ -281,7 +281,7 @@ impl<S: Part, const D: usize, const P: usize> Jet<S, D, P> {
     }
 
     /// The function of a function, by its value and its first and second derivative.
-    fn of(self, value: S, first: S, second: S) -> Self {
+    pub(super) fn of(self, value: S, first: S, second: S) -> Self {
         Self {
             value,
             by: self.by.map(|slope| slope * first),
