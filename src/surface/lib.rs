@@ -5,11 +5,12 @@
 //!    ([`loft`]), formulas ([`formula`]) and patches ([`patch`]) become meshes too.
 //! 2. A mesh in its place, over the plan of the stock, is a [`surface::Surface`].
 //! 3. [`coverage`] says whether each place of the plan lies under a triangle, and what is odd about them.
-//! 4. A surface has a shadow along y, sections, and a height at each place ([`shadow`]).
+//! 4. A surface has a shadow along y, sections, a height at each place ([`shadow`]), a highest and a lowest place.
 //! 5. [`residual`] says what straight cuts leave over it.
 
 pub mod coverage;
 mod envelope;
+mod extremes;
 pub mod formula;
 pub mod grid;
 pub mod import;
