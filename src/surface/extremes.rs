@@ -65,12 +65,9 @@ mod tests {
             tolerance: Length::ZERO,
             weld: Length::mm(0.01),
         };
-        Surface::of(corners, triangles.collect(), plan, accuracy)
-            .map(|surface| {
-                assert_eq!(Mesh::triangles(surface.mesh()).len(), faces.len());
-                surface
-            })
-            .unwrap()
+        let surface = Surface::of(corners, triangles.collect(), plan, accuracy).unwrap();
+        assert_eq!(Mesh::triangles(surface.mesh()).len(), faces.len());
+        surface
     }
 
     const FLOOR: [[[f64; 3]; 3]; 2] = [

@@ -342,11 +342,11 @@ mod tests {
                 for (bound, slope) in enclosed.by.iter().zip(slopes) {
                     // Steps of the function itself, and places without a value, have no differences.
                     let slack = 1e-4 * (1.0 + bound.magnitude());
-                    prop_assert!(!(slope.abs() < 1e4) || within(*bound, slope, slack), "slope {number}: {enclosed:?} {slope}");
+                    prop_assert!(slope.is_nan() || slope.abs() > 1e4 || within(*bound, slope, slack), "slope {number}: {enclosed:?} {slope}");
                 }
                 for (bound, curve) in enclosed.curve.iter().zip(curves) {
                     let slack = 1e-2 * (1.0 + bound.magnitude());
-                    prop_assert!(!(curve.abs() < 1e4) || within(*bound, curve, slack), "curve {number}: {enclosed:?} {curve}");
+                    prop_assert!(curve.is_nan() || curve.abs() > 1e4 || within(*bound, curve, slack), "curve {number}: {enclosed:?} {curve}");
                 }
             }
         }
