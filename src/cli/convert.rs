@@ -420,6 +420,14 @@ impl Loader for Overlaid {
         }
     }
 
+    fn load_data(&self, path: &str, most: u64) -> Result<Vec<u8>, LoadError> {
+        if path == self.path {
+            Ok(self.text.clone().into_bytes())
+        } else {
+            self.disk.load_data(path, most)
+        }
+    }
+
     fn list(&self, folder: &str) -> Vec<Entry> {
         self.disk.list(folder)
     }

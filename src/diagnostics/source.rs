@@ -170,6 +170,18 @@ pub trait Loader {
     /// Why not, in the words of whoever holds the files.
     fn load(&self, path: &str) -> Result<Vec<u8>, LoadError>;
 
+    /// As [`Self::load`], for a file of data that may have this many bytes.
+    ///
+    /// # Errors
+    /// As for [`Self::load`]. Whoever holds the files may have a lower limit.
+    fn load_data(&self, path: &str, most: u64) -> Result<Vec<u8>, LoadError> {
+        let bytes = self.load(path)?;
+        match bytes.len() as u64 <= most {
+            true => Ok(bytes),
+            false => Err(LoadError::TooLarge(most)),
+        }
+    }
+
     /// What is in a folder, for help with a path that leads nowhere and for editors; nothing where that is not known. The path is
     /// as for files; that of the folder that they are relative to is empty.
     fn list(&self, folder: &str) -> Vec<Entry> {
@@ -226,6 +238,9 @@ impl fmt::Display for LoadError {
 
 /// Largest source file that is read, in bytes: a job of this size would have over a million lines.
 pub const LARGEST_FILE: u64 = 64 << 20;
+
+/// Largest file of triangles that is read, in bytes.
+pub const LARGEST_MESH_FILE: u64 = 1 << 30;
 
 /// The text that a file's bytes are.
 ///

@@ -202,6 +202,14 @@ impl Loader for Draft<'_> {
         }
     }
 
+    fn load_data(&self, path: &str, most: u64) -> Result<Vec<u8>, LoadError> {
+        if path == self.path {
+            Ok(self.text.as_bytes().to_vec())
+        } else {
+            self.files.load_data(path, most)
+        }
+    }
+
     fn list(&self, folder: &str) -> Vec<Entry> {
         self.files.list(folder)
     }

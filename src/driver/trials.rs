@@ -154,6 +154,13 @@ impl Loader for Edited<'_> {
         }
     }
 
+    fn load_data(&self, path: &str, most: u64) -> Result<Vec<u8>, LoadError> {
+        match self.texts.get(path) {
+            Some(text) => Ok(text.clone().into_bytes()),
+            None => self.below.load_data(path, most),
+        }
+    }
+
     fn list(&self, folder: &str) -> Vec<Entry> {
         self.below.list(folder)
     }

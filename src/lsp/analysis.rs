@@ -37,6 +37,13 @@ impl Loader for Overlay<'_> {
         }
     }
 
+    fn load_data(&self, path: &str, most: u64) -> Result<Vec<u8>, LoadError> {
+        match self.open.get(path) {
+            Some(text) => Ok(text.as_str().as_bytes().to_vec()),
+            None => self.below.load_data(path, most),
+        }
+    }
+
     fn list(&self, folder: &str) -> Vec<Entry> {
         self.below.list(folder)
     }

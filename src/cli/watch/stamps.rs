@@ -57,6 +57,13 @@ impl Asked {
         Stamps(self.files().clone())
     }
 
+    /// Keeps a file in mind that is about to be read: a change in between is seen afterwards. Of a file that is read twice the
+    /// first stamp counts, for the same reason.
+    fn note(&self, path: &str) {
+        let stamp = stamp(path);
+        self.files().entry(path.to_owned()).or_insert(stamp);
+    }
+
     fn files(&self) -> MutexGuard<'_, BTreeMap<String, Stamp>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -76,11 +83,13 @@ impl<'d> Recorder<'d> {
 
 impl Loader for Recorder<'_> {
     fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
-        // Taken before the file is read, so that a change in between is seen afterwards. Of a file that is read twice the first
-        // stamp counts, for the same reason.
-        let stamp = stamp(path);
-        self.asked.files().entry(path.to_owned()).or_insert(stamp);
+        self.asked.note(path);
         self.disk.load(path)
+    }
+
+    fn load_data(&self, path: &str, most: u64) -> Result<Vec<u8>, LoadError> {
+        self.asked.note(path);
+        self.disk.load_data(path, most)
     }
 
     fn list(&self, folder: &str) -> Vec<Entry> {
