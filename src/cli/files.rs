@@ -79,6 +79,12 @@ impl Loader for Disk {
         }
     }
 
+    fn load_data(&self, path: &str, most: u64) -> Result<Vec<u8>, LoadError> {
+        let path = Path::new(path);
+        self.read.borrow_mut().extend(fs::canonicalize(path));
+        load_bounded(path, most)
+    }
+
     fn list(&self, folder: &str) -> Vec<Entry> {
         list_folder(folder)
     }
@@ -123,6 +129,11 @@ fn no_job(path: &str) -> Option<String> {
             format!("it is a file of points, not a job; a job names it: `profile {{ points \"{name}\" }}`")
         }
         "dat" if !is_text_of_krl(path) => named("a file of an airfoil", "airfoil"),
+        "stl" | "obj" | "ply" => {
+            format!(
+                "it is a mesh, not a job; a job names it: `surface {{ mesh \"{name}\" {{ unit = mm }} }}`"
+            )
+        }
         "dxf" => named("a drawing", "dxf"),
         "svg" => named("a drawing", "svg"),
         "src" | "dat" | "mod" | "ngc" | "nc" | "mpf" => {
@@ -180,7 +191,8 @@ pub(super) fn load_file(path: &Path) -> Result<Vec<u8>, LoadError> {
     load_bounded(path, LARGEST_FILE)
 }
 
-fn load_bounded(path: &Path, most: u64) -> Result<Vec<u8>, LoadError> {
+/// The bytes of a file of at most so many.
+pub(super) fn load_bounded(path: &Path, most: u64) -> Result<Vec<u8>, LoadError> {
     // Asked before opening: opening a named pipe would wait for somebody to write into it.
     let metadata = std::fs::metadata(path).map_err(|error| load_error(&error))?;
     refuse_special(&metadata)?;

@@ -6,7 +6,7 @@
 
 use super::Targets;
 use super::console::{Console, Failure};
-use super::files::{list_folder, load_file, with_forward_slashes};
+use super::files::{list_folder, load_bounded, load_file, with_forward_slashes};
 use super::patience::{HelpBudget, Waiting};
 use serde_json::Value;
 use std::collections::VecDeque;
@@ -201,6 +201,10 @@ struct Disk;
 impl Loader for Disk {
     fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
         load_file(Path::new(path))
+    }
+
+    fn load_data(&self, path: &str, most: u64) -> Result<Vec<u8>, LoadError> {
+        load_bounded(Path::new(path), most)
     }
 
     fn list(&self, folder: &str) -> Vec<Entry> {

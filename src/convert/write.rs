@@ -147,6 +147,8 @@ fn origins(file: FileId, text: &str, passes: &[Pass]) -> Vec<Origin> {
             | Entry::Limit { .. }
             | Entry::Formula { .. }
             | Entry::Curve { .. }
+            | Entry::SurfaceFile { .. }
+            | Entry::Station { .. }
             | Entry::Block(_) => None,
         });
     let origin = |(point, pass): (&Point, &Pass)| Origin {

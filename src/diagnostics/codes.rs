@@ -129,6 +129,22 @@ codes! {
     AirfoilRepaired = "VC0231", Warning, "repaired airfoil file";
     /// A blade of a kind that an operation does not cut with.
     WrongBlade = "VC0232", Error, "blade of the wrong kind";
+    /// A surface that does not lie over all of the stock.
+    SurfaceIncomplete = "VC0240", Error, "surface without height over part of the stock";
+    /// A surface that overhangs.
+    Undercut = "VC0241", Warning, "surface with undercuts";
+    /// A mesh whose numbers have no unit.
+    MeshWithoutUnit = "VC0242", Error, "mesh without a unit";
+    /// A file of triangles that cannot be read.
+    BadMesh = "VC0243", Error, "invalid mesh file";
+    /// Two descriptions of the part.
+    SurfaceAndProfile = "VC0244", Error, "surface beside a profile";
+    /// A surface that leaves the stock.
+    SurfaceOutsideStock = "VC0245", Error, "surface outside the stock";
+    /// A surface that cannot be made.
+    ImpossibleSurface = "VC0246", Error, "impossible surface";
+    /// Things in a file of triangles that are left out, or decided on.
+    MeshPartlyRead = "VC0247", Warning, "mesh read only in part";
 
     /// A job that leaves nothing to cut.
     NothingToCut = "VC0301", Error, "nothing to cut";

@@ -37,7 +37,7 @@ use crate::memory::Memory;
 use crate::numbers::Numbers;
 use crate::summary::chosen::{self, OperationFigures};
 use crate::summary::times::{TimeFigures, figures as time_figures};
-use crate::summary::{summary, with_processes};
+use crate::summary::{summary, with_processes, with_surface};
 use refusal::{NotTaken, Refused, Unhelped};
 use routes::{Ended, Made, along_its_routes};
 use trials::{Machine, Trials};
@@ -443,7 +443,7 @@ fn compiled(
         checks: Checks::of(carried, paced.basis, Bodies::of(job)),
         parameters: chosen::figures(plan),
         numbers: Numbers::of(plan, &report),
-        summary: summary(plan, &report, paced.basis, figures.as_ref()),
+        summary: with_surface(summary(plan, &report, paced.basis, figures.as_ref()), &job.part),
         times: time_figures(&report, paced.basis),
         op_times: paced.times,
         program,

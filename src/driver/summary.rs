@@ -11,7 +11,7 @@ use vcutc_backend_api::ir::Site;
 use vcutc_backend_api::script::duration_words;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::number::show;
-use vcutc_job::{BladeRef, Order, PlannedJob};
+use vcutc_job::{BladeRef, Order, Part, PlannedJob};
 use vcutc_motion::pace::Basis;
 use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 use vcutc_simulation::body::Passage;
@@ -71,6 +71,16 @@ pub fn summary(
     }
     let reach = reach.into_iter().flat_map(reach_summary::lines);
     lines.extend(reach.map(|(name, text)| row(name, &text)));
+    lines
+}
+
+/// Adds, for a part that changes along y, what the figures are about.
+pub(crate) fn with_surface(mut lines: Vec<String>, part: &Part) -> Vec<String> {
+    if part.surface().is_some() {
+        let text =
+            "a surface; what stays is measured from its shadow along y, its greatest height over each x";
+        lines.push(row("part", text));
+    }
     lines
 }
 

@@ -41,6 +41,7 @@ pub mod session;
 pub mod setup;
 mod stock;
 pub mod study;
+mod surface;
 mod tools;
 pub mod units;
 pub mod vocabulary;
@@ -150,7 +151,7 @@ fn understand(
         names: &all.names,
         lets: &all.lets,
         values: &values,
-        variable: None,
+        variables: &[],
     };
     let job = match part {
         Part::Job => whole(root, &all, said, scope, session).ok(),
@@ -207,10 +208,18 @@ fn whole(
         Some(placed) => stock::check(placed.block, placed.place, scope, session),
         None => Err(missing.stock(session)),
     };
-    let part = match all.profile {
-        Some(placed) => profile::check(placed.block, placed.place, stock, scope, session),
-        None => Err(missing.profile(stock.ok(), session)),
+    let part = match (all.profile, all.surface) {
+        (Some(placed), None) => profile::check(placed.block, placed.place, stock, scope, session),
+        (None, Some(placed)) => surface::check(placed.block, placed.place, stock, scope, session),
+        (Some(profile), Some(surface)) => {
+            let fault = surface::beside_a_profile(surface.place, profile.place);
+            Err(session.reports.push(fault))
+        }
+        (None, None) => Err(missing.part(stock.ok(), session)),
     };
+    if let (None, Some(surface)) = (all.profile, all.surface) {
+        surface::must_be_followed(&all.operations, surface.place, session);
+    }
     let ways: Vec<Checked<Ways>> = all
         .operations
         .iter()
@@ -268,7 +277,10 @@ fn whole(
         stock: stock.node,
         stock_span: stock.span,
         part: part?,
-        profile_span: all.profile.map_or(stock.span, |placed| placed.place.whole),
+        profile_span: all
+            .profile
+            .or(all.surface)
+            .map_or(stock.span, |placed| placed.place.whole),
         open: open.collect(),
         operations: ways.into_iter().map(|ways| ways.into_first().operation).collect(),
         machine: machine?,

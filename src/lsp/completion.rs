@@ -82,12 +82,14 @@ impl Desk<'_> {
         self.context.blocks.last()
     }
 
-    /// The fields after a file of a profile.
+    /// The fields after a file of a profile or of a surface.
     fn data_spec(&self) -> Option<&'static BlockSpec> {
-        let [outer, inner] = self.context.blocks.as_slice() else {
-            return None;
-        };
-        vocabulary::data_file(inner.name()).filter(|_| outer.name() == "profile")
+        let (inner, around) = self.context.blocks.split_last()?;
+        match shape(around)? {
+            Around::Profile => vocabulary::data_file(inner.name()),
+            Around::Surface => vocabulary::surface_file(inner.name()),
+            Around::Loft => None,
+        }
     }
 
     /// The target whose options the innermost block holds.
@@ -134,8 +136,11 @@ impl Desk<'_> {
         if let Some(target) = self.target() {
             return options(target, &innermost.entries);
         }
-        if self.context.blocks.len() == 1 && innermost.name() == "profile" {
-            return curves();
+        match shape(&self.context.blocks) {
+            Some(Around::Profile) => return curves(),
+            Some(Around::Surface) => return surfaces(),
+            Some(Around::Loft) => return vec![station()],
+            None => {}
         }
         let Some(spec) = self.data_spec().or_else(|| self.spec()) else {
             return Vec::new();
@@ -253,13 +258,16 @@ fn field_snippet(field: &FieldSpec, number: usize) -> String {
 
 /// What can be at the top of a file. What a job has once only is not offered again.
 fn items(text: &str, operations: Operations) -> Vec<Offer> {
-    const ONCE: &[&str] = &["job", "stock", "profile", "cell"];
+    const ONCE: &[&str] = &["job", "stock", "profile", "surface", "cell"];
+    // A part has one description.
+    const EITHER: [&str; 2] = ["profile", "surface"];
     let is_there = |word: &str| {
         let mut lines = text.lines();
         lines.any(|line| line.split_whitespace().next() == Some(word))
     };
     vocabulary::items(operations)
         .filter(|(word, _)| !(ONCE.contains(word) && is_there(word)))
+        .filter(|(word, _)| !(EITHER.contains(word) && EITHER.into_iter().any(is_there)))
         .map(|(word, form)| Offer {
             snippet: item_snippet(&form),
             documentation: manual::about(operations.find(word, None).map_or(word, |kind| kind.head())),
@@ -304,6 +312,53 @@ fn short_forms() -> Vec<Offer> {
             ..offer(word, CompletionItemKind::FUNCTION, Rank::Fitting)
         })
         .collect()
+}
+
+/// What the blocks around a place describe of a part.
+enum Around {
+    Profile,
+    Surface,
+    Loft,
+}
+
+/// What the innermost of some blocks describes of a part; none if it is about something else.
+fn shape(blocks: &[BlockAround]) -> Option<Around> {
+    let (outermost, inner) = blocks.split_first()?;
+    match (outermost.name(), inner) {
+        ("profile", []) => Some(Around::Profile),
+        ("surface", []) => Some(Around::Surface),
+        ("surface", [loft]) if loft.name() == "loft" => Some(Around::Loft),
+        ("surface", [loft, _]) if loft.name() == "loft" => Some(Around::Profile),
+        _ => None,
+    }
+}
+
+/// What a surface can be.
+fn surfaces() -> Vec<Offer> {
+    let explained = |word: &str| manual::row(Table::Sources, word).map(manual::Row::text);
+    let sources = vocabulary::SURFACES.iter().map(|(word, form)| Offer {
+        snippet: verbatim(form),
+        detail: (*form).to_owned(),
+        documentation: explained(word),
+        ..offer(word, CompletionItemKind::KEYWORD, Rank::Fitting)
+    });
+    let formula = Offer {
+        snippet: "z(x, y) = $1".to_owned(),
+        detail: "a formula for the height over x and y".to_owned(),
+        documentation: explained("z"),
+        ..offer("z(x, y)", CompletionItemKind::FUNCTION, Rank::Possible)
+    };
+    sources.chain([formula]).collect()
+}
+
+fn station() -> Offer {
+    let (word, form) = vocabulary::STATION;
+    Offer {
+        snippet: verbatim(form),
+        detail: form.to_owned(),
+        documentation: manual::row(Table::Sources, word).map(manual::Row::text),
+        ..offer(word, CompletionItemKind::KEYWORD, Rank::Fitting)
+    }
 }
 
 fn curves() -> Vec<Offer> {

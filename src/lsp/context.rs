@@ -172,7 +172,7 @@ fn in_piece(around: &Surroundings<'_>, before: usize, depth: usize) -> Option<Wa
     }
     let (piece, given) = around.piece_before(before)?;
     let last = around.word(before.checked_sub(1)?).unwrap_or_default();
-    let is_file = vocabulary::data_file(&piece).is_some();
+    let is_file = vocabulary::any_file(&piece).is_some();
     match last {
         "radius" => return Some(Wanted::Value(Slot::at(around, before))),
         "to" | "center" | "through" | "start" => return Some(Wanted::Point),

@@ -28,10 +28,18 @@ pub(super) fn folds(ast: &Ast, text: &Text) -> Vec<FoldingRange> {
 /// Of a block and of those in it. Blocks are nested no deeper than the grammar lets them.
 fn of_block(block: &Block, text: &Text, found: &mut Vec<FoldingRange>) {
     found.extend(of_span(block.span, text));
-    for entry in &block.entries {
+    of_entries(&block.entries, text, found);
+}
+
+fn of_entries(entries: &[Entry], text: &Text, found: &mut Vec<FoldingRange>) {
+    for entry in entries {
         match entry {
             Entry::Block(inner) => of_block(inner, text, found),
-            Entry::Row { span, .. } => found.extend(of_span(*span, text)),
+            Entry::Row { span, .. } | Entry::SurfaceFile { span, .. } => found.extend(of_span(*span, text)),
+            Entry::Station { entries, span, .. } => {
+                found.extend(of_span(*span, text));
+                of_entries(entries, text, found);
+            }
             Entry::Field { .. } | Entry::Limit { .. } | Entry::Formula { .. } | Entry::Curve { .. } => {}
         }
     }

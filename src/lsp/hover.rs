@@ -57,7 +57,7 @@ pub(super) fn hover(
         Kind::HeadWord => head_word(inner.place.block, analysis.sources.slice(inner.span))?,
         Kind::JobName => figures(analysis, path)?,
         Kind::Path(kind, written) => file(analysis, kind, written, inner),
-        Kind::Formula | Kind::Variable => manual_of_formula()?,
+        Kind::Formula | Kind::Variable => manual_of_formula(inner.place)?,
         Kind::Value(_) => return None,
     };
     Some(Reported {
@@ -91,6 +91,7 @@ fn keyword_explained(word: &str) -> Option<String> {
         "body" => manual::row(Table::Fields("blade"), word),
         _ => manual::row(Table::Pieces, word)
             .or_else(|| manual::row(Table::Joints, word))
+            .or_else(|| manual::row(Table::Sources, word))
             .or_else(|| manual::row(Table::Files, word)),
     };
     Some(format!("`{word}`: {}", row?.text()))
@@ -278,6 +279,9 @@ fn field_value(analysis: &Analysis, name: Span) -> Option<&Spanned<Expr>> {
                 }
             }
             Entry::Block(inner) => open.extend(&inner.entries),
+            Entry::Station { entries, .. } | Entry::SurfaceFile { options: entries, .. } => {
+                open.extend(entries);
+            }
             Entry::Formula { .. } | Entry::Curve { .. } | Entry::Row { .. } => {}
         }
     }
@@ -336,7 +340,10 @@ fn block(place: Place<'_>, word: &str, targets: &[&'static dyn Backend]) -> Opti
     }
     match place.field {
         Some(field) => explained(place.block, field.name).or_else(|| Some(format!("`{}`", field.sample()))),
-        None => manual::about(place.block),
+        None => match manual::row(Table::Sources, word) {
+            Some(row) => Some(format!("`{word}`: {}", row.text())),
+            None => manual::about(place.block),
+        },
     }
 }
 
@@ -421,6 +428,10 @@ fn model(name: &str) -> Option<String> {
     ))
 }
 
-fn manual_of_formula() -> Option<String> {
-    manual::about("profile")
+/// The block whose height a formula gives.
+fn manual_of_formula(place: Place<'_>) -> Option<String> {
+    manual::about(match place.block {
+        "surface" => "surface",
+        _ => "profile",
+    })
 }

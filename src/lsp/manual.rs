@@ -17,6 +17,8 @@ pub(super) enum Table<'a> {
     Joints,
     /// The files that a profile can be.
     Files,
+    /// What a surface can be.
+    Sources,
     /// The kinds of machines.
     Machines,
     /// The kinds of blades.
@@ -93,6 +95,7 @@ pub(super) fn rows(table: Table<'_>) -> impl Iterator<Item = Row> + Clone {
         Table::Pieces => headed("| Piece |"),
         Table::Joints => headed("| Word in a piece |"),
         Table::Files => headed("| File | Holds |"),
+        Table::Sources => headed("| Source | Is |"),
         Table::Machines => headed("| Kind | Is |"),
         Table::Blades => headed("| Kind of blade | Is |"),
         Table::Calls => headed("| Value | Meaning |"),
@@ -122,6 +125,8 @@ fn fields_table(block: &str) -> Option<usize> {
         "points" => headed("| Field of `points` |"),
         "airfoil" => headed("| Field of `airfoil` |"),
         "dxf" | "svg" => headed("| Field of `dxf` and `svg` |"),
+        "mesh" => headed("| Field of `mesh` |"),
+        "grid" => headed("| Field of `grid` |"),
         "disc" => headed("| Field of `disc` |"),
         "crusher" => headed("| Field of `crusher` |"),
         _ => behind(&format!("\n### `{}`\n", section(block)), "| Field |"),
@@ -210,6 +215,7 @@ mod tests {
     use super::*;
     use vcutc_job::sema::vocabulary::{self, BlockSpec, Form, Need, Takes};
     use vcutc_registry::OPERATIONS;
+    use vcutc_syntax::ast::SurfaceFile;
 
     fn blocks() -> Vec<(&'static str, &'static BlockSpec)> {
         let tops = [
@@ -233,6 +239,9 @@ mod tests {
         }
         for word in ["points", "airfoil", "dxf", "svg"] {
             all.push((word, vocabulary::data_file(word).unwrap()));
+        }
+        for word in SurfaceFile::ALL.map(SurfaceFile::word) {
+            all.push((word, vocabulary::surface_file(word).unwrap()));
         }
         let inner: Vec<_> = all
             .iter()
@@ -291,6 +300,10 @@ mod tests {
             };
             assert!(row(table, word).is_some(), "{word}");
         }
+        let sources = vocabulary::SURFACES.iter().chain([&vocabulary::STATION]);
+        for word in sources.map(|(word, _)| *word).chain(["z"]) {
+            assert!(row(Table::Sources, word).is_some(), "{word}");
+        }
         for word in vocabulary::head_words("blade", OPERATIONS) {
             assert!(row(Table::Blades, word).is_some(), "{word}");
         }
@@ -298,6 +311,7 @@ mod tests {
             "job",
             "stock",
             "profile",
+            "surface",
             "blade",
             "rough vcut",
             "rough rect",

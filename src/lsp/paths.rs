@@ -12,6 +12,7 @@ pub(super) enum Named {
     Airfoil,
     Dxf,
     Svg,
+    Mesh,
     /// A machine's sheet or description, or a profile of its habits.
     Machine,
 }
@@ -25,6 +26,7 @@ impl Named {
             Self::Airfoil => &["dat", "txt"],
             Self::Dxf => &["dxf"],
             Self::Svg => &["svg"],
+            Self::Mesh => &["stl", "obj", "ply"],
             Self::Machine => &["toml", "urdf"],
         }
     }
@@ -44,7 +46,8 @@ pub(super) fn named_by(words: &[String], around: Option<&str>) -> Option<Named> 
     };
     match word {
         "use" => Some(Named::Job),
-        "points" => Some(Named::Points),
+        "points" | "grid" => Some(Named::Points),
+        "mesh" => Some(Named::Mesh),
         "airfoil" => Some(Named::Airfoil),
         "dxf" => Some(Named::Dxf),
         "svg" => Some(Named::Svg),

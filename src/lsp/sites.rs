@@ -132,7 +132,7 @@ impl<'a> Row<'a> {
             Item::Use { path, .. } => self.push(path.span, Kind::Path(Path::Use, &path.node), NOWHERE),
             Item::Let { name, value, .. } => {
                 self.push(name.span, Kind::Definition(Named::Value, &name.node), NOWHERE);
-                self.value(value, NOWHERE, None);
+                self.value(value, NOWHERE, &[]);
             }
             Item::Block(block) => self.block(block),
         }
@@ -164,7 +164,7 @@ impl<'a> Row<'a> {
         }
         self.push(*span, Kind::Block, place);
         self.head(first, block, place);
-        if first == "profile" {
+        if matches!(first.as_str(), "profile" | "surface") {
             for entry in &block.entries {
                 self.profile_entry(entry, place);
             }
@@ -203,10 +203,13 @@ impl<'a> Row<'a> {
                     if let (Expr::Text(path), true) = (&value.node, is_profile) {
                         self.push(value.span, Kind::Path(Path::Profile, path), place);
                     } else {
-                        self.value(value, place, None);
+                        self.value(value, place, &[]);
                     }
                 }
-                Entry::Formula { .. } | Entry::Curve { .. } => self.profile_entry(entry, place),
+                Entry::Formula { .. }
+                | Entry::Curve { .. }
+                | Entry::SurfaceFile { .. }
+                | Entry::Station { .. } => self.profile_entry(entry, place),
                 Entry::Row { points, .. } => self.points(points, place),
                 Entry::Block(inner) => self.inner_block(inner, spec, place),
             }
@@ -259,18 +262,41 @@ impl<'a> Row<'a> {
         match entry {
             Entry::Formula {
                 name,
-                variable,
+                variables,
                 value,
                 ..
             } => {
                 self.push(name.span, Kind::Formula, place);
-                self.push(variable.span, Kind::Variable, place);
-                self.value(value, place, Some(&variable.node));
+                for variable in variables {
+                    self.push(variable.span, Kind::Variable, place);
+                }
+                self.value(value, place, variables);
+            }
+            Entry::SurfaceFile {
+                kind, path, options, ..
+            } => {
+                self.push(path.span, Kind::Path(Path::Data, &path.node), place);
+                let word = kind.node.word();
+                let place = Place { block: word, ..place };
+                self.entries(options, vocabulary::surface_file(word), place);
+            }
+            Entry::Station {
+                word, at, entries, ..
+            } => {
+                let of_loft = Place {
+                    block: "loft",
+                    ..place
+                };
+                self.push(*word, Kind::Block, of_loft);
+                self.value(at, place, &[]);
+                for entry in entries {
+                    self.profile_entry(entry, place);
+                }
             }
             Entry::Curve { curve, .. } => self.curve(curve, place),
             Entry::Field { name, value, .. } | Entry::Limit { name, value, .. } => {
                 self.push(name.span, Kind::Field(&name.node), place);
-                self.value(value, place, None);
+                self.value(value, place, &[]);
             }
             Entry::Row { points, .. } => self.points(points, place),
             Entry::Block(inner) => self.inner_block(inner, None, place),
@@ -283,7 +309,7 @@ impl<'a> Row<'a> {
             Curve::Arc { to, by } => {
                 self.point(to, place);
                 match by {
-                    ArcBy::Radius(radius) => self.value(radius, place, None),
+                    ArcBy::Radius(radius) => self.value(radius, place, &[]),
                     ArcBy::Center(point) | ArcBy::Through(point) => self.point(point, place),
                 }
             }
@@ -319,17 +345,17 @@ impl<'a> Row<'a> {
     }
 
     fn point(&mut self, point: &'a Point, place: Place<'a>) {
-        self.value(&point.x, place, None);
-        self.value(&point.z, place, None);
+        self.value(&point.x, place, &[]);
+        self.value(&point.z, place, &[]);
     }
 
     /// A whole value, and what is in it.
-    fn value(&mut self, value: &'a Spanned<Expr>, place: Place<'a>, variable: Option<&str>) {
+    fn value(&mut self, value: &'a Spanned<Expr>, place: Place<'a>, variables: &[Spanned<String>]) {
         self.push(value.span, Kind::Value(value), place);
         // A stack of its own: values may be long.
         let mut open = vec![value];
         while let Some(next) = open.pop() {
-            self.part(next, place, variable);
+            self.part(next, place, variables);
             match &next.node {
                 Expr::Number { .. } | Expr::Text(_) | Expr::Name(_) => {}
                 Expr::Call { function, arguments } => {
@@ -349,7 +375,7 @@ impl<'a> Row<'a> {
         }
     }
 
-    fn part(&mut self, part: &'a Spanned<Expr>, place: Place<'a>, variable: Option<&str>) {
+    fn part(&mut self, part: &'a Spanned<Expr>, place: Place<'a>, variables: &[Spanned<String>]) {
         match &part.node {
             Expr::Number { unit, .. } => {
                 self.push(part.span, Kind::Number(part), place);
@@ -358,7 +384,7 @@ impl<'a> Row<'a> {
                 }
             }
             Expr::Name(name) => {
-                let kind = if variable == Some(name.as_str()) {
+                let kind = if variables.iter().any(|variable| variable.node == *name) {
                     Kind::Variable
                 } else {
                     bare_word(name, place.field)

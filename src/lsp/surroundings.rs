@@ -1,7 +1,7 @@
 //! The tokens around a cursor: which brackets are open, whose they are, and what they already contain.
 
 use vcutc_job::sema::vocabulary;
-use vcutc_syntax::ast::Row;
+use vcutc_syntax::ast::{Row, SurfaceFile};
 use vcutc_syntax::lexical::{Bracket, Token, TokenKind};
 
 /// A block around the cursor. The brackets of a profile in its short form count as two: `profile`, and in that the file.
@@ -289,7 +289,11 @@ impl Surroundings<'_> {
                 return None;
             }
             let Some(word) = self.word(number) else { continue };
-            if vocabulary::CURVES.iter().any(|(known, _)| *known == word) || Row::named(word).is_some() {
+            let is_file = SurfaceFile::named(word).is_some();
+            if vocabulary::CURVES.iter().any(|(known, _)| *known == word)
+                || Row::named(word).is_some()
+                || is_file
+            {
                 given.reverse();
                 return Some((word.to_owned(), given));
             }

@@ -82,7 +82,19 @@ fn of_entry(entry: &Entry, text: &Text) -> Option<DocumentSymbol> {
             let kind = SymbolKind::FUNCTION;
             Some(symbol(&name.node, value, kind, *span, name.span, text))
         }
-        Entry::Curve { .. } | Entry::Row { .. } => None,
+        Entry::Station {
+            word,
+            at,
+            entries,
+            span,
+        } => {
+            let name = text.as_str().get(word.to(at.span).bytes()).unwrap_or_default();
+            let mut station = symbol(name, "", SymbolKind::OBJECT, *span, *word, text);
+            let children = entries.iter().filter_map(|entry| of_entry(entry, text));
+            station.children = Some(children.collect());
+            Some(station)
+        }
+        Entry::Curve { .. } | Entry::Row { .. } | Entry::SurfaceFile { .. } => None,
     }
 }
 

@@ -75,6 +75,7 @@ fn heads() -> Vec<(&'static str, &'static BlockSpec)> {
 }
 
 const FILES: [&str; 4] = ["points", "airfoil", "dxf", "svg"];
+const SURFACE_FILES: [&str; 2] = ["mesh", "grid"];
 
 /// Everything that can be written of a field, each with the words in it that are to be explained.
 fn of_field(field: &FieldSpec) -> Vec<(String, Vec<String>)> {
@@ -136,6 +137,10 @@ fn spots_of_fields() -> Vec<Spot> {
         add(&format!("profile {{ {file} \"f\" {{ "), spec, " } }\n");
         add(&format!("profile = {file}(\"f\", "), spec, ")\n");
     }
+    for file in SURFACE_FILES {
+        let spec = vocabulary::surface_file(file).unwrap();
+        add(&format!("surface {{ {file} \"f\" {{ "), spec, " } }\n");
+    }
     spots
 }
 
@@ -146,6 +151,15 @@ fn other_spots() -> Vec<Spot> {
         let text = format!("profile {{ {form} }}\n");
         spots.push(spot(&text, &format!("{{ {word}"), word));
     }
+    for (word, form) in vocabulary::SURFACES {
+        let text = format!("surface {{ {form} }}\n");
+        spots.push(spot(&text, &format!("{{ {word}"), word));
+    }
+    let (word, form) = vocabulary::STATION;
+    let text = format!("surface {{ loft {{ {form} }} }}\n");
+    spots.push(spot(&text, word, word));
+    let text = "surface { z(x, y) = 3 mm + x }\n";
+    spots.extend(["z", "x", "y"].map(|word| spot(text, word, word)));
     for word in vocabulary::JOINTS_OF_CURVES {
         let rest = match *word {
             "to" => String::new(),
@@ -310,6 +324,8 @@ fn set<'w>(words: impl IntoIterator<Item = &'w str>) -> BTreeSet<String> {
 /// All fields of all blocks.
 fn fields() -> Vec<&'static FieldSpec> {
     let files = FILES.map(|file| vocabulary::data_file(file).unwrap());
+    let surfaces = SURFACE_FILES.map(|file| vocabulary::surface_file(file).unwrap());
+    let files = files.into_iter().chain(surfaces);
     let mut open: Vec<&BlockSpec> = heads().into_iter().map(|(_, spec)| spec).chain(files).collect();
     let mut all = Vec::new();
     while let Some(spec) = open.pop() {
@@ -329,7 +345,11 @@ fn the_grammar_of_editors_has_every_word_and_no_other() {
     let joints = vocabulary::JOINTS_OF_CURVES.iter().copied();
     assert_eq!(
         named_by("curve", None),
-        set(curves.chain(joints).chain(Row::ALL.map(Row::word)))
+        set(curves
+            .chain(joints)
+            .chain(Row::ALL.map(Row::word))
+            .chain(SURFACE_FILES)
+            .chain([vocabulary::STATION.0]))
     );
     let functions = vocabulary::functions().map(|(name, _)| name);
     assert_eq!(named_by("call", Some(0)), set(functions));

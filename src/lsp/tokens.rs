@@ -150,6 +150,7 @@ fn is_keyword(word: &str, operations: Operations) -> bool {
     joints
         || vocabulary::items(operations).any(|(known, _)| known == word)
         || vocabulary::CURVES.iter().any(|(known, _)| *known == word)
+        || vocabulary::surface_file(word).is_some()
 }
 
 /// Places relative to each other, line by line: the protocol knows no token over several lines.

@@ -81,18 +81,19 @@ pub enum Entry {
         value: Spanned<Expr>,
         span: Span,
     },
-    /// `z(x) = value`.
+    /// `z(x) = value`, `z(x, y) = value`.
     Formula {
         /// The function's name.
         name: Spanned<String>,
-        variable: Spanned<String>,
+        /// One or two.
+        variables: Vec<Spanned<String>>,
         value: Spanned<Expr>,
         span: Span,
     },
     /// A piece of a profile.
     Curve {
         /// The piece.
-        curve: Curve,
+        curve: Box<Curve>,
         span: Span,
     },
     /// `tips (x, z) ...`, `body (height, radius) ...`.
@@ -101,6 +102,26 @@ pub enum Entry {
         row: Spanned<Row>,
         /// The points, at least one.
         points: Vec<Point>,
+        span: Span,
+    },
+    /// `mesh "file.stl"`, `grid "file.csv"`, optionally with `{ fields }`.
+    SurfaceFile {
+        /// What the file holds.
+        kind: Spanned<SurfaceFile>,
+        /// The file.
+        path: Spanned<String>,
+        /// Fields in braces after it.
+        options: Vec<Entry>,
+        span: Span,
+    },
+    /// `at y { pieces }`: a profile of a loft.
+    Station {
+        /// The word that it begins with.
+        word: Span,
+        /// Where it stands.
+        at: Spanned<Expr>,
+        /// The pieces of the profile.
+        entries: Vec<Entry>,
         span: Span,
     },
     /// A block within the block.
@@ -142,6 +163,35 @@ impl Row {
     #[must_use]
     pub fn named(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|row| row.word() == word)
+    }
+}
+
+/// A file that a surface is read from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SurfaceFile {
+    /// `mesh`: triangles.
+    Mesh,
+    /// `grid`: heights over places.
+    Grid,
+}
+
+impl SurfaceFile {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Mesh, Self::Grid];
+
+    /// The word that it begins with.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Mesh => "mesh",
+            Self::Grid => "grid",
+        }
+    }
+
+    /// The kind of file that follows a word.
+    #[must_use]
+    pub fn named(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.word() == word)
     }
 }
 

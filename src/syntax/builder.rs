@@ -3,7 +3,7 @@
 //! A statement that has an unreadable value is left out whole: half of a statement would only lead to complaints about
 //! what is missing in it. So the functions here return `None` for what has been reported already.
 
-use super::ast::{ArcBy, Ast, Block, Curve, Entry, HeadPart, Item, Point, Relation, Row};
+use super::ast::{ArcBy, Ast, Block, Curve, Entry, HeadPart, Item, Point, Relation, Row, SurfaceFile};
 use super::bad::Bad;
 use super::grammar::{Mismatch, Rule};
 use super::mistakes;
@@ -151,7 +151,7 @@ impl<'t> Builder<'t> {
         }
         let make = of_a_file(piece.into_inner().next()?.as_rule())?;
         let curve = Entry::Curve {
-            curve: make(path, options),
+            curve: Box::new(make(path, options)),
             span: start.to(span),
         };
         Some(Block {
@@ -192,6 +192,8 @@ impl<'t> Builder<'t> {
             Rule::formula => self.formula(pair),
             Rule::inner_block => self.block(pair).map(Entry::Block),
             Rule::row => self.row(pair),
+            Rule::surface_file => self.surface_file(pair),
+            Rule::station => self.station(pair),
             Rule::bad_entry => {
                 self.bad(&pair, Rule::only_entry);
                 None
@@ -206,7 +208,7 @@ impl<'t> Builder<'t> {
             | Rule::airfoil
             | Rule::dxf
             | Rule::svg => {
-                let curve = self.curve(pair)?;
+                let curve = Box::new(self.curve(pair)?);
                 Some(Entry::Curve { curve, span })
             }
             _ => None,
@@ -234,29 +236,59 @@ impl<'t> Builder<'t> {
 
     fn formula(&mut self, pair: Pair<'_, Rule>) -> Option<Entry> {
         let span = self.place.span_of(&pair);
-        let mut names = pair
-            .clone()
-            .into_inner()
-            .filter(|part| part.as_rule() == Rule::name);
-        let (name, variable) = (names.next()?, names.next()?);
+        let name = self.place.spanned(&find(pair.clone(), Rule::name)?);
+        let variables = find(pair.clone(), Rule::variables)?.into_inner();
+        let variables = variables.filter(|part| part.as_rule() == Rule::name);
+        let variables = variables.map(|part| self.place.spanned(&part)).collect();
         let value = self.value(find(pair, Rule::expression)?)?;
         Some(Entry::Formula {
-            name: self.place.spanned(&name),
-            variable: self.place.spanned(&variable),
+            name,
+            variables,
             value,
             span,
         })
+    }
+
+    fn surface_file(&mut self, pair: Pair<'_, Rule>) -> Option<Entry> {
+        let span = self.place.span_of(&pair);
+        let word = self.place.spanned(&find(pair.clone(), Rule::surface_word)?);
+        let kind = Spanned::new(SurfaceFile::named(&word.node)?, word.span);
+        let path = self.place.text(&find(pair.clone(), Rule::text)?);
+        Some(Entry::SurfaceFile {
+            kind,
+            path,
+            options: self.options(pair),
+            span,
+        })
+    }
+
+    fn station(&mut self, pair: Pair<'_, Rule>) -> Option<Entry> {
+        let span = self.place.span_of(&pair);
+        let word = self.place.span_of(&find(pair.clone(), Rule::at_word)?);
+        let at = self.value(find(pair.clone(), Rule::expression)?);
+        // The pieces are read even if the place is wrong, so that all faults are reported.
+        let entries = self.entries(pair.into_inner());
+        Some(Entry::Station {
+            word,
+            at: at?,
+            entries,
+            span,
+        })
+    }
+
+    /// The fields in braces after a file.
+    fn options(&mut self, pair: Pair<'_, Rule>) -> Vec<Entry> {
+        match find(pair, Rule::curve_options) {
+            Some(options) => self.entries(options.into_inner()),
+            None => Vec::new(),
+        }
     }
 
     fn curve(&mut self, pair: Pair<'_, Rule>) -> Option<Curve> {
         let rule = pair.as_rule();
         if let Some(make) = of_a_file(rule) {
             let path = self.place.text(&find(pair.clone(), Rule::text)?);
-            let options = match find(pair, Rule::curve_options) {
-                Some(options) => self.entries(options.into_inner()),
-                None => Vec::new(),
-            };
-            return Some(make(path, options));
+            return Some(make(path, self.options(pair)));
         }
         let mut points = Vec::new();
         let mut by = None;

@@ -34,8 +34,22 @@ pub fn of_job(sources: &SourceMap) -> String {
     for one in given {
         hash.update(one);
     }
-    let digest = hash.finalize();
-    digest.iter().fold(String::with_capacity(64), |mut all, byte| {
+    hexadecimal(&hash.finalize())
+}
+
+/// What stands for a file of data that is no text, or too large to be kept: its length and its hash.
+#[must_use]
+pub fn of_data(bytes: &[u8]) -> String {
+    format!(
+        "{} bytes, SHA-256 {}\n",
+        bytes.len(),
+        hexadecimal(&Hash::hash(bytes))
+    )
+}
+
+fn hexadecimal(digest: &[u8]) -> String {
+    let room = String::with_capacity(2 * digest.len());
+    digest.iter().fold(room, |mut all, byte| {
         // Writing into a string does not fail.
         let _ = write!(all, "{byte:02x}");
         all

@@ -149,6 +149,9 @@ fn is_plain_name(word: &str) -> bool {
             | "svg"
             | "tips"
             | "body"
+            | "mesh"
+            | "grid"
+            | "at"
     )
 }
 

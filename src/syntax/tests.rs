@@ -1,6 +1,6 @@
 //! The grammar rule by rule, the shape of the tree, and hostile texts.
 
-use super::ast::{Curve, Entry, HeadPart, Item, Operator};
+use super::ast::{Curve, Entry, HeadPart, Item, Operator, SurfaceFile};
 use super::*;
 use proptest::prelude::*;
 use vcutc_diagnostics::Code;
@@ -290,25 +290,71 @@ fn statements_that_are_read_and_statements_that_are_not() {
 }
 
 #[test]
+fn surfaces_are_read() {
+    let text = "surface { mesh \"a.stl\" { unit = mm } grid \"b.csv\" z(u, v) = u * v }
+        surface { loft { at 0 mm { line to (1, 2) } at 2 * 3 in { } at a + (4 ft) { z(x) = x } } }
+        profile { start (0 mm, 1 mm) }
+        rough vcut { feed = 5 mm limits { step = 4 } at = 5 }";
+    let (ast, found) = parsed(text);
+    assert_eq!(found, []);
+    let blocks = ast.items.iter().map(|item| match item {
+        Item::Block(block) => block,
+        other => panic!("{other:?}"),
+    });
+    let blocks: Vec<&ast::Block> = blocks.collect();
+    let [sources, loft, _, plain] = &blocks[..] else {
+        panic!("{ast:?}");
+    };
+    let [
+        Entry::SurfaceFile { kind, options, .. },
+        Entry::SurfaceFile { .. },
+        Entry::Formula { variables, .. },
+    ] = &sources.entries[..]
+    else {
+        panic!("{sources:?}");
+    };
+    assert_eq!((kind.node, options.len()), (SurfaceFile::Mesh, 1));
+    assert_eq!(
+        variables
+            .iter()
+            .map(|name| name.node.as_str())
+            .collect::<String>(),
+        "uv"
+    );
+    let [Entry::Block(loft)] = &loft.entries[..] else {
+        panic!("{loft:?}");
+    };
+    let places = loft.entries.iter().map(|entry| match entry {
+        Entry::Station { at, entries, .. } => (shape_of(&at.node), entries.len()),
+        other => panic!("{other:?}"),
+    });
+    let places: Vec<_> = places.collect();
+    let expected = [("0[mm]", 1), ("(2 * 3[in])", 0), ("(a + 4[ft])", 1)];
+    assert_eq!(places, expected.map(|(at, count)| (at.to_owned(), count)));
+    assert_eq!(plain.entries.len(), 3);
+}
+
+#[test]
 fn arcs_and_splines_keep_their_points() {
     let (ast, _) = parsed("profile { bezier (1, 2) (3, 4) to (5, 6) arc to (7, 8) radius 9 mm }");
     let Some(Item::Block(block)) = ast.items.first() else {
         panic!("{ast:?}");
     };
+    let curves: Vec<&Curve> = block
+        .entries
+        .iter()
+        .map(|entry| match entry {
+            Entry::Curve { curve, .. } => &**curve,
+            other => panic!("{other:?}"),
+        })
+        .collect();
     let [
-        Entry::Curve {
-            curve: Curve::Bezier { control, to },
+        Curve::Bezier { control, to },
+        Curve::Arc {
+            by: ast::ArcBy::Radius(radius),
             ..
         },
-        Entry::Curve {
-            curve:
-                Curve::Arc {
-                    by: ast::ArcBy::Radius(radius),
-                    ..
-                },
-            ..
-        },
-    ] = &block.entries[..]
+    ] = &curves[..]
     else {
         panic!("{block:?}");
     };

@@ -84,6 +84,8 @@ mod shop;
 mod skim;
 #[cfg(feature = "krl")]
 mod status;
+#[cfg(feature = "krl")]
+mod surfaces;
 mod syntax;
 #[cfg(feature = "krl")]
 mod third_party;

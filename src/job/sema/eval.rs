@@ -111,8 +111,8 @@ impl Scope<'_> {
     }
 
     fn name(&self, name: &str, span: Span, reports: &mut Reports) -> Checked<Quantity> {
-        if let Some((_, value)) = self.variable.filter(|(variable, _)| *variable == name) {
-            return Ok(value);
+        if let Some((_, value)) = self.variables.iter().find(|(variable, _)| *variable == name) {
+            return Ok(*value);
         }
         match name {
             "pi" => return Ok(Quantity::pure(core::f64::consts::PI)),

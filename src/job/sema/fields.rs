@@ -138,6 +138,12 @@ impl<'a> Fields<'a> {
             Entry::Curve { curve, span } => {
                 reports.push(self.belongs_in_profile(curve_words(curve), *span));
             }
+            Entry::SurfaceFile { kind, span, .. } => {
+                reports.push(self.belongs_in_surface(kind.node.word(), *span));
+            }
+            Entry::Station { span, .. } => {
+                reports.push(self.belongs_in_surface("at", *span));
+            }
         }
     }
 
@@ -267,10 +273,15 @@ impl<'a> Fields<'a> {
         self.spec.field(name).map(|spec| spec.typical)
     }
 
+    /// What was reported already that may be why a field is missing.
+    pub fn quiet_about(&self, name: &str) -> Option<Reported> {
+        // Who writes `clearence` does not lack a `clearance` besides.
+        self.damage.or_else(|| self.misspelt.get(name).copied())
+    }
+
     /// Reports a field that must be given and is not.
     fn missing(&self, name: &str, reports: &mut Reports) -> Reported {
-        // Who writes `clearence` does not lack a `clearance` besides.
-        if let Some(reported) = self.damage.or_else(|| self.misspelt.get(name).copied()) {
+        if let Some(reported) = self.quiet_about(name) {
             return reported;
         }
         let spec = self.spec.field(name);
@@ -302,6 +313,16 @@ impl<'a> Fields<'a> {
     fn block_with(&self, name: &str) -> Option<(&'static str, String)> {
         let sample = |field: &FieldSpec| Some((field.name, field.inner()?.field(name)?.sample()));
         self.spec.fields.iter().find_map(sample)
+    }
+
+    fn belongs_in_surface(&self, word: &str, span: Span) -> Diagnostic {
+        Diagnostic::new(
+            Code::Misplaced,
+            format!("`{word}` does not belong in {}", self.spec.title),
+            span,
+            "describes the part's shape",
+        )
+        .help("move it into the `surface { ... }` block")
     }
 
     fn belongs_in_profile(&self, what: &str, span: Span) -> Diagnostic {

@@ -17,6 +17,12 @@ use vcutc_syntax::ast::{Argument, Expr};
 pub(crate) const FRAME: &str = "frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg)";
 const KEPT: &str = "number(3, frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg))";
 
+/// Where a mesh lies, as it is written.
+pub(crate) const PLACE: &str = "frame(x = 0 mm, y = 0 mm, z = 0 mm, a = 0 deg, b = 0 deg, c = 0 deg)";
+
+/// The call that says where a mesh lies.
+pub(crate) const PLACES: &[(&str, &str)] = &[("frame", PLACE)];
+
 /// The calls that a field of a frame takes.
 pub(crate) const CALLS: &[(&str, &str)] = &[("frame", FRAME), ("number", KEPT)];
 
@@ -51,6 +57,12 @@ pub(crate) const WITH_ANGLES: &[Parameter<'_>; 6] = &[
 /// A number of the controller's own table, from 1.
 pub(crate) fn table_number(expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<u32> {
     reader.whole(expr, TABLE_NUMBER, "a number of the controller's table")
+}
+
+/// A frame that no controller keeps.
+pub(crate) fn plain(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Frame> {
+    let call = calls(field, expr, PLACES, reader.reports)?;
+    frame(call, reader)
 }
 
 /// The field of a frame.

@@ -9,6 +9,7 @@ use super::scope::{Operand, Scope};
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_geometry::number::{Interval, OnPlane, Scalar};
 use vcutc_syntax::ast::Argument;
 
 struct Function {
@@ -18,6 +19,24 @@ struct Function {
     example: &'static str,
     /// What it takes and gives.
     signature: Signature,
+    over: Over,
+}
+
+/// A height over a box of the plan, or any other value of a formula over x and y.
+pub(super) type Height = OnPlane<Interval>;
+
+/// What a function makes of values over a box; none where it has no value.
+#[derive(Clone, Copy)]
+pub(super) enum Over {
+    One(fn(Height) -> Option<Height>),
+    /// Of more than two values it is taken of the first two, then of that and the next.
+    Two(fn(Height, Height) -> Option<Height>),
+    Three(fn(Height, Height, Height) -> Option<Height>),
+}
+
+/// A value between bounds that do not cross.
+fn clamped(value: Height, low: Height, high: Height) -> Option<Height> {
+    (low.value.high <= high.value.low).then(|| value.greater(low).lesser(high))
 }
 
 /// What a function takes and gives, for those who help to write a call. The functions find out by themselves; a test holds the
@@ -45,12 +64,19 @@ enum Form {
     Several(fn(&Apply<'_>, Operand<'_>, &[Operand<'_>]) -> Applied),
 }
 
-const fn function(name: &'static str, form: Form, example: &'static str, signature: Signature) -> Function {
+const fn function(
+    name: &'static str,
+    form: Form,
+    example: &'static str,
+    signature: Signature,
+    over: Over,
+) -> Function {
     Function {
         name,
         form,
         example,
         signature,
+        over,
     }
 }
 
@@ -60,73 +86,96 @@ const FUNCTIONS: &[Function] = &[
         Form::One(|f, a| f.of_angle(a, libm::sin)),
         "sin(30 deg)",
         Signature::OfAngle,
+        Over::One(Height::sine),
     ),
     function(
         "cos",
         Form::One(|f, a| f.of_angle(a, libm::cos)),
         "cos(30 deg)",
         Signature::OfAngle,
+        Over::One(Height::cosine),
     ),
     function(
         "tan",
         Form::One(|f, a| f.of_angle(a, libm::tan)),
         "tan(30 deg)",
         Signature::OfAngle,
+        Over::One(Height::tangent),
     ),
     function(
         "asin",
         Form::One(|f, a| f.to_angle(a, 1.0, libm::asin)),
         "asin(0.5)",
         Signature::ToAngle,
+        Over::One(Height::arc_sine),
     ),
     function(
         "acos",
         Form::One(|f, a| f.to_angle(a, 1.0, libm::acos)),
         "acos(0.5)",
         Signature::ToAngle,
+        Over::One(Height::arc_cosine),
     ),
     function(
         "atan",
         Form::One(|f, a| f.to_angle(a, f64::INFINITY, libm::atan)),
         "atan(0.5)",
         Signature::ToAngle,
+        Over::One(Height::arc),
     ),
     function(
         "atan2",
         Form::Two(|f, a, b| f.atan2(a, b)),
         "atan2(3 mm, 4 mm)",
         Signature::Bearing,
+        Over::Two(Height::bearing),
     ),
-    function("sqrt", Form::One(|_, a| root(a)), "sqrt(2)", Signature::Root),
+    function(
+        "sqrt",
+        Form::One(|_, a| root(a)),
+        "sqrt(2)",
+        Signature::Root,
+        Over::One(Height::square_root),
+    ),
     function(
         "abs",
         Form::One(|_, a| Ok(absolute(a.quantity))),
         "abs(-3 mm)",
         Signature::Alike,
+        Over::One(Height::magnitude),
     ),
     function(
         "min",
         Form::Several(|f, a, rest| f.fold(a, rest, f64::min)),
         "min(3 mm, 4 mm)",
         Signature::Alike,
+        Over::Two(|a, b| Some(a.lesser(b))),
     ),
     function(
         "max",
         Form::Several(|f, a, rest| f.fold(a, rest, f64::max)),
         "max(3 mm, 4 mm)",
         Signature::Alike,
+        Over::Two(|a, b| Some(a.greater(b))),
     ),
     function(
         "clamp",
         Form::Three(|f, a, b, c| f.clamp(a, b, c)),
         "clamp(5 mm, 0 mm, 10 mm)",
         Signature::Alike,
+        Over::Three(clamped),
     ),
 ];
 
 /// The names of all functions, each with a call of it.
 pub(super) fn examples() -> impl Iterator<Item = (&'static str, &'static str)> {
     FUNCTIONS.iter().map(|function| (function.name, function.example))
+}
+
+/// What a function does over boxes.
+pub(super) fn over(name: &str) -> Option<Over> {
+    let known = FUNCTIONS.iter().find(|function| function.name == name)?;
+    Some(known.over)
 }
 
 /// What a function takes and gives.
@@ -137,7 +186,10 @@ pub(super) fn signature(name: &str) -> Option<Signature> {
 
 /// Calls that are values only of certain fields, and where they belong.
 const ELSEWHERE: &[(&str, &str)] = &[
-    ("frame", "after `tool` and `base` of a machine"),
+    (
+        "frame",
+        "after `tool` and `base` of a machine, or `place` of a mesh",
+    ),
     ("number", "after `tool`, `base` and `load` of a machine"),
     ("load", "after `load` of a machine"),
     ("joints", "after `home` of a machine"),

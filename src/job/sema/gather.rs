@@ -51,6 +51,7 @@ pub(crate) struct Definitions<'a> {
     pub(crate) job: Option<&'a Spanned<String>>,
     pub(crate) stock: Option<Placed<'a>>,
     pub(crate) profile: Option<Placed<'a>>,
+    pub(crate) surface: Option<Placed<'a>>,
     /// The choice of the machine.
     pub(crate) cell: Option<Placed<'a>>,
     /// Operations, in order.
@@ -152,6 +153,7 @@ impl<'a> Definitions<'a> {
         match kind {
             Kind::Stock => single(&mut self.stock, "stock", placed, standing, reports),
             Kind::Profile => single(&mut self.profile, "profile", placed, standing, reports),
+            Kind::Surface => single(&mut self.surface, "surface", placed, standing, reports),
             Kind::Cell => single(&mut self.cell, "cell", placed, standing, reports),
             Kind::Operation(kind) => {
                 if is_allowed(kind.head(), place.head, standing, reports) {

@@ -17,6 +17,8 @@ pub(crate) enum Kind<'a> {
     Stock,
     /// `profile`.
     Profile,
+    /// `surface`.
+    Surface,
     /// `cell`.
     Cell,
     /// `blade NAME`, `blade NAME = disc`.
@@ -58,6 +60,7 @@ pub(crate) fn forms(operations: Operations) -> Vec<(&'static str, String)> {
     let before = [
         ("stock", "stock { ... }"),
         ("profile", "profile { ... }"),
+        ("surface", "surface { ... }"),
         ("blade", "blade NAME { ... }"),
     ];
     let after = [
@@ -102,6 +105,7 @@ pub(crate) fn classify(block: &Block, operations: Operations) -> Result<Kind<'_>
     match first.as_str() {
         "stock" => plain(Kind::Stock, first, rest),
         "profile" => plain(Kind::Profile, first, rest),
+        "surface" => plain(Kind::Surface, first, rest),
         "cell" => plain(Kind::Cell, first, rest),
         "blade" => blade(at, rest),
         "machine" => machine(at, rest),

@@ -108,7 +108,7 @@ fn worth(
         names,
         lets,
         values,
-        variable: None,
+        variables: &[],
     };
     let value = scope.evaluate(subject.value, reports);
     Some(value.and_then(|value| keeps_dimension(subject, value, &scope, reports)))

@@ -97,15 +97,20 @@ impl Missing {
         )
     }
 
-    /// The job has no profile. With a stock the example fits it.
-    pub(crate) fn profile(&self, stock: Option<Spanned<Stock>>, session: &mut Session<'_>) -> Reported {
+    /// The job has no part. With a stock the example fits it.
+    pub(crate) fn part(&self, stock: Option<Spanned<Stock>>, session: &mut Session<'_>) -> Reported {
         let (width, height) = match stock {
             Some(stock) => (stock.node.width.to_mm(), stock.node.height.to_mm()),
             None => (85.0, 50.0),
         };
         let (width, left, right) = (number(width), number(height * 0.5), number(height * 0.25));
         let example = format!("profile {{ start (0 mm, {left} mm) line to ({width} mm, {right} mm) }}");
-        self.block("profile", "`profile` is missing", &example, session)
+        self.block(
+            "profile and no surface",
+            "`profile` or `surface` is missing",
+            &example,
+            session,
+        )
     }
 
     /// The job has no operation.

@@ -91,6 +91,10 @@ fn one(block: &Block, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Gi
             Entry::Limit { span, .. } => Err(misplaced("a limit", *span, session)),
             Entry::Formula { span, .. } => Err(misplaced("a formula", *span, session)),
             Entry::Curve { curve, span } => Err(misplaced(curve_words(curve), *span, session)),
+            Entry::SurfaceFile { kind, span, .. } => {
+                Err(misplaced(&format!("`{}`", kind.node.word()), *span, session))
+            }
+            Entry::Station { span, .. } => Err(misplaced("`at`", *span, session)),
             Entry::Row { row, span, .. } => Err(misplaced(&format!("`{}`", row.node.word()), *span, session)),
             Entry::Block(inner) => Err(misplaced("a block", head_span(inner), session)),
         };

@@ -1,6 +1,8 @@
 //! The part as it is drawn: curves, formulas and sections of drawings stay what they are until a stage needs lines.
 //!
-//! Checking a job proves that the part is one height at every x of the stock, and within it, at the tolerance [`Part::TOLERANCE`]. A
+//! A part is a profile, the same at every y, or a surface.
+//!
+//! Checking a job proves that a profile is one height at every x of the stock, and within it, at the tolerance [`Part::TOLERANCE`]. A
 //! checked job keeps the curves. Planning tessellates them once, at the same tolerance; what comes after it, proofs, pictures and
 //! reports, uses the polyline of the plan.
 
@@ -17,13 +19,37 @@ use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::Span;
 use vcutc_geometry::curve::{Curve, Point2};
 use vcutc_geometry::profile::{Profile, ProfileError};
+use vcutc_surface::surface::Surface;
 
-/// The part across the stock: pieces end to end, cut off at the sides of the stock.
+/// The part across the stock.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    pieces: Arc<[Piece]>,
+    shape: Shape,
     /// From x = 0 to here, in mm.
     width: f64,
+}
+
+/// What a part is drawn as.
+#[derive(Clone, Debug, PartialEq)]
+enum Shape {
+    /// Pieces end to end, cut off at the sides of the stock, the same at every y.
+    Profile(Arc<[Piece]>),
+    Surface(Arc<Shaded>),
+}
+
+/// A surface with its shadow.
+#[derive(Clone, Debug)]
+struct Shaded {
+    surface: Surface,
+    /// Its greatest height over each x.
+    shadow: Profile,
+}
+
+/// The shadow follows from the surface. A surface of a million triangles is not compared with itself.
+impl PartialEq for Shaded {
+    fn eq(&self, other: &Self) -> bool {
+        core::ptr::eq(self, other) || self.surface == other.surface
+    }
 }
 
 /// A piece of a part.
@@ -43,11 +69,32 @@ impl Part {
     /// How far the polyline of a part may be off its curves: far below what a knife can do in honeycomb.
     pub const TOLERANCE: Length = Length::mm(0.001);
 
+    /// How far the triangles of a surface that is given by profiles or by a formula may be off it.
+    pub const SURFACE_TOLERANCE: Length = Length::mm(0.01);
+
     /// Of pieces that were checked on a stock of this width, in mm.
     pub(crate) fn new(pieces: Vec<Piece>, width: f64) -> Self {
         Self {
-            pieces: pieces.into(),
+            shape: Shape::Profile(pieces.into()),
             width,
+        }
+    }
+
+    /// Of a surface that was checked on the stock, with its shadow.
+    pub(crate) fn of_surface(surface: Surface, shadow: Profile) -> Self {
+        let width = surface.plan().width.to_mm();
+        Self {
+            shape: Shape::Surface(Arc::new(Shaded { surface, shadow })),
+            width,
+        }
+    }
+
+    /// The surface of a part that changes along y.
+    #[must_use]
+    pub fn surface(&self) -> Option<&Surface> {
+        match &self.shape {
+            Shape::Surface(shaded) => Some(&shaded.surface),
+            Shape::Profile(_) => None,
         }
     }
 
@@ -60,12 +107,18 @@ impl Part {
         Ok(Self::new(vec![Piece::Points(points)], width))
     }
 
-    /// The part's polyline, within a tolerance; none where a curve asks for too many points for that.
+    /// The part's polyline, within a tolerance; none where a curve asks for too many points for that. Of a surface its shadow
+    /// along y, the greatest height over each x: straight cuts that keep clear of that keep clear of the part.
     #[must_use]
     pub fn tessellated(&self, tolerance: Length) -> Option<Profile> {
         let mut points = Vec::new();
-        for piece in &*self.pieces {
-            piece.tessellate(self.width, tolerance, &mut points)?;
+        match &self.shape {
+            Shape::Profile(pieces) => {
+                for piece in &**pieces {
+                    piece.tessellate(self.width, tolerance, &mut points)?;
+                }
+            }
+            Shape::Surface(shaded) => points.extend_from_slice(shaded.shadow.points()),
         }
         Strip::cut(&points, self.width).profile(self.width).ok()
     }
@@ -73,14 +126,17 @@ impl Part {
     /// Replaces every place in the job's text by this one.
     pub(crate) fn forget_places(&mut self, place: Span) {
         let formula = |piece: &Piece| matches!(piece, Piece::Formula(_));
-        if self.pieces.iter().any(formula) {
-            let mut pieces = self.pieces.to_vec();
+        // Nothing else knows where it is written.
+        if let Shape::Profile(known) = &mut self.shape
+            && known.iter().any(formula)
+        {
+            let mut pieces = known.to_vec();
             for piece in &mut pieces {
                 if let Piece::Formula(formula) = piece {
                     formula.forget_places(place);
                 }
             }
-            self.pieces = pieces.into();
+            *known = pieces.into();
         }
     }
 }

@@ -9,7 +9,7 @@ pub(crate) mod data;
 pub(crate) mod drawing;
 mod formula;
 mod repairs;
-mod shape;
+pub(crate) mod shape;
 
 use super::eval::Scope;
 use super::fields::{Place, curve_words, head_span};
@@ -20,6 +20,7 @@ use vcutc_backend_api::ir::Stock;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::Profile;
 use vcutc_syntax::ast::{Block, Curve, Entry, Expr, Row};
 
 /// The polyline of a profile as it is drawn, with where its points come from.
@@ -114,13 +115,7 @@ pub(crate) fn check(
     scope: Scope<'_>,
     session: &mut Session<'_>,
 ) -> Checked<Part> {
-    let trace = match sort(block, place, session)? {
-        Content::Formula(formula) => {
-            formula::check_name(&formula, &mut session.reports)?;
-            formula::trace(&formula, stock?, scope, &mut session.reports)?
-        }
-        Content::Pieces(pieces) => curves::trace(&pieces, scope, session)?,
-    };
+    let trace = trace(&block.entries, place, stock, scope, session)?;
     // A piece that could not be read is no gap in the profile.
     match session.damage_at(place.whole) {
         Some(reported) => Err(reported),
@@ -132,12 +127,40 @@ pub(crate) fn check(
     }
 }
 
+/// One of the profiles that a surface is ruled between: all that is drawn, also beyond the sides of the stock.
+pub(crate) fn whole(
+    entries: &[Entry],
+    place: Place,
+    stock: Spanned<Stock>,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<Profile> {
+    let trace = trace(entries, place, Ok(stock), scope, session)?;
+    shape::whole(&trace, place, &mut session.reports)
+}
+
+fn trace(
+    entries: &[Entry],
+    place: Place,
+    stock: Checked<Spanned<Stock>>,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<Trace> {
+    match sort(entries, place, session)? {
+        Content::Formula(formula) => {
+            formula::check_name(&formula, &mut session.reports)?;
+            formula::trace(&formula, stock?, scope, &mut session.reports)
+        }
+        Content::Pieces(pieces) => curves::trace(&pieces, scope, session),
+    }
+}
+
 /// Sorts the entries: either one formula or a chain of pieces.
-fn sort<'a>(block: &'a Block, place: Place, session: &mut Session<'_>) -> Checked<Content<'a>> {
+fn sort<'a>(entries: &'a [Entry], place: Place, session: &mut Session<'_>) -> Checked<Content<'a>> {
     let mut formula: Option<Formula<'a>> = None;
     let mut pieces = Vec::new();
     let mut fault = None;
-    for entry in &block.entries {
+    for entry in entries {
         let found = match entry {
             Entry::Curve { curve, span } => {
                 pieces.push(Piece { curve, span: *span });
@@ -145,11 +168,11 @@ fn sort<'a>(block: &'a Block, place: Place, session: &mut Session<'_>) -> Checke
             }
             Entry::Formula {
                 name,
-                variable,
+                variables,
                 value,
                 span,
-            } => match &formula {
-                None => {
+            } => match (&formula, variables.as_slice()) {
+                (None, [variable]) => {
                     formula = Some(Formula {
                         name,
                         variable,
@@ -158,8 +181,11 @@ fn sort<'a>(block: &'a Block, place: Place, session: &mut Session<'_>) -> Checke
                     });
                     continue;
                 }
-                Some(first) => second_formula(*span, first.span),
+                (Some(first), [_]) => second_formula(*span, first.span),
+                (_, several) => of_several(several, *span),
             },
+            Entry::SurfaceFile { kind, span, .. } => no_surface(kind.node.word(), *span),
+            Entry::Station { word, at, .. } => no_surface("at", word.to(at.span)),
             Entry::Field { name, .. } => no_field(name),
             Entry::Limit { name, .. } => no_field(name),
             Entry::Row { row, span, .. } => no_row(row.node, *span),
@@ -199,6 +225,31 @@ fn no_row(row: Row, span: Span) -> Diagnostic {
     .help(format!(
         "move it into the {block} block; a profile through points is a `polyline`"
     ))
+}
+
+/// A formula of x and y.
+fn of_several(variables: &[Spanned<String>], span: Span) -> Diagnostic {
+    let place = match variables {
+        [first, .., last] => first.span.to(last.span),
+        _ => span,
+    };
+    Diagnostic::new(
+        Code::Misplaced,
+        "the height of a profile depends on x alone",
+        place,
+        "one variable is expected here",
+    )
+    .help("for a part that changes along y, write `surface { z(x, y) = ... }` instead of `profile`")
+}
+
+fn no_surface(word: &str, span: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::Misplaced,
+        format!("`{word}` does not belong in `profile`"),
+        span,
+        "describes a part that changes along y",
+    )
+    .help("write `surface { ... }` instead of `profile`")
 }
 
 fn second_formula(second: Span, first: Span) -> Diagnostic {

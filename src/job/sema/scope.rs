@@ -25,8 +25,8 @@ pub struct Scope<'a> {
     pub(crate) lets: &'a [Let<'a>],
     /// Their values; none while they are still being worked out.
     pub values: &'a [Option<Checked<Quantity>>],
-    /// The variable of a formula.
-    pub variable: Option<(&'a str, Quantity)>,
+    /// The variables of a formula.
+    pub variables: &'a [(&'a str, Quantity)],
 }
 
 /// A value with the expression it came from.

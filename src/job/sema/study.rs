@@ -185,7 +185,7 @@ impl Evaluator<'_> {
             names: &self.names,
             lets: &[],
             values: &self.values,
-            variable: None,
+            variables: &[],
         };
         scope.evaluate(expr, &mut Reports::default()).ok().map(Value)
     }

@@ -11,11 +11,12 @@ pub use super::functions::Signature;
 use super::heads::{self, Kind};
 use super::kind::Operations;
 use super::profile::{data, drawing};
+use super::surface::file;
 use super::{Part, blade, cell, frame, functions, machine, names, stock, units};
 use crate::BladeKind;
 use vcutc_backend_api::ir::MachineKind;
 pub use vcutc_diagnostics::schema::field::{BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Takes};
-use vcutc_syntax::ast::Block;
+use vcutc_syntax::ast::{Block, SurfaceFile};
 
 /// What can be at the top of a file: its first word, and how all of it looks.
 pub fn items(operations: Operations) -> impl Iterator<Item = (&'static str, String)> {
@@ -66,6 +67,11 @@ fn blade_kind(head: &[&str]) -> Option<BladeKind> {
     known.find(|(word, _)| word == kind).map(|(_, kind)| *kind)
 }
 
+/// The fields after a file of a profile or of a surface.
+pub fn any_file(word: &str) -> Option<&'static BlockSpec> {
+    data_file(word).or_else(|| surface_file(word))
+}
+
 /// The fields after a file of a profile: points, airfoils and drawings.
 pub fn data_file(word: &str) -> Option<&'static BlockSpec> {
     match word {
@@ -76,6 +82,27 @@ pub fn data_file(word: &str) -> Option<&'static BlockSpec> {
         _ => None,
     }
 }
+
+/// The fields after a file of a surface.
+pub fn surface_file(word: &str) -> Option<&'static BlockSpec> {
+    Some(match SurfaceFile::named(word)? {
+        SurfaceFile::Mesh => &file::MESH,
+        SurfaceFile::Grid => &file::GRID,
+    })
+}
+
+/// A profile of a loft: its first word, and how all of it looks.
+pub const STATION: (&str, &str) = ("at", "at 1000 mm { start (0 mm, 20 mm) line to (600 mm, 30 mm) }");
+
+/// What a surface is: the first word, and how all of it looks.
+pub const SURFACES: &[(&str, &str)] = &[
+    ("mesh", "mesh \"fairing.stl\" { unit = mm }"),
+    ("grid", "grid \"heights.csv\""),
+    (
+        "loft",
+        "loft { at 0 mm { start (0 mm, 20 mm) line to (600 mm, 30 mm) } at 1000 mm { z(x) = 20 mm } }",
+    ),
+];
 
 /// The pieces of a profile: the first word, and how all of it looks.
 pub const CURVES: &[(&str, &str)] = &[
@@ -218,7 +245,7 @@ pub fn unit_spoken(unit: &str) -> Option<String> {
 /// Where a block may be: in a job only, or in a library as well; none if its head is not right.
 pub fn standing(block: &Block, operations: Operations) -> Option<Part> {
     Some(match heads::classify(block, operations).ok()? {
-        Kind::Stock | Kind::Profile | Kind::Cell | Kind::Operation(_) => Part::Job,
+        Kind::Stock | Kind::Profile | Kind::Surface | Kind::Cell | Kind::Operation(_) => Part::Job,
         Kind::Blade(_) | Kind::Machine(_) => Part::Library,
     })
 }

@@ -19,7 +19,11 @@ fn about(entry: &Entry) -> Option<About<'_>> {
             Relation::AtLeast => About::AtLeast(&name.node),
         }),
         Entry::Block(block) => Some(About::Block(word(block)?)),
-        Entry::Formula { .. } | Entry::Curve { .. } | Entry::Row { .. } => None,
+        Entry::Formula { .. }
+        | Entry::Curve { .. }
+        | Entry::Row { .. }
+        | Entry::SurfaceFile { .. }
+        | Entry::Station { .. } => None,
     }
 }
 
@@ -42,7 +46,9 @@ pub(crate) fn is_block(entry: &Entry, words: &[&str]) -> bool {
         | Entry::Limit { .. }
         | Entry::Formula { .. }
         | Entry::Curve { .. }
-        | Entry::Row { .. } => false,
+        | Entry::Row { .. }
+        | Entry::SurfaceFile { .. }
+        | Entry::Station { .. } => false,
     }
 }
 

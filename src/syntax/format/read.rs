@@ -351,7 +351,7 @@ impl<'t> Reader<'t> {
             Entry::Field { span, .. } | Entry::Limit { span, .. } | Entry::Formula { span, .. } => {
                 self.statement(Kind::Value, span.bytes().end)
             }
-            Entry::Curve { curve, span } => match curve {
+            Entry::Curve { curve, span } => match &**curve {
                 Curve::Points { options, .. }
                 | Curve::Airfoil { options, .. }
                 | Curve::Dxf { options, .. }
@@ -364,6 +364,8 @@ impl<'t> Reader<'t> {
                 | Curve::Polyline { .. } => self.statement(Kind::Curve, span.bytes().end),
             },
             Entry::Row { span, .. } => self.statement(Kind::Curve, span.bytes().end),
+            Entry::SurfaceFile { options, span, .. } => self.block(Kind::Curve, options, span.bytes().end),
+            Entry::Station { entries, span, .. } => self.block(Kind::Block, entries, span.bytes().end),
             Entry::Block(block) => self.block(Kind::Block, &block.entries, block.span.bytes().end),
         }
     }

@@ -53,6 +53,19 @@ fn blanks_stand_where_they_belong() {
 }
 
 #[test]
+fn surfaces_are_laid_out_as_profiles_are() {
+    assert_layout(
+        "surface {\nloft{\nat 0mm{start(0mm,1mm)line to(2mm,3mm)}\nat(2*3 mm){z(x)=x}\n}\n}",
+        "surface {\n  loft {\n    at 0 mm       { start (0 mm, 1 mm), line to (2 mm, 3 mm) }\n    at (2 * 3 mm) { z(x) = x }\n  }\n}\n",
+    );
+    assert_layout(
+        "surface{mesh \"a.stl\"{unit=mm,place=frame(x=0mm)}}",
+        "surface { mesh \"a.stl\" { unit = mm, place = frame(x = 0 mm) } }\n",
+    );
+    assert_layout("surface {\nz(x,y)=x+y\n}", "surface {\n  z(x, y) = x + y\n}\n");
+}
+
+#[test]
 fn neighbours_share_a_column() {
     assert_layout(
         "rough vcut {\nblade=b\nfeed{cut=1 mm/s}\nrake   = 60deg\n\nlattice = free\n// on its own\nz(x)=x\nstep<=2mm\n}",

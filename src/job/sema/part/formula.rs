@@ -34,8 +34,9 @@ pub(crate) struct Sampling<'a> {
 impl Sampling<'_> {
     /// The height at an x, both in mm.
     pub(crate) fn height(&self, x: f64, reports: &mut Reports) -> Checked<f64> {
+        let variables = [(self.variable, Quantity::length(x))];
         let scope = Scope {
-            variable: Some((self.variable, Quantity::length(x))),
+            variables: &variables,
             ..self.scope
         };
         scope.expect(self.value, Dimension::LENGTH, "`z`", Some("10 mm"), reports)
@@ -101,7 +102,7 @@ impl Formula {
                 names: &names,
                 lets: &[],
                 values: &values,
-                variable: None,
+                variables: &[],
             },
         };
         sampling.points(width, tolerance).ok()

@@ -60,7 +60,7 @@ enum Flip {
 const FLIPS: &[(&str, Flip)] = &[("none", Flip::None), ("x", Flip::X)];
 
 /// The place of a piece as that of a block.
-pub(super) const fn place_of(path: &Spanned<String>, piece: Span) -> Place {
+pub(crate) const fn place_of(path: &Spanned<String>, piece: Span) -> Place {
     Place {
         head: path.span,
         whole: piece,
@@ -170,7 +170,7 @@ fn load_airfoil(path: &Spanned<String>, session: &mut Session<'_>) -> Checked<Fi
 }
 
 /// The bytes of a data file, and its path from where the job's own is relative to.
-pub(super) fn bytes_of(path: &Spanned<String>, session: &mut Session<'_>) -> Checked<(String, Vec<u8>)> {
+pub(crate) fn bytes_of(path: &Spanned<String>, session: &mut Session<'_>) -> Checked<(String, Vec<u8>)> {
     let resolved = join_path(session.sources.name(path.span.file), &path.node);
     match session.loader.load(&resolved) {
         Ok(bytes) => Ok((resolved, bytes)),
@@ -182,7 +182,7 @@ pub(super) fn bytes_of(path: &Spanned<String>, session: &mut Session<'_>) -> Che
 }
 
 /// A data file's text as a source of the run.
-pub(super) fn as_text(
+pub(crate) fn as_text(
     resolved: &str,
     bytes: Vec<u8>,
     path: &Spanned<String>,
@@ -206,7 +206,7 @@ fn read<T>(
 }
 
 /// The diagnostic for a place in a data file that cannot be read.
-pub(super) fn bad_data(error: DataError, file: FileId, path: &Spanned<String>) -> Diagnostic {
+pub(crate) fn bad_data(error: DataError, file: FileId, path: &Spanned<String>) -> Diagnostic {
     let span = Span {
         file,
         start: error.start,

@@ -3,6 +3,7 @@
 //! What the drawing does beyond the two sides of the stock does not matter, so it is cut away first.
 
 use super::Trace;
+use crate::sema::fields::Place;
 use crate::sema::part::{REACHES, SAME, Strip};
 use crate::sema::quantity::mm;
 use crate::sema::report::{Checked, Reports};
@@ -10,7 +11,7 @@ use vcutc_backend_api::ir::Stock;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
-use vcutc_geometry::profile::ProfileError;
+use vcutc_geometry::profile::{Profile, ProfileError};
 
 /// Checks that a trace is a profile across the stock.
 pub(super) fn check(trace: &Trace, stock: Spanned<Stock>, reports: &mut Reports) -> Checked<()> {
@@ -47,6 +48,35 @@ pub(super) fn check(trace: &Trace, stock: Spanned<Stock>, reports: &mut Reports)
         Some(reported) => Err(reported),
         None => Ok(()),
     }
+}
+
+/// The profile that all of a trace is, wherever the stock lies.
+pub(super) fn whole(trace: &Trace, place: Place, reports: &mut Reports) -> Checked<Profile> {
+    Profile::new(trace.points.clone()).map_err(|error| {
+        let span = |index: usize| trace.piece_at(index).unwrap_or(place.head);
+        let diagnostic = match error {
+            ProfileError::NotSingleValued { index } => {
+                let x = trace.points.get(index).map_or(0.0, |point| point.x);
+                let diagnostic = Diagnostic::new(
+                    Code::NotSingleValued,
+                    format!("the profile has two heights at x = {}", mm(x)),
+                    span(index),
+                    "it turns back or rises straight up here",
+                )
+                .note("a loft joins all of its profiles, also what lies beyond the stock")
+                .help("draw the profile from left to right without turning back");
+                with_drawn(diagnostic, trace.drawn_at(index))
+            }
+            ProfileError::TooFew | ProfileError::OutOfRange { .. } => Diagnostic::new(
+                Code::ProfileTooShort,
+                "the profile has no extent",
+                span(0),
+                "a single point",
+            )
+            .help("add a line to the other side of the stock"),
+        };
+        reports.push(diagnostic)
+    })
 }
 
 impl Strip {
@@ -347,7 +377,7 @@ impl Leaving {
 }
 
 /// A length in mm rounded up to what six digits show of it, and no finer than to a micrometre.
-fn up(length: f64) -> f64 {
+pub(crate) fn up(length: f64) -> f64 {
     let per_mm = match length {
         short if short < 1000.0 => 1000.0,
         long if long < 10_000.0 => 100.0,

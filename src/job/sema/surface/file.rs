@@ -1,0 +1,265 @@
+//! Files of surfaces: `mesh "fairing.stl" { unit = mm }` and `grid "heights.csv"`.
+//!
+//! A file of triangles may be binary and far larger than other files. Only its length and its hash become a source of the run;
+//! its text does where it is text and a place in it has to be shown.
+
+use super::seat::Seat;
+use super::{judge, placed};
+use crate::sema::eval::Scope;
+use crate::sema::fields::{BlockSpec, Fields, Inner, Takes, value};
+use crate::sema::files::{Relative, not_loaded};
+use crate::sema::frame;
+use crate::sema::part::Part;
+use crate::sema::profile::data::{as_text, bad_data, bytes_of, place_of};
+use crate::sema::quantity::{mm, number};
+use crate::sema::read::{Reader, words_of};
+use crate::sema::report::{Checked, Reported};
+use crate::sema::session::Session;
+use vcutc_backend_api::geometry::Frame;
+use vcutc_backend_api::ir::Stock;
+use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::source::{LARGEST_FILE, LARGEST_MESH_FILE, Span, Spanned, join_path};
+use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_surface::import::{self, DataError, ReadMesh, Remarks};
+use vcutc_surface::mesh::Mesh;
+use vcutc_surface::surface::{Placement, SurfaceError};
+use vcutc_syntax::ast::{Entry, SurfaceFile};
+use vcutc_syntax::fingerprint;
+
+pub(crate) const MESH: BlockSpec = BlockSpec {
+    title: "`mesh`",
+    fields: &[
+        value("unit", "mm")
+            .required()
+            .takes(Takes::Words(|| words_of(MESH_UNITS))),
+        value("place", frame::PLACE).takes(Takes::Calls(frame::PLACES)),
+    ],
+    inner: Inner::Refused,
+};
+
+pub(crate) const GRID: BlockSpec = BlockSpec {
+    title: "`grid`",
+    fields: &[
+        value("unit", "mm").takes(Takes::Words(|| words_of(GRID_UNITS))),
+        value("place", frame::PLACE).takes(Takes::Calls(frame::PLACES)),
+    ],
+    inner: Inner::Refused,
+};
+
+/// Units of files of triangles, in mm: those of drawings.
+const MESH_UNITS: &[(&str, f64)] = &[
+    ("mm", 1.0),
+    ("cm", 10.0),
+    ("m", 1000.0),
+    ("in", 25.4),
+    ("ft", 304.8),
+];
+
+/// Units of files of heights, in mm: those of points.
+const GRID_UNITS: &[(&str, f64)] = &[("mm", 1.0), ("in", 25.4), ("m", 1000.0)];
+
+/// Lines of an OBJ file that say nothing about the place of a triangle.
+const WITHOUT_A_SHAPE: &[&str] = &["vn", "vt", "vp", "g", "o", "s", "mtllib", "usemtl"];
+
+/// A file as the job names it.
+pub(super) struct Named<'a> {
+    pub(super) kind: Spanned<SurfaceFile>,
+    pub(super) path: &'a Spanned<String>,
+    pub(super) options: &'a [Entry],
+    pub(super) span: Span,
+}
+
+impl Named<'_> {
+    /// From its word to its path.
+    pub(super) const fn head(&self) -> Span {
+        Span {
+            end: self.path.span.end,
+            ..self.kind.span
+        }
+    }
+}
+
+/// The part that a file describes.
+pub(super) fn part(
+    named: &Named<'_>,
+    stock: Spanned<Stock>,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<Part> {
+    let (spec, units) = match named.kind.node {
+        SurfaceFile::Mesh => (&MESH, MESH_UNITS),
+        SurfaceFile::Grid => (&GRID, GRID_UNITS),
+    };
+    let fields = Fields::sort(spec, place_of(named.path, named.span), named.options, session);
+    let mut reader = Reader::new(scope, &mut session.reports);
+    let unit = reader.choice(&fields, "unit", units);
+    let place = place(&fields, &mut reader);
+    let unit = match (named.kind.node, unit?) {
+        (_, Some(unit)) => unit.value,
+        (SurfaceFile::Grid, None) => 1.0,
+        (SurfaceFile::Mesh, None) => return Err(without_unit(named.path, &fields, session)),
+    };
+    let mesh = match named.kind.node {
+        SurfaceFile::Mesh => triangles(named.path, unit, session)?,
+        SurfaceFile::Grid => heights(named.path, session)?,
+    };
+    let placement = Placement {
+        frame: place?,
+        unit: Length::mm(unit),
+    };
+    let seat = Seat {
+        mesh: &mesh,
+        placement,
+        stock: stock.node,
+        fields: &fields,
+        given: fields.value("place")?.map(|expr| expr.span),
+    };
+    let offer = |diagnostic| seat.offer(diagnostic);
+    if let Some(reported) = session.damage_at(named.span) {
+        return Err(reported);
+    }
+    match placed(&mesh, &placement, stock.node) {
+        Ok(surface) => judge::part(surface, named.head(), stock, &offer, &mut session.reports),
+        Err(error) => Err(session.reports.push(match error {
+            SurfaceError::Elsewhere { .. } => offer(judge::elsewhere(error, named.head(), stock)),
+            SurfaceError::BadPlan | SurfaceError::OutOfRange => super::not_made(error, named.head()),
+        })),
+    }
+}
+
+fn place(fields: &Fields<'_>, reader: &mut Reader<'_>) -> Checked<Frame> {
+    match fields.value("place")? {
+        Some(expr) => frame::plain("place", expr, reader),
+        None => Ok(super::AT_THE_CORNER),
+    }
+}
+
+fn without_unit(path: &Spanned<String>, fields: &Fields<'_>, session: &mut Session<'_>) -> Reported {
+    if let Some(reported) = fields.quiet_about("unit") {
+        return reported;
+    }
+    let diagnostic = Diagnostic::new(
+        Code::MeshWithoutUnit,
+        format!("nothing states the unit of `{}`", path.node),
+        path.span,
+        "numbers without a unit",
+    )
+    .note("STL, OBJ and PLY files do not state one");
+    let diagnostic = fields.offer(diagnostic, "state it, for example `unit = mm`", "unit = mm");
+    session.reports.push(diagnostic)
+}
+
+type Read = fn(&[u8]) -> Result<ReadMesh, DataError>;
+
+/// The reader of a file of triangles, by its ending.
+fn reader_of(path: &str) -> Option<Read> {
+    let (_, ending) = path.rsplit_once('.')?;
+    match ending.to_ascii_lowercase().as_str() {
+        "stl" => Some(import::stl),
+        "obj" => Some(import::obj),
+        "ply" => Some(import::ply),
+        _ => None,
+    }
+}
+
+/// The triangles of a file, in its own unit, which is so many mm.
+fn triangles(path: &Spanned<String>, unit: f64, session: &mut Session<'_>) -> Checked<Mesh> {
+    let Some(read) = reader_of(&path.node) else {
+        let diagnostic = Diagnostic::new(
+            Code::BadMesh,
+            format!("`{}` is not a mesh in a form that the compiler reads", path.node),
+            path.span,
+            "not a file in STL, OBJ or PLY",
+        )
+        .note("the ending of the name says what a file holds: .stl, .obj, .ply")
+        .help("export the part as STL");
+        return Err(session.reports.push(diagnostic));
+    };
+    let resolved = join_path(session.sources.name(path.span.file), &path.node);
+    let bytes = match session.loader.load_data(&resolved, LARGEST_MESH_FILE) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            let diagnostic = not_loaded(&path.span, &resolved, Relative::ToItsFile, &error, session);
+            return Err(session.reports.push(diagnostic));
+        }
+    };
+    let ReadMesh { mesh, remarks } = match read(&bytes) {
+        Ok(found) => found,
+        Err(error) => return Err(broken(error, path, &resolved, bytes, session)),
+    };
+    session.sources.add(resolved, fingerprint::of_data(&bytes));
+    if let Some(diagnostic) = remarked(&remarks, path, unit) {
+        session.reports.push(diagnostic);
+    }
+    Ok(mesh)
+}
+
+/// Reports a place in a file of triangles that cannot be read: in its text if it is one, else by its byte.
+fn broken(
+    error: DataError,
+    path: &Spanned<String>,
+    resolved: &str,
+    bytes: Vec<u8>,
+    session: &mut Session<'_>,
+) -> Reported {
+    let headline = format!("`{}` has an error", path.node);
+    let is_small = bytes.len() as u64 <= LARGEST_FILE;
+    let text = is_small
+        .then_some(bytes)
+        .and_then(|bytes| String::from_utf8(bytes).ok());
+    let diagnostic = match text.filter(|text| !text.contains('\0')) {
+        Some(text) => {
+            let span = Span {
+                file: session.sources.add(resolved, text),
+                start: error.start,
+                end: error.end,
+            };
+            Diagnostic::new(Code::BadMesh, headline, span, error.message)
+                .and(path.span, "the file is named here")
+                .help("correct this place in the file, or export it again")
+        }
+        None => Diagnostic::new(Code::BadMesh, headline, path.span, error.message)
+            .note(format!(
+                "this is at byte {} of the file",
+                u64::from(error.start) + 1
+            ))
+            .help("export it again"),
+    };
+    session.reports.push(diagnostic)
+}
+
+/// What of a file of triangles is not taken as it stands.
+fn remarked(remarks: &Remarks, path: &Spanned<String>, unit: f64) -> Option<Diagnostic> {
+    let mut notes = Vec::new();
+    let bent = remarks.most_bent * unit;
+    if remarks.bent > 0 && bent > Part::TOLERANCE.to_mm() {
+        notes.push(format!(
+            "polygons that are not plane: {}, by up to {}; taken as triangles about one of their corners",
+            remarks.bent,
+            mm(bent)
+        ));
+    }
+    let skipped = remarks.passed_over.iter();
+    for (name, count) in skipped.filter(|(name, _)| !WITHOUT_A_SHAPE.contains(&name.as_str())) {
+        notes.push(format!("`{name}`: {}, skipped", number(*count as f64)));
+    }
+    if notes.is_empty() {
+        return None;
+    }
+    let diagnostic = Diagnostic::new(
+        Code::MeshPartlyRead,
+        format!("parts of `{}` were skipped or interpreted", path.node),
+        path.span,
+        "more is in it than triangles",
+    );
+    let diagnostic = notes.into_iter().fold(diagnostic, Diagnostic::note);
+    Some(diagnostic.help("export the part as triangles, for example as STL"))
+}
+
+/// The heights of a file on a grid, in its own unit.
+fn heights(path: &Spanned<String>, session: &mut Session<'_>) -> Checked<Mesh> {
+    let (resolved, bytes) = bytes_of(path, session)?;
+    let file = as_text(&resolved, bytes, path, session)?;
+    let text = session.sources.get(file).map_or("", |file| file.text.as_str());
+    import::heights(text.as_bytes()).map_err(|error| session.reports.push(bad_data(error, file, path)))
+}
