@@ -80,7 +80,10 @@ fn workpiece(subject: Subject<'_>) -> Vec<Row> {
     );
     vec![
         Row::written("stock", size, job.stock_span),
-        Row::written("profile", profile, job.profile_span),
+        match job.part.surface() {
+            None => Row::written("profile", profile, job.profile_span),
+            Some(_) => Row::written("surface, its shadow", profile, job.profile_span),
+        },
     ]
 }
 
