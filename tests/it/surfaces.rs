@@ -33,6 +33,26 @@ const VCUT: &str = "rough vcut {
 }
 ";
 
+const RECT: &str = "blade wheel = disc {
+  radius    = 25 mm
+  thickness = 1.5 mm
+  depth     = 12 mm
+  width     = 20 mm
+  spin      = 3000 rev/min
+  body (1.5 mm, 8 mm) (60 mm, 25 mm)
+}
+rough rect {
+  blade     = dagger
+  disc      = wheel
+  rake      = 60 deg
+  lead      = 3 deg
+  allowance = 2 mm
+  limits    { scallop <= 12 mm }
+  feed      { cut = 10 m/min, free = 6 m/min, travel = 18 m/min, reorient = 90 deg/s }
+  clearance = 20 mm
+}
+";
+
 /// A hill with a shoulder, in mm, at some x.
 fn hill(x: f64) -> f64 {
     20.0 + 14.0 * (x / 120.0 * std::f64::consts::PI).sin() + if x > 80.0 { (x - 80.0) * 0.1 } else { 0.0 }
@@ -129,6 +149,38 @@ fn what_changes_along_y_is_roughed_as_its_shadow() {
     assert_roughed_as_its_shadow(part, VCUT, &files);
     let loft = "surface { loft { at 0 mm { z(x) = 30 mm - x / 10 } at 80 mm { start (0 mm, 20 mm) arc to (120 mm, 20 mm) radius 200 mm } } }";
     assert_roughed_as_its_shadow(loft, VCUT, &Files::default());
+}
+
+/// Without a machine that changes blades, so down to the program that targets write.
+#[test]
+fn rectangular_roughing_takes_the_shadow_too() {
+    let program = |part: &str, files: Files| {
+        let (rest, _) = REST.split_once("machine").unwrap();
+        let files = files.with("job.vcut", format!("{rest}{part}\n{RECT}"));
+        let outcome = compile("job.vcut", &files);
+        assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
+        let shadow = outcome
+            .job
+            .as_ref()
+            .unwrap()
+            .part
+            .tessellated(Part::TOLERANCE)
+            .unwrap();
+        let points = shadow.points().iter();
+        let csv: String = points
+            .map(|point| format!("{:.17e},{:.17e}\n", point.x, point.z))
+            .collect();
+        let compiled = outcome.compiled.as_ref().unwrap();
+        (csv, format!("{:?}", compiled.program.verified().program().ops))
+    };
+    let files = Files::default().with("hill.stl", stl(|y| y / 16.0));
+    let (shadow, of_surface) = program("surface { mesh \"hill.stl\" { unit = mm } }", files.clone());
+    let (_, of_points) = program(
+        "profile { points \"shadow.csv\" }",
+        files.with("shadow.csv", shadow),
+    );
+    assert!(of_surface.len() > 1000);
+    assert_eq!(of_surface, of_points);
 }
 
 /// The hash in a program's head covers a binary mesh, too.

@@ -51,6 +51,36 @@ const ANGLES: [&str; 3] = ["deg", "rad", "rev"];
 const TIMES: [&str; 4] = ["h", "min", "ms", "s"];
 const SPEEDS: [&str; 6] = ["in/min", "in/s", "m/min", "m/s", "mm/min", "mm/s"];
 
+#[test]
+fn a_surface_is_known_at_every_place() {
+    let mut tried = Tried::start();
+    tried.offers("surface { | }", &["grid", "loft", "mesh", "z(x, y)"]);
+    tried.offers("surface { mesh | }", &["\"...\""]);
+    tried.offers("surface { mesh \"a.stl\" { | } }", &["unit", "place"]);
+    tried.offers(
+        "surface { mesh \"a.stl\" { unit = | } }",
+        &["cm", "ft", "in", "m", "mm"],
+    );
+    tried.offers("surface { grid \"a.csv\" { unit = | } }", &["in", "m", "mm"]);
+    tried.offers("surface { grid \"a.csv\" { place = | } }", &["frame"]);
+    tried.offers("surface { loft { | } }", &["at"]);
+    let pieces = tried.labels("profile { | }");
+    tried.offers(
+        "surface { loft { at 0 mm { | } } }",
+        &pieces.iter().map(String::as_str).collect::<Vec<_>>(),
+    );
+    tried.offers(
+        "surface { loft { at 0 mm { points \"a.csv\" { | } } } }",
+        &["scale", "unit", "x", "z"],
+    );
+    // A part has one description.
+    let items = tried.labels("surface { }\n|");
+    assert!(
+        !items.iter().any(|item| item == "profile" || item == "surface"),
+        "{items:?}"
+    );
+}
+
 /// A profile that is one file, written short.
 #[test]
 fn the_short_form_of_a_profile_is_known_at_every_place() {
