@@ -6,6 +6,8 @@
 //!   that are already there.
 //! * [`contour`] finds the same machined contour by polygon clipping.
 //! * [`strips`] cuts layers of slits and strips, by us and by polygon clipping.
+//! * [`processes`] writes jobs that are roughed by the faster of two processes, and by V cuts alone.
+//! * [`surface`] reads surfaces of many triangles, and asks for their shadow, sections and residual.
 //! * [`optimum`] asks for the parameters of least time, of us and of others.
 //! * [`kinematics`] solves the inverse kinematics of the same poses, by us and by others.
 //!
@@ -19,5 +21,7 @@ pub mod kinematics;
 pub mod optimum;
 #[path = "../../src/machine/tests/kinematics/peer.rs"]
 pub mod peer;
+pub mod processes;
 pub mod stages;
 pub mod strips;
+pub mod surface;

@@ -225,6 +225,7 @@ fn told(job: &CheckedJob, cutting: &Compiled, program: Finished) -> Compiled {
         checks: Checks::of_air_cut(carried, paced.basis, Bodies::of(job)),
         parameters: cutting.parameters.clone(),
         not_followed: None,
+        left_over: cutting.left_over,
         numbers: cutting.numbers.clone(),
         times: time_figures(&report, paced.basis),
         op_times: paced.times,

@@ -11,6 +11,7 @@ pub mod checks;
 mod emitting;
 pub mod hints;
 mod home;
+pub mod left_over;
 pub mod manifest;
 pub mod memory;
 mod mount;
@@ -33,6 +34,7 @@ pub use vcutc_job::sema::Typed;
 pub use vcutc_remedy::fallback::NotFollowed;
 
 use crate::checks::{Bodies, Carried, Checks};
+use crate::left_over::LeftOver;
 use crate::memory::Memory;
 use crate::numbers::Numbers;
 use crate::summary::chosen::{self, OperationFigures};
@@ -186,6 +188,8 @@ pub struct Compiled {
     pub figures: Option<ReachFigures>,
     /// Its figures.
     pub report: Report,
+    /// What is left over a part that changes along y; none over a profile, which the report measures.
+    pub left_over: Option<LeftOver>,
     /// How long each op takes.
     pub op_times: Vec<Duration>,
     /// Its figures for other programs.
@@ -439,16 +443,21 @@ fn compiled(
     }));
     let carried = job.machine.as_ref().zip(program.reached());
     let carried = carried.map(|(machine, reached)| Carried { machine, reached });
+    let left_over = LeftOver::of(&job.part, &report.contour);
     Compiled {
         checks: Checks::of(carried, paced.basis, Bodies::of(job)),
         parameters: chosen::figures(plan),
         numbers: Numbers::of(plan, &report),
-        summary: with_surface(summary(plan, &report, paced.basis, figures.as_ref()), &job.part),
+        summary: with_surface(
+            summary(plan, &report, paced.basis, figures.as_ref()),
+            left_over.as_ref(),
+        ),
         times: time_figures(&report, paced.basis),
         op_times: paced.times,
         program,
         figures,
         report,
+        left_over,
         not_followed: None,
     }
 }

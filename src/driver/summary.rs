@@ -6,16 +6,18 @@ pub mod processes;
 pub mod times;
 
 use crate::checks::Checks;
+use crate::left_over::LeftOver;
 use crate::ways::Comparison;
 use vcutc_backend_api::ir::Site;
 use vcutc_backend_api::script::duration_words;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::number::show;
-use vcutc_job::{BladeRef, Order, Part, PlannedJob};
+use vcutc_job::{BladeRef, Order, PlannedJob};
 use vcutc_motion::pace::Basis;
 use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 use vcutc_simulation::body::Passage;
 use vcutc_simulation::report::Report;
+use vcutc_surface::residual::{Over, Volume};
 
 /// Most layers whose cuts are listed one by one.
 const LISTED_LAYERS: usize = 24;
@@ -74,14 +76,42 @@ pub fn summary(
     lines
 }
 
-/// Adds, for a part that changes along y, what the figures are about.
-pub(crate) fn with_surface(mut lines: Vec<String>, part: &Part) -> Vec<String> {
-    if part.surface().is_some() {
-        let text =
-            "a surface; what stays is measured from its shadow along y, its greatest height over each x";
-        lines.push(row("part", text));
+/// Adds what is left over a part that changes along y. The lines before are about its shadow.
+pub(crate) fn with_surface(mut lines: Vec<String>, left_over: Option<&LeftOver>) -> Vec<String> {
+    let Some(LeftOver { residual, shaded }) = left_over else {
+        return lines;
+    };
+    let Over { height, place } = residual.highest;
+    let [x, y] = place.map(|length| format!("{:.1} mm", length.to_mm()));
+    lines.push(row(
+        "surface",
+        &format!(
+            "{} stay on the part, at most {:.2} mm above it at x {x}, y {y}",
+            litres(residual.volume),
+            height.to_mm()
+        ),
+    ));
+    // Of a part that is the same at every y nothing to speak of.
+    if shaded.to_mm3() < LEAST_SHADED {
+        return lines;
     }
+    lines.push(row(
+        "shadow",
+        &format!(
+            "{} of that lie below the part's shadow along y, where straight cuts do not get; area and scallop are measured from \
+             the shadow",
+            litres(*shaded)
+        ),
+    ));
     lines
+}
+
+/// Volumes below this, in mm3, show as 0.000 l.
+const LEAST_SHADED: f64 = 500.0;
+
+/// `0.213 l`.
+fn litres(volume: Volume) -> String {
+    format!("{:.3} l", volume.to_litres())
 }
 
 /// Adds what there is to say of other ways to do its operations, after what is said of these.

@@ -124,6 +124,14 @@ impl Profile {
         self.extreme(|candidate, best| candidate.z > best.z)
     }
 
+    /// The profile higher by a length of zero or more, but raised to no more than this height.
+    #[must_use]
+    pub fn raised(&self, by: Length, most: Length) -> Self {
+        let [by, most] = [by, most].map(Length::to_mm);
+        let higher = |point: &Point2| Point2::new(point.x, (point.z + by).min(most).max(point.z));
+        Self::from_ascending(self.points.iter().map(higher).collect())
+    }
+
     /// The part of the profile from one x to a greater one, with points at exactly these. Ends beyond the profile by
     /// no more than 1e-6 mm get the height of its end.
     ///

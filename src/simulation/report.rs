@@ -16,6 +16,8 @@ pub struct Report {
     pub layers: Vec<(OperationId, usize)>,
     /// Where the time goes.
     pub times: Times,
+    /// The machined contour's corners, from left to right; two at one x are a wall.
+    pub contour: Vec<Point2>,
     /// Area of the stock's cross-section that is cut away.
     pub removed: Area,
     /// Area that stays on the part.
@@ -78,6 +80,7 @@ pub fn report(replay: Replay, stock: Stock, part: &Profile, times: Times) -> Rep
         correlation: Sampled::of(&corners, part.points()).correlation(),
         deepest,
         body: None,
+        contour: corners,
     }
 }
 

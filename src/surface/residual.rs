@@ -88,21 +88,7 @@ impl Surface {
     /// # Errors
     /// If triangles lie over each other in such numbers that this takes too long.
     pub fn residual(&self, machined: &Machined) -> Result<Option<Residual>, Tangled> {
-        let mut sum = Sum::default();
-        let mut looks = 0;
-        let mut parts = Vec::new();
-        let weld = self.accuracy().weld.to_mm();
-        for cell in self.bins().all() {
-            self.visible(cell, &mut looks, &mut parts)?;
-            for part in &parts {
-                let is_crack = part.is_cut && width(&part.region) <= weld;
-                sum.add(
-                    part,
-                    machined,
-                    if is_crack { Counts::Volume } else { Counts::All },
-                );
-            }
-        }
+        let sum = self.sum_below(machined)?;
         let (Some(highest), Some(lowest)) = (sum.highest, sum.lowest) else {
             return Ok(None);
         };
@@ -123,6 +109,33 @@ impl Surface {
             },
             volume: Volume(sum.volume),
         }))
+    }
+
+    /// The volume of [`Surface::residual`] alone.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn volume_below(&self, machined: &Machined) -> Result<Volume, Tangled> {
+        self.sum_below(machined).map(|sum| Volume(sum.volume))
+    }
+
+    fn sum_below(&self, machined: &Machined) -> Result<Sum, Tangled> {
+        let mut sum = Sum::default();
+        let mut looks = 0;
+        let mut parts = Vec::new();
+        let weld = self.accuracy().weld.to_mm();
+        for cell in self.bins().all() {
+            self.visible(cell, &mut looks, &mut parts)?;
+            for part in &parts {
+                let is_crack = part.is_cut && width(&part.region) <= weld;
+                sum.add(
+                    part,
+                    machined,
+                    if is_crack { Counts::Volume } else { Counts::All },
+                );
+            }
+        }
+        Ok(sum)
     }
 }
 

@@ -29,7 +29,11 @@ struct Bench {
 
 impl Bench {
     fn new(machine: &str, target: &'static str) -> Self {
-        let outcome = compile_on(Some(machine), JOB, &files());
+        Self::of(&files(), machine, target)
+    }
+
+    fn of(files: &Files, machine: &str, target: &'static str) -> Self {
+        let outcome = compile_on(Some(machine), JOB, files);
         let backend = registry::backend(target).unwrap();
         let written = driver::write(&outcome, backend).unwrap().unwrap();
         Self {
@@ -118,6 +122,31 @@ fn changes_that_were_edited_are_found() {
                 "{target}: {from} -> {to}"
             );
         }
+    }
+}
+
+/// Each part of a program states the tool that is at hand when it begins.
+#[test]
+fn a_part_that_begins_with_another_tool_is_found() {
+    let cells = std::fs::read_to_string(root().join("tests/jobs/two_tools/cells.vcut")).unwrap();
+    let in_parts = cells.replacen("krl {", "krl {\n    lines_per_part = 60", 1);
+    assert_ne!(cells, in_parts);
+    let bench = Bench::of(&files().with("cells.vcut", in_parts), "bench", "krl");
+    assert!(bench.is_clear(&bench.written.files));
+    let tools = ["BAS (#TOOL,1 )", "BAS (#TOOL,2 )"];
+    let states = |file: &ProgramFile| tools.map(|tool| file.text.matches(tool).count());
+    let parts: Vec<usize> = (0..bench.written.files.len())
+        .filter(|&index| matches!(states(&bench.written.files[index]), [1, 0] | [0, 1]))
+        .collect();
+    assert!(parts.len() > 2, "{parts:?}");
+    for index in parts {
+        let mut files = bench.written.files.clone();
+        let [from, to] = match states(&files[index]) {
+            [1, _] => tools,
+            _ => [tools[1], tools[0]],
+        };
+        files[index].text = files[index].text.replace(from, to);
+        assert!(!bench.is_clear(&files), "{}", files[index].name);
     }
 }
 

@@ -267,3 +267,21 @@ fn the_exact_formulas_and_the_free_choice_of_the_lattice_are_faster() {
     assert!(orthogonal < paper, "{orthogonal} {paper}");
     assert!(best < orthogonal, "{best} {orthogonal}");
 }
+
+/// [Yu 5]: over a flat part a discarded layer leaves a saw-tooth and what is left of its own height: 16.70 mm.
+#[test]
+fn a_discarded_layer_leaves_what_the_paper_says() {
+    let text = "job \"block\"
+        stock { size = (60 mm, 1000 mm, 70 mm) }
+        profile { start (0 mm, 10 mm) line to (60 mm, 10 mm) }
+        blade dagger { cutting_length = 12.543 mm, half_apex = 7.13 deg, thickness = 0 mm, edges = double }
+        rough vcut {
+            blade = dagger, rake = 60 deg, swing = 30 deg, residual = discard, limits { scallop <= 20 mm }
+            feed { cut = 10 m/min, travel = 6000 m/min, reorient = 10000 deg/s }
+            clearance = 10 mm, run_out = 0 mm
+        }";
+    let outcome = compile("block.vcut", &Files::default().with("block.vcut", text.to_owned()));
+    assert_eq!(told(&outcome.diagnostics, &outcome), "");
+    let left = outcome.compiled.as_ref().unwrap().report.scallop.height.to_mm();
+    assert!((left - 16.70).abs() < 5e-3, "{left}");
+}

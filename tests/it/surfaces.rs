@@ -4,6 +4,8 @@ use crate::pipeline::{Files, compile, emit};
 use vcutc::diagnostics::has_errors;
 use vcutc::driver::Outcome;
 use vcutc::job::Part;
+use vcutc::surface::residual::Over;
+use vcutc_backend_api::units::Length;
 
 /// All but the part.
 const REST: &str = "job \"fairing\"
@@ -207,4 +209,90 @@ fn another_mesh_is_another_job() {
     other[84 + 48] = 1;
     assert_eq!(head(stl(|_| 0.0)), head(stl(|_| 0.0)));
     assert_ne!(head(stl(|_| 0.0)), head(other));
+}
+
+/// What is written as a surface but is the same at every y is roughed, byte for byte, as the profile.
+#[test]
+fn a_swept_surface_is_roughed_as_its_profile() {
+    let drawn = "start (0 mm, 20 mm) arc to (120 mm, 20 mm) radius 200 mm";
+    let formula = "20 mm + 14 mm * sin(x / 120 mm * 180 deg) + max(0 mm, x - 80 mm) * 0.1";
+    for (surface, profile) in [
+        (format!("z(x, y) = {formula}"), format!("z(x) = {formula}")),
+        (
+            format!("loft {{ at 0 mm {{ {drawn} }} at 80 mm {{ {drawn} }} }}"),
+            drawn.to_owned(),
+        ),
+    ] {
+        let (_, of_surface) = roughed(&format!("surface {{ {surface} }}"), VCUT, Files::default());
+        let (_, of_profile) = roughed(&format!("profile {{ {profile} }}"), VCUT, Files::default());
+        assert!(of_surface.lines().count() > 50);
+        assert_eq!(of_surface, of_profile, "{surface}");
+    }
+}
+
+/// Triangles of formulas and lofts lie within 10 micrometres of what they stand for, so the shadow lies at least as high as that.
+#[test]
+fn no_cut_enters_what_triangles_stand_for() {
+    let dome = |x: f64, y: f64| 50.0 - (x - 60.0).powi(2) / 300.0 - (y - 40.0).powi(2) / 500.0;
+    let part = "surface { z(x, y) = 50 mm - (x - 60 mm)^2 / 300 mm - (y - 40 mm)^2 / 500 mm }";
+    let outcome = compile("job.vcut", &Files::default().with("job.vcut", job(part, VCUT)));
+    let shadow = outcome
+        .job
+        .as_ref()
+        .unwrap()
+        .part
+        .tessellated(Part::TOLERANCE)
+        .unwrap();
+    for i in 0..=1200 {
+        let x = f64::from(i) / 10.0;
+        let above = shadow.height(x) - dome(x, 40.0);
+        assert!((0.0..=0.0201).contains(&above), "{above} at {x}");
+    }
+    // What is left, against columns of half a millimetre.
+    let compiled = outcome.compiled.as_ref().unwrap();
+    let left = compiled.left_over.unwrap();
+    let contour = &compiled.report.contour;
+    let machined = |x: f64| {
+        let after = contour.partition_point(|corner| corner.x < x);
+        let (a, b) = (contour[after - 1], contour[after]);
+        a.z + (x - a.x) / (b.x - a.x) * (b.z - a.z)
+    };
+    let (mut volume, mut highest) = (0.0, 0.0_f64);
+    for i in 0..240 {
+        let x = 0.25 + 0.5 * f64::from(i);
+        for j in 0..160 {
+            let height = machined(x) - dome(x, 0.25 + 0.5 * f64::from(j));
+            volume += 0.25 * height;
+            highest = highest.max(height);
+        }
+    }
+    let Over { height, place } = left.residual.highest;
+    let found = left.residual.volume.to_mm3();
+    assert!((found / volume - 1.0).abs() < 2e-3, "{found} {volume}");
+    assert!(
+        (highest..highest + 0.5).contains(&height.to_mm()),
+        "{height:?} {highest}"
+    );
+    let [x, y] = place.map(Length::to_mm);
+    assert!((machined(x.clamp(1e-6, 120.0 - 1e-6)) - dome(x, y) - height.to_mm()).abs() < 0.02);
+    let told = |words: &str| compiled.summary.iter().any(|line| line.contains(words));
+    assert!(
+        told(" l stay on the part, at most ") && told("below the part's shadow"),
+        "{:?}",
+        compiled.summary
+    );
+}
+
+/// The heights of an example are those of a hyperbolic paraboloid, at every 30 mm.
+#[test]
+fn the_saddle_is_its_formula() {
+    let text = std::fs::read_to_string(crate::repository::root().join("examples/points/saddle.csv")).unwrap();
+    let mut written = "x,y,z\n".to_owned();
+    for y in (0..=300).step_by(30) {
+        for x in (0..=300).step_by(30) {
+            let z = 35.0 + f64::from(x - 150) * f64::from(y - 150) / 1500.0;
+            written += &format!("{x},{y},{z}\n");
+        }
+    }
+    assert_eq!(text, written);
 }

@@ -23,6 +23,7 @@ use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_geometry::profile::Profile;
 use vcutc_surface::mesh::Mesh;
 use vcutc_surface::surface::{Accuracy, Placement, Plan, Surface, SurfaceError};
 use vcutc_syntax::ast::{Block, Entry, Expr, HeadPart};
@@ -59,22 +60,23 @@ pub(crate) fn check(
     let source = sort(block, place, session)?;
     let stock = stock?;
     let span = source.span();
-    let surface = match source {
+    let drawn = match source {
         Source::File(named) => return file::part(&named, stock, scope, session),
-        Source::Loft(block) => loft::surface(block, stock, scope, session)?,
-        Source::Formula(written) => formula::surface(&written, stock, scope, &mut session.reports)?,
+        Source::Loft(block) => loft::drawn(block, stock, scope, session)?,
+        Source::Formula(written) => formula::drawn(&written, stock, scope, &mut session.reports)?,
     };
     // What could not be read may belong to the surface.
     match session.damage_at(place.whole) {
         Some(reported) => Err(reported),
-        None => judge::part(
-            surface,
-            span,
-            stock,
-            &|diagnostic| diagnostic,
-            &mut session.reports,
-        ),
+        None => judge::part(drawn, span, stock, &|diagnostic| diagnostic, &mut session.reports),
     }
+}
+
+/// A surface with what its triangles do not tell.
+struct Drawn {
+    surface: Surface,
+    /// The profile that it is at every y, if it is one: finer than the triangles.
+    profile: Option<Profile>,
 }
 
 /// The plan of a stock.

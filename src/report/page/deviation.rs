@@ -4,7 +4,9 @@ use super::figure::{Ids, Zoom, figure};
 use super::{Section, Subject};
 use crate::html::{Column, Html, table};
 use crate::pictures;
+use vcutc_driver::left_over::LeftOver;
 use vcutc_simulation::report::Report;
+use vcutc_surface::residual::{Over, Volume};
 
 pub(super) fn section(subject: Subject<'_>) -> Section {
     let material = &subject.material;
@@ -72,8 +74,37 @@ fn figures(subject: Subject<'_>) -> Html {
             "the largest normalised one over all shifts, of both contours at 1000 points [Cui 15]".to_owned(),
         ),
     ];
-    let rows = rows.map(|(name, value, meaning)| vec![name.to_owned(), value, meaning]);
+    let left_over = subject.material.compiled.left_over.as_ref();
+    let over_surface = left_over.into_iter().flat_map(over_surface);
+    let rows = rows
+        .into_iter()
+        .chain(over_surface)
+        .map(|(name, value, meaning)| vec![name.to_owned(), value, meaning]);
     table("Machined and theoretical contour", &columns, rows)
+}
+
+/// What is left over a part that changes along y, of which the figures above measure the shadow.
+fn over_surface(left: &LeftOver) -> [(&'static str, String, String); 3] {
+    let litres = |volume: Volume| format!("{:.3} l", volume.to_litres());
+    let Over { height, place } = left.residual.highest;
+    let [x, y] = place.map(|length| format!("{:.1} mm", length.to_mm()));
+    [
+        (
+            "left over the surface",
+            litres(left.residual.volume),
+            "all that stands above the part; the figures above measure its shadow along y".to_owned(),
+        ),
+        (
+            "below the shadow",
+            litres(left.shaded),
+            "what of that straight cuts along y do not reach".to_owned(),
+        ),
+        (
+            "highest above the surface",
+            format!("{:.2} mm", height.to_mm()),
+            format!("straight above the part, at x {x}, y {y}"),
+        ),
+    ]
 }
 
 /// Where the largest deviation is, and of which contour from which.

@@ -123,10 +123,16 @@ fn rows(subject: Subject<'_>) -> Vec<Key> {
         Key {
             name: "Largest scallop",
             value: format!("{:.2} mm", scallop.to_mm()),
-            remark: limit.map_or_else(
-                || "no limit".to_owned(),
-                |limit| format!("limit {:.2} mm", limit.to_mm()),
-            ),
+            remark: {
+                let limit = limit.map_or_else(
+                    || "no limit".to_owned(),
+                    |limit| format!("limit {:.2} mm", limit.to_mm()),
+                );
+                match compiled.left_over {
+                    Some(_) => format!("from the shadow, {limit}"),
+                    None => limit,
+                }
+            },
             room: limit.map_or(Room::Enough, |limit| Room::of(scallop.to_mm() / limit.to_mm())),
         },
         Key {
@@ -140,12 +146,22 @@ fn rows(subject: Subject<'_>) -> Vec<Key> {
             format!("{removed:.2} mm²"),
             "of the cross-section".to_owned(),
         ),
-        free(
+    ];
+    rows.push(match &compiled.left_over {
+        Some(over) => free(
+            "Material left",
+            format!("{:.3} l", over.residual.volume.to_litres()),
+            format!(
+                "at most {:.2} mm above the surface",
+                over.residual.highest.height.to_mm()
+            ),
+        ),
+        None => free(
             "Material left",
             format!("{:.2} %", share(left, left + removed) * 100.0),
             format!("{left:.2} mm² stay on the part"),
         ),
-    ];
+    });
     if let Some(figures) = &compiled.figures {
         rows.push(Key {
             name: "Least margin",

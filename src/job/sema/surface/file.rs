@@ -4,7 +4,7 @@
 //! its text does where it is text and a place in it has to be shown.
 
 use super::seat::Seat;
-use super::{judge, placed};
+use super::{Drawn, judge, placed};
 use crate::sema::eval::Scope;
 use crate::sema::fields::{BlockSpec, Fields, Inner, Takes, value};
 use crate::sema::files::{Relative, not_loaded};
@@ -119,7 +119,13 @@ pub(super) fn part(
         return Err(reported);
     }
     match placed(&mesh, &placement, stock.node) {
-        Ok(surface) => judge::part(surface, named.head(), stock, &offer, &mut session.reports),
+        Ok(surface) => {
+            let drawn = Drawn {
+                surface,
+                profile: None,
+            };
+            judge::part(drawn, named.head(), stock, &offer, &mut session.reports)
+        }
         Err(error) => Err(session.reports.push(match error {
             SurfaceError::Elsewhere { .. } => offer(judge::elsewhere(error, named.head(), stock)),
             SurfaceError::BadPlan | SurfaceError::OutOfRange => super::not_made(error, named.head()),

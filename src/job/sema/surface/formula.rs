@@ -1,14 +1,17 @@
 //! `z(x, y) = ...`: a surface by formula.
 
+use super::Drawn;
 use super::enclosure::Compiled;
 use crate::sema::dimension::Dimension;
-use crate::sema::eval::Scope;
-use crate::sema::part::Part;
+use crate::sema::eval::{Scope, walk};
+use crate::sema::part::{Part, Sampling, Strip};
 use crate::sema::quantity::{Quantity, mm};
 use crate::sema::report::{Checked, Reported, Reports};
 use vcutc_backend_api::ir::Stock;
+use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_geometry::profile::Profile;
 use vcutc_surface::formula::{FormulaError, formula};
 use vcutc_surface::surface::Surface;
 use vcutc_syntax::ast::Expr;
@@ -56,7 +59,36 @@ impl Written<'_> {
     }
 }
 
-pub(super) fn surface(
+pub(super) fn drawn(
+    written: &Written<'_>,
+    stock: Spanned<Stock>,
+    scope: Scope<'_>,
+    reports: &mut Reports,
+) -> Checked<Drawn> {
+    Ok(Drawn {
+        surface: surface(written, stock, scope, reports)?,
+        profile: profile(written, stock.node.width, scope),
+    })
+}
+
+/// The profile of a formula without its second variable, as `profile { z(x) = ... }` has it.
+fn profile(written: &Written<'_>, width: Length, scope: Scope<'_>) -> Option<Profile> {
+    let [across, along] = written.variables;
+    let changes =
+        walk(written.value).any(|part| matches!(&part.node, Expr::Name(name) if *name == along.node));
+    if changes {
+        return None;
+    }
+    let sampling = Sampling {
+        variable: &across.node,
+        value: written.value,
+        scope,
+    };
+    let points = sampling.points(width.to_mm(), Part::TOLERANCE).ok()?;
+    Strip::cut(&points, width.to_mm()).profile(width.to_mm()).ok()
+}
+
+fn surface(
     written: &Written<'_>,
     stock: Spanned<Stock>,
     scope: Scope<'_>,

@@ -1,5 +1,6 @@
 //! A surface held against the stock: it has a height everywhere and lies within.
 
+use super::Drawn;
 use crate::sema::part::{Part, SAME};
 use crate::sema::profile::shape::up;
 use crate::sema::quantity::{mm, number};
@@ -17,7 +18,7 @@ pub(super) type Offer<'a> = dyn Fn(Diagnostic) -> Diagnostic + 'a;
 
 /// The part of a surface that covers the stock and lies within it.
 pub(super) fn part(
-    surface: Surface,
+    Drawn { surface, profile }: Drawn,
     span: Span,
     stock: Spanned<Stock>,
     offer: &Offer<'_>,
@@ -33,7 +34,17 @@ pub(super) fn part(
         reports.push(warning);
     }
     within(&surface, span, stock, offer, reports)?;
-    match surface.shadow() {
+    let shadow = match profile {
+        Some(profile) => Ok(profile),
+        // What the triangles stand for may lie higher by their tolerance, but not above the stock.
+        None => {
+            let tolerance = surface.accuracy().tolerance;
+            surface
+                .shadow()
+                .map(|shadow| shadow.raised(tolerance, stock.node.height))
+        }
+    };
+    match shadow {
         Ok(shadow) => Ok(Part::of_surface(surface, shadow)),
         // Not of a surface that covers the stock.
         Err(error) => Err(reports.push(Diagnostic::new(

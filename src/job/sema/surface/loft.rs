@@ -1,5 +1,6 @@
 //! `loft { at 0 mm { ... } at 1000 mm { ... } }`: ruled straight between profiles.
 
+use super::Drawn;
 use crate::sema::eval::Scope;
 use crate::sema::field_ranges::COORDINATE;
 use crate::sema::fields::{Place, head_span};
@@ -15,7 +16,6 @@ use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::profile::Profile;
 use vcutc_surface::loft::{LoftError, loft};
-use vcutc_surface::surface::Surface;
 use vcutc_syntax::ast::{Block, Entry, Expr};
 
 /// A profile of a loft as it is written.
@@ -27,12 +27,12 @@ struct Station<'a> {
     whole: Span,
 }
 
-pub(super) fn surface(
+pub(super) fn drawn(
     block: &Block,
     stock: Spanned<Stock>,
     scope: Scope<'_>,
     session: &mut Session<'_>,
-) -> Checked<Surface> {
+) -> Checked<Drawn> {
     let head = head_span(block);
     let stations = sort(block, session)?;
     let read: Vec<Checked<(Length, Profile)>> = stations
@@ -52,7 +52,10 @@ pub(super) fn surface(
     let profiles: Vec<(Length, &Profile)> = read.iter().map(|(at, profile)| (*at, profile)).collect();
     let fault = match loft(&profiles, Part::SURFACE_TOLERANCE) {
         Ok(mesh) => match super::made(&mesh, stock.node) {
-            Ok(surface) => return Ok(surface),
+            Ok(surface) => {
+                let profile = same(&profiles).cloned();
+                return Ok(Drawn { surface, profile });
+            }
             Err(error) => super::not_made(error, head),
         },
         Err(LoftError::NotAscending { index }) => {
@@ -81,6 +84,15 @@ pub(super) fn surface(
         }
     };
     Err(session.reports.push(fault))
+}
+
+/// The profile at every y, if all are one.
+fn same<'p>(profiles: &[(Length, &'p Profile)]) -> Option<&'p Profile> {
+    let (_, first) = profiles.first()?;
+    profiles
+        .iter()
+        .all(|(_, profile)| profile == first)
+        .then_some(*first)
 }
 
 fn sort<'a>(block: &'a Block, session: &mut Session<'_>) -> Checked<Vec<Station<'a>>> {

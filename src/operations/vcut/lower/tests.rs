@@ -1,7 +1,7 @@
 //! Programs of all orders, directions and edges: what every one of them must do, read from its ops.
 
 use crate::plan::{PlannedVcut, Way};
-use crate::samples::{operation, paper_job, planned};
+use crate::samples::{given, operation, paper_job, planned};
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{Action, Edges, Flank, Op, Program, Site};

@@ -341,6 +341,16 @@ proptest! {
         }
         let differs = arrangement.differs(&mut section, 2e-3);
         prop_assert!(differs.is_none(), "{differs:?}");
+        for cuts in [slits_first(&strips, |slit| slit.0.to_bits()), slits_last(&strips)] {
+            let (mut other, _) = cut(&job, &cuts);
+            for strip in &strips {
+                for share in [0.01, 0.3, 0.5, 0.9] {
+                    let x = strip.span[0] + (strip.span[1] - strip.span[0]) * share;
+                    let heights = [&mut section, &mut other].map(|section| section.surface().height(x));
+                    prop_assert!((heights[0] - heights[1]).abs() < 2e-3, "{x} {heights:?}");
+                }
+            }
+        }
     }
 }
 
