@@ -7,6 +7,7 @@
 //! 3. [`coverage`] says whether each place of the plan lies under a triangle, and what is odd about them.
 //! 4. A surface has a shadow along y, sections, a height at each place ([`shadow`]), a highest and a lowest place.
 //! 5. [`residual`] says what straight cuts leave over it.
+//! 6. A [`map`] has the highest place of each of its cells, of the surface or of what is left over it.
 
 pub mod coverage;
 mod envelope;
@@ -15,6 +16,7 @@ pub mod formula;
 pub mod grid;
 pub mod import;
 pub mod loft;
+pub mod map;
 pub mod mesh;
 mod nearest;
 pub mod patch;

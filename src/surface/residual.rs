@@ -18,7 +18,7 @@ pub use machined::{Machined, MachinedError};
 use crate::coverage::Tangled;
 use crate::region::{Half, twice_area, width, within};
 use crate::surface::Surface;
-use crate::visible::Part;
+use crate::visible::{Part, Plane};
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::height_between;
@@ -158,14 +158,11 @@ impl Sum {
         let xs = || part.region.iter().map(|place| place[0]);
         let from = xs().fold(f64::INFINITY, f64::min);
         let to = xs().fold(f64::NEG_INFINITY, f64::max);
-        for [a, b] in machined.between(from, to) {
-            let left = within(&part.region, Half::new([-1.0, 0.0], -a.x));
-            let strip = within(&left, Half::new([1.0, 0.0], b.x));
-            if strip.len() < 3 {
+        for segment in machined.between(from, to) {
+            let corners = under(segment, &part.region, part.plane);
+            if corners.len() < 3 {
                 continue;
             }
-            let height = |place: [f64; 2]| height_between(a, b, place[0]) - part.plane.at(place);
-            let corners: Vec<([f64; 2], f64)> = strip.iter().map(|&place| (place, height(place))).collect();
             if counts == Counts::All {
                 for &(place, height) in &corners {
                     if self.highest.is_none_or(|(most, _)| height > most) {
@@ -179,6 +176,14 @@ impl Sum {
             self.volume += volume(&above(&corners));
         }
     }
+}
+
+/// The corners of what of a region lies under a segment of a machined profile, each with the height of the segment above a plane.
+pub(crate) fn under([a, b]: [Point2; 2], region: &[[f64; 2]], plane: Plane) -> Vec<([f64; 2], f64)> {
+    let left = within(region, Half::new([-1.0, 0.0], -a.x));
+    let strip = within(&left, Half::new([1.0, 0.0], b.x));
+    let height = |place: [f64; 2]| height_between(a, b, place[0]) - plane.at(place);
+    strip.into_iter().map(|place| (place, height(place))).collect()
 }
 
 /// The part of a polygon where a linear height over it is not below 0, with the heights.
@@ -205,7 +210,7 @@ fn above(corners: &[([f64; 2], f64)]) -> Vec<([f64; 2], f64)> {
 }
 
 /// The volume of a prism with a linear height over a convex polygon.
-fn volume(corners: &[([f64; 2], f64)]) -> f64 {
+pub(crate) fn volume(corners: &[([f64; 2], f64)]) -> f64 {
     let Some(&(first, low)) = corners.first() else {
         return 0.0;
     };

@@ -64,7 +64,7 @@ impl Machined {
     }
 
     /// Its segments that reach over places from one x to another, without upright ones, and level ones beyond its ends.
-    pub(super) fn between(&self, from: f64, to: f64) -> impl Iterator<Item = [Point2; 2]> + '_ {
+    pub(crate) fn between(&self, from: f64, to: f64) -> impl Iterator<Item = [Point2; 2]> + '_ {
         let level = |x: f64, z: f64, other: f64| [Point2::new(x.min(other), z), Point2::new(x.max(other), z)];
         let first = self.points.first().filter(|first| from < first.x);
         let last = self.points.last().filter(|last| to > last.x);
