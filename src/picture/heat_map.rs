@@ -1,15 +1,13 @@
 //! A heat map of places for the base: the plane of x and y from above, each cell in the colour of its margin.
 //!
-//! Colours are of the scale viridis, which grows in lightness all along: the order can be read without seeing colours. Cells
-//! out of reach are hatched, not coloured.
+//! Cells out of reach are hatched, not coloured.
 
 use super::Point;
 use super::chart::{Chart, Plot, Series, Shape};
-use super::scale::Scale;
 use super::sheet::{Heading, Room};
 use super::svg::Mark;
+use super::tiles::{self, MOST_CLASSES, Tiles};
 use super::trace::number;
-use std::collections::BTreeMap;
 
 /// What a heat map shows.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,16 +28,9 @@ pub struct HeatMap<'a> {
     pub best: Option<[f64; 2]>,
 }
 
-/// Viridis [Smith, van der Walt 2015], nine colours of it.
-const COLOURS: [&str; 9] = [
-    "#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c", "#28ae80", "#5ec962", "#addc30", "#fde725",
-];
 const HATCHED: &str = "fill=\"url(#hatch)\" shape-rendering=\"crispEdges\"";
 /// Widths of a class of margins, in percent.
 const CLASSES: [u32; 5] = [1, 2, 5, 10, 20];
-/// The highest plot, and the shortest side: a long and narrow map is not drawn to scale.
-const HIGHEST: f64 = 520.0;
-const SHORTEST: f64 = 160.0;
 
 /// Writes the map as SVG.
 #[must_use]
@@ -47,8 +38,12 @@ pub fn draw(map: &HeatMap<'_>) -> String {
     let heading = Heading::alone(map.title, map.subtitle);
     let classes = Classes::of(map.margins);
     let (columns, rows) = (edges(map.xs), edges(map.ys));
-    let plot = plot(&columns, &rows, Room::of(heading.ids));
-    let mut series = cells(map, &columns, &rows, classes);
+    let tiles = Tiles {
+        columns: &columns,
+        rows: &rows,
+    };
+    let plot = tiles.plot(Room::of(heading.ids));
+    let mut series = cells(map, tiles, classes);
     series.extend(marks(map, &plot));
     Chart {
         heading,
@@ -88,21 +83,6 @@ fn edges(middles: &[i32]) -> Vec<f64> {
     edges
 }
 
-/// x to the right and y upwards, in mm of the root.
-fn plot(columns: &[f64], rows: &[f64], room: Room) -> Plot {
-    let [xs, ys] = [columns, rows].map(|edges| {
-        let [start, end] = [edges.first(), edges.last()].map(|end| end.copied().unwrap_or_default());
-        [start, end.max(start + 1.0)]
-    });
-    let [width, height] = [xs, ys].map(|[start, end]| end - start);
-    let scale = (room.across() / width).min(HIGHEST / height);
-    let [width, height] = [width, height].map(|length| (length * scale).max(SHORTEST));
-    Plot {
-        x: Scale::new(xs, [room.left, room.left + width]),
-        y: Scale::new(ys, [room.top + height, room.top]),
-    }
-}
-
 /// Margins in classes of so many percent.
 #[derive(Clone, Copy)]
 struct Classes {
@@ -114,7 +94,7 @@ impl Classes {
     fn of(margins: &[Option<f64>]) -> Self {
         let largest = margins.iter().flatten().copied().fold(0.0, f64::max).min(1.0);
         let percent = ((largest * 100.0).ceil() as u32).max(1);
-        let fits = |width: &u32| percent.div_ceil(*width) <= COLOURS.len() as u32;
+        let fits = |width: &u32| percent.div_ceil(*width) <= MOST_CLASSES;
         let width = CLASSES.into_iter().find(fits).unwrap_or(20);
         Self {
             width,
@@ -126,46 +106,24 @@ impl Classes {
         ((margin * 100.0 / f64::from(self.width)) as u32).min(self.count - 1)
     }
 
-    /// Spread over the whole scale of colours, so that few classes differ well; without smoothing, so that no seams show between
-    /// cells.
-    fn paint(self, class: u32) -> String {
-        let last = COLOURS.len() as u32 - 1;
-        let index = (class * last).checked_div(self.count - 1).unwrap_or(last);
-        let colour = COLOURS.get(index as usize).copied().unwrap_or("#fde725");
-        format!("fill=\"{colour}\" shape-rendering=\"crispEdges\"")
-    }
-
     fn words(self, class: u32) -> String {
         format!("{} to {} %", class * self.width, (class + 1) * self.width)
     }
 }
 
-/// Cells of one class are one series; runs of them in a row are one rectangle.
-fn cells(map: &HeatMap<'_>, columns: &[f64], rows: &[f64], classes: Classes) -> Vec<Series> {
-    let mut boxes: BTreeMap<Option<u32>, Vec<[f64; 4]>> = (0..classes.count)
-        .map(|class| (Some(class), Vec::new()))
-        .collect();
+/// Cells of one class are one series.
+fn cells(map: &HeatMap<'_>, tiles: Tiles<'_>, classes: Classes) -> Vec<Series> {
     let class = |margin: &Option<f64>| margin.map(|margin| classes.class(margin));
-    for (margins, row) in map.margins.chunks(map.xs.len().max(1)).zip(rows.windows(2)) {
-        let mut column = 0;
-        for run in margins.chunk_by(|a, b| class(a) == class(b)) {
-            let from = column;
-            column += run.len();
-            if let (Some(&left), Some(&right), &[bottom, top]) = (columns.get(from), columns.get(column), row)
-            {
-                let class = run.first().and_then(class);
-                boxes.entry(class).or_default().push([left, right, bottom, top]);
-            }
-        }
-    }
+    let mut boxes = tiles.by_class(&map.margins.iter().map(class).collect::<Vec<_>>());
     let out_of_reach = boxes.remove(&None).unwrap_or_default();
-    let coloured = boxes.into_iter().rev().map(|(class, boxes)| {
-        let class = class.unwrap_or_default();
-        Series::new(Shape::Boxes(boxes), classes.paint(class))
+    let coloured = (0..classes.count).rev().map(|class| {
+        let boxes = boxes.remove(&Some(class)).unwrap_or_default();
+        Series::new(Shape::Boxes(boxes), tiles::paint(class, classes.count))
             .named(format!("margin {}", classes.words(class)))
     });
+    let coloured: Vec<Series> = coloured.collect();
     let hatched = Series::new(Shape::Boxes(out_of_reach), HATCHED).named("out of reach");
-    coloured.chain([hatched]).collect()
+    coloured.into_iter().chain([hatched]).collect()
 }
 
 /// A ring for now and a cross for the best place.

@@ -1,0 +1,76 @@
+//! Maps of tiles: a plane seen from above in rectangles, each in the colour of its class.
+//!
+//! Colours are of the scale viridis, which grows in lightness all along: the order can be read without seeing colours.
+
+use super::chart::Plot;
+use super::scale::Scale;
+use super::sheet::Room;
+use std::collections::BTreeMap;
+
+/// Viridis [Smith, van der Walt 2015], nine colours of it.
+const COLOURS: [&str; MOST_CLASSES as usize] = [
+    "#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c", "#28ae80", "#5ec962", "#addc30", "#fde725",
+];
+/// Classes that have colours of their own.
+pub(super) const MOST_CLASSES: u32 = 9;
+/// The highest plot, and the shortest side: a long and narrow map is not drawn to scale.
+const HIGHEST: f64 = 520.0;
+const SHORTEST: f64 = 160.0;
+
+/// Rectangles from and to along the lower axis, from and to along the left one.
+pub(super) type Boxes = Vec<[f64; 4]>;
+
+/// Tiles by their edges along both axes, in growing order.
+#[derive(Clone, Copy)]
+pub(super) struct Tiles<'a> {
+    pub(super) columns: &'a [f64],
+    pub(super) rows: &'a [f64],
+}
+
+impl Tiles<'_> {
+    /// x to the right and y upwards, as large as a room allows.
+    pub(super) fn plot(self, room: Room) -> Plot {
+        let [xs, ys] = [self.columns, self.rows].map(|edges| {
+            let [start, end] = [edges.first(), edges.last()].map(|end| end.copied().unwrap_or_default());
+            [start, end.max(start + 1.0)]
+        });
+        let [width, height] = [xs, ys].map(|[start, end]| end - start);
+        let scale = (room.across() / width).min(HIGHEST / height);
+        let [width, height] = [width, height].map(|length| (length * scale).max(SHORTEST));
+        Plot {
+            x: Scale::new(xs, [room.left, room.left + width]),
+            y: Scale::new(ys, [room.top + height, room.top]),
+        }
+    }
+
+    /// The tiles of each class, of which there is one to a tile, row by row from the first, each from the first column. Runs of one class
+    /// in a row are one rectangle.
+    pub(super) fn by_class(self, classes: &[Option<u32>]) -> BTreeMap<Option<u32>, Boxes> {
+        let mut boxes: BTreeMap<Option<u32>, Boxes> = BTreeMap::new();
+        let count = self.columns.len().saturating_sub(1).max(1);
+        for (classes, row) in classes.chunks(count).zip(self.rows.windows(2)) {
+            let mut column = 0;
+            for run in classes.chunk_by(|a, b| a == b) {
+                let from = column;
+                column += run.len();
+                if let (Some(&class), Some(&left), Some(&right), &[bottom, top]) =
+                    (run.first(), self.columns.get(from), self.columns.get(column), row)
+                {
+                    boxes.entry(class).or_default().push([left, right, bottom, top]);
+                }
+            }
+        }
+        boxes
+    }
+}
+
+/// The paint of a class out of so many: spread over the whole scale of colours, so that few classes differ well; without smoothing, so
+/// that no seams show between tiles.
+pub(super) fn paint(class: u32, count: u32) -> String {
+    let last = MOST_CLASSES - 1;
+    let index = (class * last)
+        .checked_div(count.saturating_sub(1))
+        .unwrap_or(last);
+    let colour = COLOURS.get(index as usize).copied().unwrap_or("#fde725");
+    format!("fill=\"{colour}\" shape-rendering=\"crispEdges\"")
+}
