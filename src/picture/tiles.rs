@@ -43,22 +43,34 @@ impl Tiles<'_> {
         }
     }
 
-    /// The tiles of each class, of which there is one to a tile, row by row from the first, each from the first column. Runs of one class
-    /// in a row are one rectangle.
+    /// The tiles of each class, of which there is one to a tile, row by row from the first, each from the first column. Runs of one
+    /// class in a row are one rectangle, and so are equal runs of rows one above the other.
     pub(super) fn by_class(self, classes: &[Option<u32>]) -> BTreeMap<Option<u32>, Boxes> {
         let mut boxes: BTreeMap<Option<u32>, Boxes> = BTreeMap::new();
         let count = self.columns.len().saturating_sub(1).max(1);
+        // The runs of the row below by their columns: class, and number among the rectangles of it.
+        let mut below: BTreeMap<[usize; 2], (Option<u32>, usize)> = BTreeMap::new();
         for (classes, row) in classes.chunks(count).zip(self.rows.windows(2)) {
             let mut column = 0;
+            let mut here = BTreeMap::new();
             for run in classes.chunk_by(|a, b| a == b) {
-                let from = column;
+                let ends = [column, column + run.len()];
                 column += run.len();
-                if let (Some(&class), Some(&left), Some(&right), &[bottom, top]) =
-                    (run.first(), self.columns.get(from), self.columns.get(column), row)
-                {
-                    boxes.entry(class).or_default().push([left, right, bottom, top]);
+                let [left, right] = ends.map(|end| self.columns.get(end).copied());
+                let (Some(&class), Some(left), Some(right), &[bottom, top]) = (run.first(), left, right, row)
+                else {
+                    continue;
+                };
+                let known = boxes.entry(class).or_default();
+                let number = below.get(&ends).filter(|(other, _)| *other == class);
+                let number = number.map_or(known.len(), |(_, number)| *number);
+                match known.get_mut(number) {
+                    Some(run_below) => run_below[3] = top,
+                    None => known.push([left, right, bottom, top]),
                 }
+                here.insert(ends, (class, number));
             }
+            below = here;
         }
         boxes
     }
@@ -73,4 +85,46 @@ pub(super) fn paint(class: u32, count: u32) -> String {
         .unwrap_or(last);
     let colour = COLOURS.get(index as usize).copied().unwrap_or("#fde725");
     format!("fill=\"{colour}\" shape-rendering=\"crispEdges\"")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn every_tile_is_in_one_rectangle_of_its_class(
+            columns in 1..9_usize, classes in prop::collection::vec(prop::option::weighted(0.8, 0..2_u32), 1..60),
+        ) {
+            let edges = |count: usize| (0..=count).map(|edge| edge as f64).collect::<Vec<_>>();
+            let rows = classes.len() / columns;
+            let classes = &classes[..rows * columns];
+            let (xs, ys) = (edges(columns), edges(rows));
+            let tiles = Tiles { columns: &xs, rows: &ys };
+            let boxes = tiles.by_class(classes);
+            for (tile, class) in classes.iter().enumerate() {
+                let [x, y] = [tile % columns, tile / columns].map(|edge| edge as f64 + 0.5);
+                let holds = |[left, right, bottom, top]: &[f64; 4]| *left < x && x < *right && *bottom < y && y < *top;
+                let holding = |boxes: &Boxes| boxes.iter().filter(|one| holds(one)).count();
+                prop_assert_eq!(boxes.get(class).map(holding), Some(1));
+                prop_assert_eq!(boxes.values().map(holding).sum::<usize>(), 1);
+            }
+            let area: f64 = boxes.values().flatten().map(|[left, right, bottom, top]| (right - left) * (top - bottom)).sum();
+            prop_assert_eq!(area, (rows * columns) as f64);
+        }
+    }
+
+    #[test]
+    fn equal_rows_are_as_small_as_one() {
+        let (columns, rows) = ([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 2.0]);
+        let tiles = Tiles {
+            columns: &columns,
+            rows: &rows,
+        };
+        let row = [Some(1), Some(1), None];
+        let boxes = tiles.by_class(&[row, row].concat());
+        assert_eq!(boxes[&Some(1)], [[0.0, 2.0, 0.0, 2.0]]);
+        assert_eq!(boxes[&None], [[2.0, 3.0, 0.0, 2.0]]);
+    }
 }
