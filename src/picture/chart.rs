@@ -48,6 +48,8 @@ pub(super) enum Shape {
     Polygon(Vec<Point>),
     /// Discs as wide as the stroke, where lines have round ends.
     Dots(Vec<Point>),
+    /// Lines, each from a point to another one.
+    Lines(Vec<[Point; 2]>),
     /// A line at a height.
     Level(f64),
     /// A line at a value of the lower axis.
@@ -84,7 +86,7 @@ impl Series {
     fn entry(&self) -> Option<Entry> {
         let words = self.words.clone()?;
         Some(match self.shape {
-            Shape::Curve(_) | Shape::Dots(_) | Shape::Level(_) | Shape::Upright(_) => {
+            Shape::Curve(_) | Shape::Lines(_) | Shape::Dots(_) | Shape::Level(_) | Shape::Upright(_) => {
                 Entry::line(self.paint.as_str(), words)
             }
             Shape::Area(_) | Shape::Polygon(_) | Shape::Boxes(_) => Entry::area(self.paint.as_str(), words),
@@ -198,6 +200,10 @@ impl Plot {
             }
             Shape::Polygon(points) => svg.closed(points.iter().map(at), paint),
             Shape::Dots(points) => svg.path(Trace::dots(points.iter().map(at)).text(), paint),
+            Shape::Lines(lines) => {
+                let lines = lines.iter().map(|line| line.map(|point| self.at(point)));
+                svg.path(Trace::pieces(lines).text(), paint);
+            }
             Shape::Level(level) => svg.path(&self.level(*level), paint),
             Shape::Upright(x) => {
                 let upright = format!("M{} {}V{}", number(self.x.at(*x)), number(top), number(bottom));

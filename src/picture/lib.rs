@@ -18,6 +18,7 @@ pub mod lattice;
 mod palette;
 pub mod pareto;
 pub mod paths;
+pub mod plan_map;
 pub mod processes;
 mod projection;
 mod scale;

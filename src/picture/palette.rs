@@ -19,7 +19,7 @@ pub(super) const SHADES: [&str; 2] = ["#f7f2e4", "#e8dec4"];
 pub(super) const EDGE: &str = "#8f7f57";
 
 /// Colours on a light ground, and on a dark one: what is light becomes dark, what stands out stands out.
-const PARTNERS: [(&str, &str); 32] = [
+const PARTNERS: [(&str, &str); 42] = [
     // Ground, letters, plots, grid.
     ("#fbfaf7", "#1c2126"),
     ("#2b2a27", "#e3e5e8"),
@@ -60,6 +60,17 @@ const PARTNERS: [(&str, &str); 32] = [
     ("#b9b3a3", "#7a766a"),
     ("#dfe7ee", "#4d5a66"),
     ("#8a857a", "#9a958a"),
+    // Maps: their best and highest places. Their scale stays, light is much.
+    ("#c2185b", "#ff6fa3"),
+    ("#440154", "#440154"),
+    ("#472d7b", "#472d7b"),
+    ("#3b528b", "#3b528b"),
+    ("#2c728e", "#2c728e"),
+    ("#21918c", "#21918c"),
+    ("#28ae80", "#28ae80"),
+    ("#5ec962", "#5ec962"),
+    ("#addc30", "#addc30"),
+    ("#fde725", "#fde725"),
 ];
 
 /// Rules of style for pictures below `within`, for a page on a dark ground.

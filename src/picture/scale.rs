@@ -92,12 +92,10 @@ impl Scale {
     }
 
     fn numbers(&self, most: u32) -> Vec<(f64, String)> {
-        let Step { size, decimals } = round_step((self.values[1] - self.values[0]) / f64::from(most));
+        let step = round_step((self.values[1] - self.values[0]) / f64::from(most));
         // Adding zero turns a negative zero into zero.
-        let values = self.steps(size, most).map(|count| count * size + 0.0);
-        values
-            .map(|value| (value, format!("{value:.decimals$}")))
-            .collect()
+        let values = self.steps(step.size, most).map(|count| count * step.size + 0.0);
+        values.map(|value| (value, step.words(value))).collect()
     }
 
     /// The multiples of a step within.
@@ -172,6 +170,15 @@ pub(super) struct Step {
     /// Its size.
     pub(super) size: f64,
     decimals: usize,
+}
+
+impl Step {
+    /// A multiple of it, with as many decimals as it has itself.
+    pub(super) fn words(self, value: f64) -> String {
+        let decimals = self.decimals;
+        // Adding zero turns a negative zero into zero.
+        format!("{:.decimals$}", value + 0.0)
+    }
 }
 
 /// Powers of ten, of which the first six have decimals.

@@ -2,6 +2,7 @@
 //!
 //! Colours are of the scale viridis, which grows in lightness all along: the order can be read without seeing colours.
 
+use super::Point;
 use super::chart::Plot;
 use super::scale::Scale;
 use super::sheet::Room;
@@ -74,6 +75,37 @@ impl Tiles<'_> {
         }
         boxes
     }
+
+    /// The lines between tiles that are in and tiles that are not: one of each to a tile, in the order of classes.
+    pub(super) fn borders(self, is_in: &[bool]) -> Vec<[Point; 2]> {
+        let [columns, rows] = [self.columns, self.rows].map(|edges| edges.len().saturating_sub(1));
+        let at = |column: usize, row: usize| is_in.get(row * columns + column).copied().unwrap_or_default();
+        let level = (1..rows).flat_map(|row| {
+            let y = self.rows[row];
+            let runs = runs(columns, move |column| at(column, row - 1) != at(column, row));
+            runs.into_iter()
+                .map(move |ends| ends.map(|end| [self.columns[end], y]))
+        });
+        let upright = (1..columns).flat_map(|column| {
+            let x = self.columns[column];
+            let runs = runs(rows, move |row| at(column - 1, row) != at(column, row));
+            runs.into_iter()
+                .map(move |ends| ends.map(|end| [x, self.rows[end]]))
+        });
+        level.chain(upright).collect()
+    }
+}
+
+/// Where runs of numbers up to a count that something holds for begin and end.
+fn runs(count: usize, holds: impl Fn(usize) -> bool) -> Vec<[usize; 2]> {
+    let mut runs: Vec<[usize; 2]> = Vec::new();
+    for number in (0..count).filter(|&number| holds(number)) {
+        match runs.last_mut() {
+            Some([_, end]) if *end == number => *end += 1,
+            _ => runs.push([number, number + 1]),
+        }
+    }
+    runs
 }
 
 /// The paint of a class out of so many: spread over the whole scale of colours, so that few classes differ well; without smoothing, so
@@ -113,6 +145,19 @@ mod tests {
             let area: f64 = boxes.values().flatten().map(|[left, right, bottom, top]| (right - left) * (top - bottom)).sum();
             prop_assert_eq!(area, (rows * columns) as f64);
         }
+    }
+
+    #[test]
+    fn borders_run_between_what_is_in_and_what_is_not() {
+        let (columns, rows) = ([0.0, 10.0, 20.0, 30.0], [0.0, 1.0, 2.0]);
+        let tiles = Tiles {
+            columns: &columns,
+            rows: &rows,
+        };
+        let (above, below) = ([true, true, true], [true, false, false]);
+        let borders = tiles.borders(&[below, above].concat());
+        assert_eq!(borders, [[[10.0, 1.0], [30.0, 1.0]], [[10.0, 0.0], [10.0, 1.0]]]);
+        assert_eq!(tiles.borders(&[above, above].concat()), [[[0.0; 2]; 2]; 0]);
     }
 
     #[test]

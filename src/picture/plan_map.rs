@@ -1,0 +1,358 @@
+//! A map over the plan of the stock: x across the cuts, y along them, each cell in the colour of its highest place.
+
+use super::Point;
+use super::chart::{Chart, Series, Shape};
+use super::palette::INK;
+use super::scale::{Step, round_step};
+use super::sheet::{Room, text_width};
+use super::svg::{Along, Mark};
+use super::tiles::{self, MOST_CLASSES, Tiles};
+use super::trace::number;
+
+pub use super::sheet::Heading;
+
+/// What a map shows; lengths in mm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanMap<'a> {
+    /// What it is about.
+    pub heading: Heading<'a>,
+    /// What its heights are, such as `height of the part`.
+    pub what: &'a str,
+    /// The stock along x and y.
+    pub size: [f64; 2],
+    /// How many cells it has along x and y.
+    pub cells: [u32; 2],
+    /// The highest place of each cell, row by row from the least y, each from the least x; none of a cell without any.
+    pub heights: &'a [Option<f64>],
+    /// The highest place of all, and how high it is.
+    pub highest: (Point, f64),
+    /// The lowest one.
+    pub lowest: (Point, f64),
+    pub mean: f64,
+    /// The limit on the scallop, when the job has one and heights are what is left.
+    pub limit: Option<f64>,
+}
+
+/// Cells along the longer side of a map.
+const CELLS: f64 = 120.0;
+/// Cells along the shorter side of a long and narrow map.
+const FEWEST: u32 = 24;
+/// Room for the label of y, and between it, the values and their axis.
+const BESIDE: f64 = 36.0;
+/// Cells that are nearer to each other than this along x have the same line around them: what stands between two cuts and is higher
+/// than the limit.
+const NEAR: usize = 8;
+/// The least height of a class, in mm: what differs by less is not told apart.
+const THINNEST: f64 = 0.01;
+
+/// How many cells a map of a stock of this size along x and y should have: they are about square, and as small as can be told apart.
+#[must_use]
+pub fn cells(size: [f64; 2]) -> [u32; 2] {
+    let longest = size[0].max(size[1]);
+    size.map(|length| ((CELLS * length / longest).round() as u32).clamp(FEWEST, CELLS as u32))
+}
+
+/// Writes the map as SVG.
+#[must_use]
+pub fn draw(map: &PlanMap<'_>) -> String {
+    let [columns, rows] = [0, 1].map(|axis| edges(map.size[axis], map.cells[axis]));
+    let tiles = Tiles {
+        columns: &columns,
+        rows: &rows,
+    };
+    let classes = Classes::of(map);
+    let mut series = coloured(map, tiles, classes);
+    series.extend(
+        map.limit
+            .map(|limit| bound(map, tiles, limit))
+            .into_iter()
+            .flatten(),
+    );
+    series.extend(marks(map, classes));
+    Chart {
+        heading: map.heading,
+        description: description(map),
+        plot: tiles.plot(room(map)),
+        labels: ["x across the cuts, mm", "y along the cuts, mm"],
+        series,
+        along: Some(Along::Width),
+    }
+    .draw()
+}
+
+/// With as much room to the left as the values of y need beside their label.
+fn room(map: &PlanMap<'_>) -> Room {
+    let room = Room::of(map.heading.ids);
+    let values = text_width(&format!("{:.0}", map.size[1]));
+    Room {
+        left: room.left.max(BESIDE + values),
+        ..room
+    }
+}
+
+fn edges(length: f64, count: u32) -> Vec<f64> {
+    let count = count.max(1);
+    let edge = |number| length * f64::from(number) / f64::from(count);
+    (0..=count).map(edge).collect()
+}
+
+/// Heights in classes between round ones.
+#[derive(Clone, Copy)]
+struct Classes {
+    step: Step,
+    /// The first class begins at so many steps.
+    first: f64,
+    count: u32,
+}
+
+impl Classes {
+    fn of(map: &PlanMap<'_>) -> Self {
+        let heights = || map.heights.iter().flatten().copied();
+        let [least, most] = [
+            heights().reduce(f64::min).unwrap_or_default(),
+            heights().reduce(f64::max).unwrap_or_default(),
+        ];
+        let mut wanted = ((most - least) / f64::from(MOST_CLASSES)).max(THINNEST);
+        loop {
+            let step = round_step(wanted);
+            let first = steps(least, step).floor();
+            let count = (steps(most, step) - first).ceil().max(1.0);
+            // Beyond the largest step there is none that fits.
+            if count <= f64::from(MOST_CLASSES) || step.size < 0.99 * wanted {
+                let count = (count as u32).min(MOST_CLASSES);
+                return Self { step, first, count };
+            }
+            wanted = step.size * 1.5;
+        }
+    }
+
+    fn class(self, height: f64) -> u32 {
+        // Casting is to the nearest number there is.
+        ((steps(height, self.step) - self.first) as u32).min(self.count - 1)
+    }
+
+    fn words(self, class: u32) -> String {
+        let [from, to] = [class, class + 1].map(|class| {
+            let height = (self.first + f64::from(class)) * self.step.size;
+            self.step.words(height)
+        });
+        format!("{from} to {to} mm")
+    }
+}
+
+/// A height in steps. One that rounding has brought below a border lies on it: what is nowhere left is 0 mm high.
+fn steps(height: f64, step: Step) -> f64 {
+    let steps = height / step.size;
+    let nearest = steps.round();
+    if (steps - nearest).abs() < 1e-6 {
+        nearest
+    } else {
+        steps
+    }
+}
+
+/// Cells by their classes, the highest first, as the legend has them.
+fn coloured(map: &PlanMap<'_>, tiles: Tiles<'_>, classes: Classes) -> Vec<Series> {
+    let class = |height: &Option<f64>| height.map(|height| classes.class(height));
+    let mut boxes = tiles.by_class(&map.heights.iter().map(class).collect::<Vec<_>>());
+    let series = (0..classes.count).rev().map(|class| {
+        let boxes = boxes.remove(&Some(class)).unwrap_or_default();
+        Series::new(Shape::Boxes(boxes), tiles::paint(class, classes.count)).named(classes.words(class))
+    });
+    series.collect()
+}
+
+/// The line around what is higher than the limit: light under dark, to be seen on every colour.
+fn bound(map: &PlanMap<'_>, tiles: Tiles<'_>, limit: f64) -> [Series; 2] {
+    let is_above = |height: &Option<f64>| height.is_some_and(|height| height > limit);
+    let mut above: Vec<bool> = map.heights.iter().map(is_above).collect();
+    let words = match above.contains(&true) {
+        true => format!("around all above the scallop limit, {} mm", number(limit)),
+        false => format!("nothing above the scallop limit, {} mm", number(limit)),
+    };
+    for row in above.chunks_mut(map.cells[0].max(1) as usize) {
+        close(row);
+    }
+    let lines = tiles.borders(&above);
+    let paint = |colour: &str, width: f64| {
+        format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"square\"")
+    };
+    [
+        Series::new(Shape::Lines(lines.clone()), paint("#ffffff", 4.0)),
+        Series::new(Shape::Lines(lines), paint(INK, 2.0)).named(words),
+    ]
+}
+
+/// Adds what lies between cells of a row that are near to each other, or between one and the nearby end of the row.
+fn close(row: &mut [bool]) {
+    let mut from = 0;
+    let ends: Vec<usize> = (0..row.len())
+        .filter(|&cell| row[cell])
+        .chain([row.len()])
+        .collect();
+    if ends.len() < 2 {
+        return;
+    }
+    for end in ends {
+        if end - from < NEAR {
+            row[from..end].fill(true);
+        }
+        from = end + 1;
+    }
+}
+
+/// The highest and the lowest place; and the mean, in the colour of its class.
+fn marks(map: &PlanMap<'_>, classes: Classes) -> [Series; 3] {
+    let ((highest, most), (lowest, least)) = (map.highest, map.lowest);
+    let mean = tiles::paint(classes.class(map.mean), classes.count);
+    [
+        Series::mark(Mark::CROSS, highest, None).named(format!("most, {} mm", shown(most))),
+        Series::new(Shape::Boxes(Vec::new()), mean).named(format!("mean, {} mm", shown(map.mean))),
+        Series::mark(Mark::RING, lowest, None).named(format!("least, {} mm", shown(least))),
+    ]
+}
+
+/// A height with two decimals, and never `-0.00`.
+#[must_use]
+pub fn shown(height: f64) -> String {
+    format!("{:.2}", (height * 100.0).round() / 100.0 + 0.0)
+}
+
+/// The map in words.
+fn description(map: &PlanMap<'_>) -> String {
+    let at = |[x, y]: Point, height: f64| format!("{} mm at x {x:.1} mm, y {y:.1} mm", shown(height));
+    let limit = map.limit.map(|limit| {
+        let cells = map.heights.iter().flatten().count().max(1);
+        let above = map
+            .heights
+            .iter()
+            .flatten()
+            .filter(|height| **height > limit)
+            .count();
+        let share = above as f64 / cells as f64 * 100.0;
+        format!(
+            " {share:.1} percent of the cells have a place higher than the scallop limit of {limit:.2} mm."
+        )
+    });
+    format!(
+        "The {} over the plan of the stock, of each cell at its highest place: at most {}, at least {}, {} mm on average.{}",
+        map.what,
+        at(map.highest.0, map.highest.1),
+        at(map.lowest.0, map.lowest.1),
+        shown(map.mean),
+        limit.unwrap_or_default()
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Prefix;
+
+    fn map(cells: [u32; 2], heights: &[Option<f64>], limit: Option<f64>) -> PlanMap<'_> {
+        PlanMap {
+            heading: Heading {
+                ids: Prefix::NONE,
+                title: "<rib>: material left above the part",
+                subtitle: "12.3 cm\u{b3} are left",
+            },
+            what: "material left above the part",
+            size: [300.0, 200.0],
+            cells,
+            heights,
+            highest: ([290.5, 190.0], 11.9),
+            lowest: ([10.0, 20.0], -1e-12),
+            mean: 4.2,
+            limit,
+        }
+    }
+
+    #[test]
+    fn a_map_looks_as_it_was_reviewed() {
+        let height = |place: u32| {
+            let (column, row) = (place % 12, place / 12);
+            Some(f64::from(column) * 0.7 + f64::from(row) * 0.6)
+        };
+        let mut heights: Vec<Option<f64>> = (0..96).map(height).collect();
+        heights[50] = None;
+        insta::assert_snapshot!(draw(&map([12, 8], &heights, Some(6.5))));
+    }
+
+    #[test]
+    fn any_map_is_drawn_within_its_picture() {
+        for heights in [
+            &[][..],
+            &[None],
+            &[Some(0.0)],
+            &[Some(-1e9), Some(1e9)],
+            &[Some(5.0), Some(5.0 + 1e-9), None, Some(5.0 - 1e-9)],
+        ] {
+            for cells in [[0, 0], [1, 1], [2, 2], [120, 3]] {
+                let svg = draw(&map(cells, heights, Some(1.0)));
+                assert!(
+                    !svg.contains("NaN") && !svg.contains("inf") && !svg.contains("-0.00"),
+                    "{svg}"
+                );
+                assert!(svg.ends_with("</svg>\n"));
+            }
+        }
+    }
+
+    #[test]
+    fn a_height_falls_into_the_class_that_names_it() {
+        let heights = [Some(-1e-12), None, Some(4.999_999_999), Some(17.3)];
+        let classes = Classes::of(&map([2, 2], &heights, None));
+        assert_eq!((classes.step.size, classes.count), (2.0, 9));
+        for (height, words) in [
+            (-1e-12, "0 to 2 mm"),
+            (3.9, "2 to 4 mm"),
+            (3.999_999_999, "4 to 6 mm"),
+            (17.3, "16 to 18 mm"),
+        ] {
+            assert_eq!(classes.words(classes.class(height)), words);
+        }
+        let level = [Some(20.0), Some(20.0)];
+        let classes = Classes::of(&map([2, 1], &level, None));
+        assert_eq!(classes.words(classes.class(20.0)), "20.00 to 20.01 mm");
+    }
+
+    #[test]
+    fn one_line_is_around_teeth_and_another_one_around_what_is_far() {
+        let closed = |row: &str| {
+            let mut row: Vec<bool> = row.chars().map(|cell| cell == 'x').collect();
+            close(&mut row);
+            row.into_iter()
+                .map(|cell| if cell { 'x' } else { '.' })
+                .collect::<String>()
+        };
+        for (row, wanted) in [
+            ("..x.x.......xx........", "xxxxxxxxxxxxxx........"),
+            ("........x........x.", "........x........xx"),
+            ("......", "......"),
+            ("", ""),
+        ] {
+            assert_eq!(closed(row), wanted);
+        }
+    }
+
+    #[test]
+    fn cells_are_about_square_and_of_no_more_than_can_be_told_apart() {
+        assert_eq!(cells([300.0, 200.0]), [120, 80]);
+        assert_eq!(cells([85.0, 85.0]), [120, 120]);
+        assert_eq!(cells([30.0, 2000.0]), [24, 120]);
+    }
+
+    #[test]
+    fn the_largest_map_stays_small() {
+        // No two neighbours are of one class: no part is like that.
+        let heights: Vec<Option<f64>> = (0..120 * 120)
+            .map(|place| Some(f64::from((place + place / 120) % 2 * 8)))
+            .collect();
+        let mut noise = map([120, 120], &heights, Some(4.0));
+        for ids in [Prefix::NONE, Prefix::new("page-"), Prefix::for_phones("phone-")] {
+            noise.heading.ids = ids;
+            let length = draw(&noise).len();
+            assert!(length < 450_000, "{length}");
+        }
+    }
+}
