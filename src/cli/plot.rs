@@ -51,12 +51,12 @@ pub(super) fn plot(args: &PlotArgs, targets: &Targets, console: &Console) -> Exi
         To::Stdout(what) => {
             return match picture(what, &material) {
                 Some(svg) => console.document(&svg),
-                None => console.failure(&without(what)),
+                None => console.failure(&without(what, &material)),
             };
         }
         To::File(what, path) => match picture(what, &material) {
             Some(svg) => disk.spares(path).and_then(|()| one_file(path, svg.as_bytes())),
-            None => return console.failure(&without(what)),
+            None => return console.failure(&without(what, &material)),
         },
         To::Folder(folder) => all(folder, &material, &disk),
     };
@@ -107,8 +107,15 @@ impl<'a> To<'a> {
 }
 
 /// Why there is no such picture.
-fn without(what: What) -> Failure {
+fn without(what: What, material: &Material<'_>) -> Failure {
     match what {
+        What::Surface | What::Residual if material.job.part.surface().is_some() => {
+            Failure::new("too many triangles of the surface lie over each other to draw it")
+        }
+        What::Surface | What::Residual => Failure::new(
+            "the part is a profile, the same at every y, so there is nothing to show from above",
+        )
+        .help("draw `--what contour` or `--what deviation`, or write `surface { ... }` instead of `profile`"),
         What::Process => Failure::new("the job leaves no choice between two processes that both compile")
             .help("write `rough auto { ... }` with blocks `vcut` and `rect`"),
         What::Lattice | What::Contour | What::Deviation | What::Correlation | What::Joints | What::Time => {
@@ -117,7 +124,8 @@ fn without(what: What) -> Failure {
     }
 }
 
-/// The picture; none where it is about the machine and the job has none, or about a choice that it does not leave.
+/// The picture; none where it is about the machine and the job has none, about a choice that it does not leave, or about a surface
+/// and the part is a profile.
 fn picture(what: What, material: &Material<'_>) -> Option<String> {
     let ids = Prefix::NONE;
     match what {
@@ -128,6 +136,8 @@ fn picture(what: What, material: &Material<'_>) -> Option<String> {
         What::Joints => pictures::joints(material, ids),
         What::Time => Some(pictures::time(material, ids)),
         What::Process => pictures::process(material, ids),
+        What::Surface => pictures::surface(material, ids),
+        What::Residual => pictures::residual(material, ids),
     }
 }
 

@@ -17,6 +17,7 @@ mod parameters;
 pub(super) mod policy;
 mod set_up;
 mod source;
+mod surface;
 mod times;
 mod top;
 
@@ -107,6 +108,7 @@ impl Content {
         let sections = [
             Some(played(subject)),
             Some(cross_section::section(subject)),
+            surface::section(subject),
             Some(deviation::section(subject)),
             machine::section(subject),
             Some(times::section(subject)),

@@ -7,6 +7,7 @@ mod blade;
 mod joints;
 mod machined;
 mod paths;
+mod plan_maps;
 mod process;
 mod strips;
 mod time;
@@ -14,6 +15,7 @@ mod time;
 pub use blade::blade;
 pub use joints::{joints, joints_twice};
 pub use paths::paths;
+pub use plan_maps::{SurfaceMap, residual, surface};
 pub use process::process;
 pub use time::time;
 

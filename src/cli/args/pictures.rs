@@ -47,7 +47,7 @@ pub(in crate::cli) struct PlotArgs {
 
     /// For one picture, the file or - for standard output (the default); for all, the folder (default: the current one)
     ///
-    /// Pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine, that of processes `rough auto`.
+    /// Pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine, that of processes `rough auto`, those of the surface and the residual a `surface`.
     #[arg(short, long, value_name = "FILE.svg|DIR|-")]
     pub(in crate::cli) output: Option<String>,
 
@@ -72,4 +72,8 @@ pub(in crate::cli) enum What {
     Time,
     /// The times of both processes of `rough auto` over the depth of the work, and where they cross
     Process,
+    /// The height of a part that changes along y, from above
+    Surface,
+    /// How high material stands above such a part after all cuts, each cell at its worst place
+    Residual,
 }

@@ -1,0 +1,38 @@
+//! A part that changes along y from above: how high it is, and what the cuts leave above it.
+
+use super::figure::{Ids, Zoom, figure};
+use super::{Section, Subject};
+use crate::pictures::SurfaceMap;
+
+/// The section; none of a part that is a profile.
+pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
+    let part = SurfaceMap::of_part(&subject.material)?;
+    let residual = SurfaceMap::of_residual(&subject.material)?;
+    let heights = figure(
+        &Ids {
+            page: "surface-",
+            phone: "surface-phone-",
+        },
+        Zoom::Free,
+        &format!("The height of the part: {}.", part.figures()),
+        &|ids| part.draw(ids),
+    );
+    let left = figure(
+        &Ids {
+            page: "residual-",
+            phone: "residual-phone-",
+        },
+        Zoom::Free,
+        &format!(
+            "How high material stands straight above the part after all cuts: {}. The cuts are the same at every y: besides \
+             scallops, material stays where the part lies below its shadow.",
+            residual.figures()
+        ),
+        &|ids| residual.draw(ids),
+    );
+    Some(Section {
+        id: "surface",
+        title: "Surface",
+        body: heights + left,
+    })
+}
