@@ -15,18 +15,42 @@ use vcutc::report::{Material, pictures};
 use vcutc::simulation::cross_section::Taken;
 use vcutc::simulation::prove;
 
+/// A job whose part changes along y, for maps.
+pub(crate) const BENT_HILL: &str = "job \"bent_hill\"
+stock { size = (120 mm, 80 mm, 50 mm) }
+surface { z(x, y) = 22 mm + 14 mm * sin(x / 120 mm * 180 deg) - (y - 30 mm)^2 / 250 mm }
+blade dagger {
+  cutting_length = 25 mm
+  half_apex      = 7.13 deg
+  thickness      = 1.5 mm
+  edges          = double
+}
+rough vcut {
+  blade     = dagger
+  lattice   = orthogonal
+  rake      = 60 deg
+  limits    { swing <= 50 deg, scallop <= 3 mm }
+  allowance = 0.5 mm
+  feed      { cut = 200 mm/s, travel = 200 mm/s, reorient = 90 deg/s }
+  clearance = 10 mm
+}
+";
+
 /// The pictures of `docs/pictures.md`: example, what is drawn.
-const SHOWN: [(&str, &str); 6] = [
+const SHOWN: [(&str, &str); 8] = [
     ("fairing", "lattice"),
     ("fairing", "contour"),
     ("fairing", "deviation"),
     ("wavy_panel", "correlation"),
     ("wavy_panel", "joints"),
     ("wavy_panel", "time"),
+    ("bent_hill", "surface"),
+    ("bent_hill", "residual"),
 ];
 
 fn outcome(example: &str) -> Outcome {
-    compile(&format!("{example}.vcut"), &folder())
+    let files = folder().with("bent_hill.vcut", BENT_HILL);
+    compile(&format!("{example}.vcut"), &files)
 }
 
 fn picture(what: &str, outcome: &Outcome, ids: Prefix) -> String {
@@ -38,11 +62,14 @@ fn picture(what: &str, outcome: &Outcome, ids: Prefix) -> String {
         "correlation" => pictures::correlation(&material, ids),
         "joints" => pictures::joints(&material, ids).unwrap(),
         "time" => pictures::time(&material, ids),
+        "surface" => pictures::surface(&material, ids).unwrap(),
+        "residual" => pictures::residual(&material, ids).unwrap(),
         what => panic!("{what}"),
     }
 }
 
 const ALL: [&str; 6] = ["lattice", "contour", "deviation", "correlation", "joints", "time"];
+const MAPS: [&str; 2] = ["surface", "residual"];
 
 #[test]
 fn pictures_in_the_documentation_are_true() {
@@ -143,38 +170,76 @@ fn pictures_stay_within_their_sheets() {
     for (example, pairings) in compiling().into_iter().filter(is_of_vs) {
         let outcome = compile_on(pairings[0].machine, &example, &folder());
         for what in ALL {
-            let svg = picture(what, &outcome, Prefix::new("here-"));
-            assert!(svg.len() < 300_000, "{example} {what}: {} bytes", svg.len());
-            let document = roxmltree::Document::parse(&svg).unwrap();
-            let sheet = document.root_element();
-            let ids: Vec<&str> = document
-                .descendants()
-                .filter_map(|node| node.attribute("id"))
-                .collect();
-            assert!(ids.iter().all(|id| id.starts_with("here-")), "{ids:?}");
-            assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len());
-            assert_eq!(
-                sheet.attribute("aria-labelledby"),
-                Some("here-title here-description")
-            );
-            assert!(ids.contains(&"here-title") && ids.contains(&"here-description"));
-            let size = ["width", "height"].map(|side| sheet.attribute(side).unwrap().parse::<f64>().unwrap());
-            for node in document.descendants() {
-                for [x, y] in node.attribute("d").map(corners).unwrap_or_default() {
-                    let shift = if node.attribute("transform").is_some() {
-                        20.0
-                    } else {
-                        0.0
-                    };
-                    let within = |value: f64, size: f64| (-shift..=size).contains(&value);
-                    assert!(
-                        within(x, size[0]) && within(y, size[1]),
-                        "{example} {what}: {x} {y}"
-                    );
-                }
-            }
+            assert_within_its_sheet(&example, what, &outcome);
         }
     }
+    let outcome = outcome("bent_hill");
+    for what in MAPS {
+        assert_within_its_sheet("bent_hill", what, &outcome);
+    }
+}
+
+fn assert_within_its_sheet(example: &str, what: &str, outcome: &Outcome) {
+    let svg = picture(what, outcome, Prefix::new("here-"));
+    assert!(svg.len() < 300_000, "{example} {what}: {} bytes", svg.len());
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let sheet = document.root_element();
+    let ids: Vec<&str> = document
+        .descendants()
+        .filter_map(|node| node.attribute("id"))
+        .collect();
+    assert!(ids.iter().all(|id| id.starts_with("here-")), "{ids:?}");
+    assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len());
+    assert_eq!(
+        sheet.attribute("aria-labelledby"),
+        Some("here-title here-description")
+    );
+    assert!(ids.contains(&"here-title") && ids.contains(&"here-description"));
+    let size = ["width", "height"].map(|side| sheet.attribute(side).unwrap().parse::<f64>().unwrap());
+    for node in document.descendants() {
+        for [x, y] in node.attribute("d").map(corners).unwrap_or_default() {
+            let shift = if node.attribute("transform").is_some() {
+                20.0
+            } else {
+                0.0
+            };
+            let within = |value: f64, size: f64| (-shift..=size).contains(&value);
+            assert!(
+                within(x, size[0]) && within(y, size[1]),
+                "{example} {what}: {x} {y}"
+            );
+        }
+    }
+}
+
+/// Maps of a part that changes along y, in its page as by themselves; none of a part that is a profile.
+#[test]
+fn maps_are_of_parts_that_change_along_y() {
+    let bent = outcome("bent_hill");
+    let material = Material::of(&bent).unwrap();
+    let page = vcutc::report::page::page(&bent, vcutc::report::page::Further::NOTHING).unwrap();
+    for (ids, name) in [
+        (Prefix::new("surface-"), "surface"),
+        (Prefix::new("residual-"), "residual"),
+    ] {
+        assert!(page.contains(&picture(name, &bent, ids)), "{name}");
+        assert!(page.contains(&format!("id=\"{name}-phone-title\"")), "{name}");
+    }
+    assert!(page.contains("<a href=\"#surface\">Surface</a>"));
+    // The part is highest at (60, 30) and falls off by 10 mm to y = 80, where at least that much stays.
+    let heights = pictures::SurfaceMap::of_part(&material).unwrap().figures();
+    assert!(heights.ends_with(", most 36.00 mm"), "{heights}");
+    let left = pictures::SurfaceMap::of_residual(&material).unwrap().figures();
+    let (_, most) = left.split_once("most ").unwrap();
+    let most: f64 = most.trim_end_matches(" mm").parse().unwrap();
+    assert!((10.0..16.0).contains(&most), "{left}");
+
+    let straight = outcome("fairing");
+    let material = Material::of(&straight).unwrap();
+    assert_eq!(pictures::surface(&material, Prefix::NONE), None);
+    assert_eq!(pictures::residual(&material, Prefix::NONE), None);
+    let page = vcutc::report::page::page(&straight, vcutc::report::page::Further::NOTHING).unwrap();
+    assert!(!page.contains("id=\"surface\"") && !page.contains("residual-title"));
 }
 
 /// In a page on a dark ground every colour of every picture has a partner, and pictures for telephones are as wide as these.
@@ -188,31 +253,39 @@ fn every_colour_is_another_one_in_the_dark() {
             .unwrap();
         let (dark, _) = dark.split_once("</style>").unwrap();
         for what in ALL {
-            for ids in [Prefix::new("page-"), Prefix::for_phones("phone-")] {
-                let svg = picture(what, &outcome, ids);
-                let document = roxmltree::Document::parse(&svg).unwrap();
-                for node in document.descendants() {
-                    for paint in ["fill", "stroke"] {
-                        if let Some(colour) = node.attribute(paint).filter(|colour| colour.starts_with('#')) {
-                            let rule = format!("[{paint}=\"{colour}\"]");
-                            assert!(dark.contains(&rule), "{example} {what}: {rule}");
-                        }
-                    }
+            assert_dark(&example, what, &outcome, dark);
+        }
+    }
+    let outcome = outcome("bent_hill");
+    for what in MAPS {
+        assert_dark("bent_hill", what, &outcome, &vcutc::picture::dark(".view svg"));
+    }
+}
+
+fn assert_dark(example: &str, what: &str, outcome: &Outcome, dark: &str) {
+    for ids in [Prefix::new("page-"), Prefix::for_phones("phone-")] {
+        let svg = picture(what, outcome, ids);
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        for node in document.descendants() {
+            for paint in ["fill", "stroke"] {
+                if let Some(colour) = node.attribute(paint).filter(|colour| colour.starts_with('#')) {
+                    let rule = format!("[{paint}=\"{colour}\"]");
+                    assert!(dark.contains(&rule), "{example} {what}: {rule}");
                 }
-                let width: f64 = document
-                    .root_element()
-                    .attribute("width")
-                    .unwrap()
-                    .parse()
-                    .unwrap();
-                let most = if ids == Prefix::new("page-") {
-                    PAGE_WIDTH
-                } else {
-                    PHONE_WIDTH
-                };
-                assert!(width <= most, "{example} {what}: {width}");
             }
         }
+        let width: f64 = document
+            .root_element()
+            .attribute("width")
+            .unwrap()
+            .parse()
+            .unwrap();
+        let most = if ids == Prefix::new("page-") {
+            PAGE_WIDTH
+        } else {
+            PHONE_WIDTH
+        };
+        assert!(width <= most, "{example} {what}: {width}");
     }
 }
 

@@ -1,6 +1,7 @@
 //! `vcutc plot`: what it prints, what it writes, and what it refuses.
 
 use super::{folder, names, vcutc, vcutc_reading};
+use crate::pictures::BENT_HILL;
 use crate::repository::{read, root};
 use std::fs;
 
@@ -34,6 +35,43 @@ fn every_picture_can_be_drawn() {
         assert!(
             run.stdout.starts_with("<svg ") && run.stdout.ends_with("</svg>\n"),
             "{what}"
+        );
+    }
+}
+
+#[test]
+fn maps_are_drawn_of_a_surface_and_refused_for_a_profile() {
+    let out = folder();
+    fs::write(out.path().join("hill.vcut"), BENT_HILL).unwrap();
+    let run = vcutc(out.path(), &["plot", "hill.vcut", "-o", "all"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let drawn = names(&out.path().join("all"));
+    assert_eq!(
+        drawn,
+        [
+            "contour",
+            "correlation",
+            "deviation",
+            "lattice",
+            "residual",
+            "surface",
+            "time"
+        ]
+        .map(|what| format!("hill_{what}.svg"))
+    );
+    for what in ["surface", "residual"] {
+        let one = vcutc(out.path(), &["plot", "hill.vcut", "--what", what]);
+        let path = out.path().join("all").join(format!("hill_{what}.svg"));
+        assert_eq!(
+            (one.code, one.stdout),
+            (Some(0), fs::read_to_string(path).unwrap())
+        );
+        let refused = vcutc(root(), &["plot", EXAMPLE, "--what", what]);
+        assert_eq!((refused.code, refused.stdout.as_str()), (Some(2), ""));
+        assert_eq!(
+            refused.stderr,
+            "error: the part is a profile, the same at every y, so there is nothing to show from above\n  \
+             help: draw `--what contour` or `--what deviation`, or write `surface { ... }` instead of `profile`\n"
         );
     }
 }
