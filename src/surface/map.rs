@@ -8,7 +8,7 @@
 //! only touches it, and does not colour it.
 
 use crate::coverage::Tangled;
-use crate::region::{Half, Region, area, sides, width, within};
+use crate::region::{Half, Region, sides, width, within};
 use crate::residual::{Machined, Over, under, volume};
 use crate::surface::{Cell, Surface, clipped};
 use crate::visible::Part;
@@ -76,73 +76,71 @@ impl Surface {
     fn mapped(&self, of: Of<'_>, cells: Cells) -> Result<Option<Map>, Tangled> {
         let grid = Grid::new(cells, self.size());
         let mut tally = Tally::new(&grid);
-        let (mut looks, mut pieces, mut parts) = (0, 0, Vec::new());
+        let (mut looks, mut parts) = (0, Vec::new());
         let weld = self.accuracy().weld.to_mm();
         for bin in self.bins().all() {
             self.visible(bin, &mut looks, &mut parts)?;
             for part in &parts {
                 let is_crack = part.is_cut && width(&part.region) <= weld;
-                for (place, region) in grid.split(&part.region) {
-                    pieces += 1;
-                    for piece in of.pieces(part, &region) {
-                        match (is_crack, of) {
-                            (false, _) => tally.add(place, &piece),
-                            (true, Of::Surface) => tally.raise_all(place, &piece),
-                            (true, Of::Left(_)) => {}
+                grid.split(&part.region, |place, region| {
+                    tally.pieces += 1;
+                    match (of, is_crack) {
+                        (Of::Surface, false) => tally.add(place, &lifted(region, part)),
+                        (Of::Surface, true) => tally.raise_all(place, &lifted(region, part)),
+                        (Of::Left(machined), false) => {
+                            for piece in left(machined, region, part) {
+                                tally.pieces += 1;
+                                tally.add(place, &piece);
+                            }
                         }
+                        (Of::Left(_), true) => {}
                     }
-                }
+                });
+                tally.is_bearable(part.region.first())?;
             }
             if let Of::Surface = of {
-                self.raise_upright(bin, &grid, &mut tally, &mut pieces);
-            }
-            if pieces > MOST_PIECES {
-                let [low, _] = self.bins().bounds(bin);
-                return Err(Tangled {
-                    place: low.map(Length::mm),
-                });
+                self.raise_upright(bin, &grid, &mut tally)?;
             }
         }
         Ok(tally.map())
     }
 
     /// Triangles that stand upright have no area in plan, but their edges count for what is highest.
-    fn raise_upright(&self, bin: Cell, grid: &Grid, tally: &mut Tally, pieces: &mut usize) {
+    fn raise_upright(&self, bin: Cell, grid: &Grid, tally: &mut Tally) -> Result<(), Tangled> {
         for &number in self.bins().triangles(bin) {
             let face = self.triangle(number);
             if sides(face).is_some() {
                 continue;
             }
-            for place in grid.touched(&face.map(|corner| [corner.x, corner.y])) {
-                *pieces += 1;
+            let places = face.map(|corner| [corner.x, corner.y]);
+            for place in grid.touched(&places) {
+                tally.pieces += 1;
                 let [low, high] = grid.bounds(place);
                 for corner in clipped(&face, low, high) {
                     tally.raise(place, [corner.x, corner.y], corner.z);
                 }
             }
+            tally.is_bearable(places.first())?;
         }
+        Ok(())
     }
 }
 
-impl Of<'_> {
-    /// The pieces of what of a part lies in a region, each with a linear height.
-    fn pieces(self, part: &Part, region: &[[f64; 2]]) -> Vec<Piece> {
-        match self {
-            Self::Surface => vec![
-                region
-                    .iter()
-                    .map(|&place| (place, part.plane.at(place)))
-                    .collect(),
-            ],
-            Self::Left(machined) => {
-                let [from, to] = range(region, 0);
-                let segments = machined.between(from, to);
-                let inside = segments.filter(|[a, b]| a.x < to - TOUCH && b.x > from + TOUCH);
-                let pieces = inside.map(|segment| under(segment, region, part.plane));
-                pieces.filter(|piece| piece.len() >= 3).collect()
-            }
-        }
-    }
+/// What of a part lies over a region.
+fn lifted(region: &[[f64; 2]], part: &Part) -> Piece {
+    region
+        .iter()
+        .map(|&place| (place, part.plane.at(place)))
+        .collect()
+}
+
+/// What a machined profile leaves over a region of a part, segment by segment.
+fn left(machined: &Machined, region: &[[f64; 2]], part: &Part) -> impl Iterator<Item = Piece> {
+    let [from, to] = range(region, 0);
+    let segments = machined.between(from, to);
+    let inside = segments.filter(move |[a, b]| a.x < to - TOUCH && b.x > from + TOUCH);
+    let pieces = inside.map(move |segment| under(segment, region, part.plane));
+    pieces.filter(|piece| piece.len() >= 3)
 }
 
 /// The least and the greatest coordinate of places along an axis.
@@ -195,13 +193,13 @@ impl Grid {
         (rows[0]..=rows[1]).flat_map(move |row| (columns[0]..=columns[1]).map(move |column| [column, row]))
     }
 
-    /// What of a region lies in each cell.
-    fn split(&self, region: &Region) -> Vec<([usize; 2], Region)> {
+    /// Takes what of a region lies in each cell.
+    fn split(&self, region: &Region, mut take: impl FnMut([usize; 2], &[[f64; 2]])) {
         let mut touched = self.touched(region);
         if let (Some(only), None) = (touched.next(), touched.next()) {
-            return vec![(only, region.clone())];
+            return take(only, region);
         }
-        let inside = |place: [usize; 2]| {
+        for place in self.touched(region) {
             let [low, high] = self.bounds(place);
             let halves = [
                 Half::new([-1.0, 0.0], -low[0]),
@@ -209,12 +207,14 @@ impl Grid {
                 Half::new([0.0, -1.0], -low[1]),
                 Half::new([0.0, 1.0], high[1]),
             ];
-            let inside = halves
+            let [first, rest @ ..] = halves;
+            let inside = rest
                 .iter()
-                .fold(region.clone(), |region, &half| within(&region, half));
-            (width(&inside) > TOUCH).then_some((place, inside))
-        };
-        self.touched(region).filter_map(inside).collect()
+                .fold(within(region, first), |region, &half| within(&region, half));
+            if width(&inside) > TOUCH {
+                take(place, &inside);
+            }
+        }
     }
 }
 
@@ -226,6 +226,8 @@ struct Tally {
     lowest: Option<(f64, [f64; 2])>,
     volume: f64,
     area: f64,
+    /// Pieces that were looked at.
+    pieces: usize,
 }
 
 impl Tally {
@@ -237,6 +239,7 @@ impl Tally {
             lowest: None,
             volume: 0.0,
             area: 0.0,
+            pieces: 0,
         }
     }
 
@@ -264,9 +267,19 @@ impl Tally {
                 self.lowest = Some((height, place));
             }
         }
-        let places: Region = piece.iter().map(|&(place, _)| place).collect();
+        // The area is the volume of a prism that is 1 mm high.
+        let level: Piece = piece.iter().map(|&(place, _)| (place, 1.0)).collect();
         self.volume += volume(piece);
-        self.area += area(&places);
+        self.area += volume(&level);
+    }
+
+    /// Whether it may go on, near a place.
+    fn is_bearable(&self, near: Option<&[f64; 2]>) -> Result<(), Tangled> {
+        if self.pieces <= MOST_PIECES {
+            return Ok(());
+        }
+        let place = near.copied().unwrap_or_default().map(Length::mm);
+        Err(Tangled { place })
     }
 
     fn map(self) -> Option<Map> {
