@@ -48,7 +48,7 @@ pub fn lattice(material: &Material<'_>, ids: Prefix) -> String {
     lattice::draw(&lattice::Lattice {
         heading: lattice::Heading {
             ids,
-            title: &format!("{}: lattice", material.plan.name),
+            title: &titled(material, "lattice"),
             subtitle: &laid_out(material),
         },
         stock: stock(material),
@@ -62,12 +62,25 @@ pub fn lattice(material: &Material<'_>, ids: Prefix) -> String {
     })
 }
 
+/// The title of a picture of the section. Over a part that changes along y, sections are about its shadow.
+fn titled(material: &Material<'_>, what: &str) -> String {
+    let shadow = match material.job.part.surface() {
+        Some(_) => ", over the shadow of the part",
+        None => "",
+    };
+    format!("{}: {what}{shadow}", material.plan.name)
+}
+
 /// What stays on the part, in words.
 #[must_use]
 pub fn scallops(material: &Material<'_>) -> String {
     let report = &material.compiled.report;
+    let of = match material.job.part.surface() {
+        Some(_) => "above its shadow",
+        None => "on the part",
+    };
     format!(
-        "highest scallop {:.2} mm, {:.2} mm on average; {:.2} mm² stay on the part",
+        "highest scallop {:.2} mm, {:.2} mm on average; {:.2} mm² stay {of}",
         report.scallop.height.to_mm(),
         report.mean_scallop.to_mm(),
         report.residual.to_mm2()
@@ -87,7 +100,7 @@ pub fn contour(material: &Material<'_>, ids: Prefix) -> String {
     contour::draw(&contour::Contour {
         heading: contour::Heading {
             ids,
-            title: &format!("{}: machined contour", material.plan.name),
+            title: &titled(material, "machined contour"),
             subtitle: &subtitle,
         },
         stock: stock(material),
@@ -114,7 +127,7 @@ pub fn deviation(material: &Material<'_>, ids: Prefix) -> String {
     deviation::draw(&deviation::Deviation {
         heading: deviation::Heading {
             ids,
-            title: &format!("{}: deviation along the profile", material.plan.name),
+            title: &titled(material, "deviation along the profile"),
             subtitle: &subtitle,
         },
         curve: &distances(&points, material),

@@ -280,7 +280,10 @@ fn a_discarded_layer_leaves_what_the_paper_says() {
             feed { cut = 10 m/min, travel = 6000 m/min, reorient = 10000 deg/s }
             clearance = 10 mm, run_out = 0 mm
         }";
-    let outcome = compile("block.vcut", &Files::default().with("block.vcut", text.to_owned()));
+    let outcome = compile(
+        "block.vcut",
+        &Files::default().with("block.vcut", text.to_owned()),
+    );
     assert_eq!(told(&outcome.diagnostics, &outcome), "");
     let left = outcome.compiled.as_ref().unwrap().report.scallop.height.to_mm();
     assert!((left - 16.70).abs() < 5e-3, "{left}");
