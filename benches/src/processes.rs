@@ -31,7 +31,9 @@ pub fn text((_, width, height, profile): Part, roughing: Roughing) -> String {
     let feed = "feed { cut = 150 mm/s, travel = 300 mm/s, reorient = 40 deg/s }";
     let limits = "scallop <= 8 mm";
     let operation = match roughing {
-        Roughing::Vcut => format!("rough vcut {{ {common}\n  {feed}\n  limits {{ {limits}, swing <= 45 deg }} }}"),
+        Roughing::Vcut => {
+            format!("rough vcut {{ {common}\n  {feed}\n  limits {{ {limits}, swing <= 45 deg }} }}")
+        }
         Roughing::Auto => format!(
             "rough auto {{ {common}\n  {feed}\n  limits {{ {limits} }}\n  vcut {{ limits {{ swing <= 45 deg }} }}\n  \
              rect {{ disc = wheel, feed {{ free = 100 mm/s }} }} }}"

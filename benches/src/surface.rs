@@ -1,8 +1,8 @@
 //! Surfaces of many triangles: files of a waved sheet over a stock, and what is asked of it.
 
 use core::fmt::Write as _;
-use vcutc::surface::import::ReadMesh;
-use vcutc::surface::import::stl::stl;
+use vcutc::surface::import::{ReadMesh, stl};
+
 use vcutc::surface::residual::Machined;
 use vcutc::surface::surface::{Accuracy, Placement, Plan, Surface};
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
@@ -21,7 +21,12 @@ pub fn triangles(count: u32) -> Vec<[[f32; 3]; 3]> {
         [x, y, z].map(|value| value as f32)
     };
     let cell = |(i, j): (u32, u32)| {
-        let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+        let [a, b, c, d] = [
+            corner(i, j),
+            corner(i + 1, j),
+            corner(i + 1, j + 1),
+            corner(i, j + 1),
+        ];
         [[a, b, c], [a, c, d]]
     };
     let places = (0..cells).flat_map(|j| (0..cells).map(move |i| (i, j)));
