@@ -291,9 +291,10 @@ impl<'a> Fields<'a> {
         reports.push(diagnostic.fix(title, self.insertion.at, self.insertion.text(&sample)))
     }
 
-    /// Offers to add a field with a value.
-    pub fn offer(&self, diagnostic: Diagnostic, title: impl Into<String>, field: &str) -> Diagnostic {
-        diagnostic.fix(title, self.insertion.at, self.insertion.text(field))
+    /// Offers to add a field with a value, which follows the lead of the title as it has to be written.
+    pub fn offer(&self, diagnostic: Diagnostic, lead: &str, field: &str) -> Diagnostic {
+        let text = self.insertion.text(field);
+        diagnostic.fix(format!("{lead} `{}`", text.trim()), self.insertion.at, text)
     }
 
     fn unknown_field(&self, name: &Spanned<String>) -> (Diagnostic, Vec<&'static str>) {

@@ -158,7 +158,7 @@ fn without_free(rect: &Block, session: &mut Session<'_>) -> Reported {
         "here",
     );
     let sample = "feed { free = 100 mm/s }";
-    let diagnostic = fields.offer(diagnostic, format!("add it, for example `{sample}`"), sample);
+    let diagnostic = fields.offer(diagnostic, "add it, for example", sample);
     session.reports.push(diagnostic)
 }
 

@@ -109,7 +109,9 @@ pub(super) fn part(
     };
     let seat = Seat {
         mesh: &mesh,
+        word: named.kind.node.word(),
         placement,
+        units,
         stock: stock.node,
         fields: &fields,
         given: fields.value("place")?.map(|expr| expr.span),
@@ -151,7 +153,7 @@ fn without_unit(path: &Spanned<String>, fields: &Fields<'_>, session: &mut Sessi
         "numbers without a unit",
     )
     .note("STL, OBJ and PLY files do not state one");
-    let diagnostic = fields.offer(diagnostic, "state it, for example `unit = mm`", "unit = mm");
+    let diagnostic = fields.offer(diagnostic, "state it, for example", "unit = mm");
     session.reports.push(diagnostic)
 }
 

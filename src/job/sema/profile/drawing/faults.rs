@@ -140,7 +140,7 @@ impl Told<'_> {
         )
         .and(self.span(place), "no unit of length here");
         self.fields
-            .offer(diagnostic, "state it, for example `unit = mm`", "unit = mm")
+            .offer(diagnostic, "state it, for example", "unit = mm")
     }
 
     /// The outline is closed, and nothing says which side counts.
@@ -158,7 +158,7 @@ impl Told<'_> {
             format!("a ring from x = {} to x = {}", mm(low), mm(high)),
         );
         self.fields
-            .offer(diagnostic, "use its upper side, `side = upper`", "side = upper")
+            .offer(diagnostic, "use its upper side,", "side = upper")
     }
 
     /// The strokes are no single chain.
