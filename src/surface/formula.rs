@@ -30,6 +30,9 @@ const MOST_BOXES: usize = 4_000_000;
 const NARROWEST: f64 = 1e-7;
 const NARROWEST_SHARE: f64 = 1e-13;
 
+/// Boxes of a size that are followed to the roughest place: large boxes may look rough for want of knowledge only.
+const MOST_FOLLOWED: usize = 16;
+
 /// Why a formula does not make a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FormulaError {
@@ -76,22 +79,17 @@ pub type Formula<'a> = dyn Fn(OnPlane<Interval>, OnPlane<Interval>) -> Option<On
 /// # Errors
 /// See [`FormulaError`].
 pub fn formula(f: &Formula<'_>, plan: Plan, tolerance: Length) -> Result<Mesh, FormulaError> {
-    let (width, depth) = (plan.width.to_mm(), plan.depth.to_mm());
-    let proper = |size: f64| size > 0.0 && size <= LARGEST_COORDINATE;
-    if !(proper(width) && proper(depth)) {
-        return Err(FormulaError::BadPlan);
-    }
+    let whole = Region::whole(plan)?;
     let tolerance = tolerance.to_mm();
     if tolerance.partial_cmp(&0.0) != Some(core::cmp::Ordering::Greater) {
         return Err(FormulaError::TooFine);
     }
+    // A step or a pole shows on the way to the roughest place, long before the boxes of the whole plan are used up.
+    whole.roughest(f, tolerance)?;
     let mut corners = Vec::new();
     let mut triangles = Vec::new();
     // Boxes still to do, the next one last.
-    let mut boxes = vec![Region {
-        low: [0.0, 0.0],
-        high: [width, depth],
-    }];
+    let mut boxes = vec![whole];
     let mut looked_at = 0;
     while let Some(region) = boxes.pop() {
         looked_at += 1;
@@ -111,15 +109,20 @@ pub fn formula(f: &Formula<'_>, plan: Plan, tolerance: Length) -> Result<Mesh, F
                 triangles.extend(split([first, first + 1, first + 2, first + 3], heights));
             }
             Verdict::Halve(axis) => {
-                let middle = region.low[axis] + (region.high[axis] - region.low[axis]) / 2.0;
-                let (mut first, mut second) = (region, region);
-                first.high[axis] = middle;
-                second.low[axis] = middle;
+                let [first, second] = region.halves(axis);
                 boxes.extend([second, first]);
             }
         }
     }
     Mesh::new(corners, triangles).map_err(|_| FormulaError::TooFine)
+}
+
+/// The place of the plan where a formula asks for the smallest boxes, in mm: the middle of the box that is found by following
+/// the roughest halves.
+#[must_use]
+pub fn roughest(f: &Formula<'_>, plan: Plan, tolerance: Length) -> Option<[f64; 2]> {
+    let region = Region::whole(plan).ok()?.roughest(f, tolerance.to_mm());
+    region.ok().map(Region::middle)
 }
 
 /// A box of the plan.
@@ -137,6 +140,71 @@ enum Verdict {
 }
 
 impl Region {
+    fn whole(plan: Plan) -> Result<Self, FormulaError> {
+        let high = [plan.width.to_mm(), plan.depth.to_mm()];
+        match high.iter().all(|&size| size > 0.0 && size <= LARGEST_COORDINATE) {
+            true => Ok(Self { low: [0.0; 2], high }),
+            false => Err(FormulaError::BadPlan),
+        }
+    }
+
+    fn middle(self) -> [f64; 2] {
+        [0, 1].map(|axis| self.low[axis] + (self.high[axis] - self.low[axis]) / 2.0)
+    }
+
+    fn halves(self, axis: usize) -> [Self; 2] {
+        let middle = self.middle()[axis];
+        let (mut first, mut second) = (self, self);
+        first.high[axis] = middle;
+        second.low[axis] = middle;
+        [first, second]
+    }
+
+    /// The last box to be halved when only the roughest halves are followed. Only boxes of the whole division are judged, so
+    /// what is an error here is one there.
+    fn roughest(self, f: &Formula<'_>, tolerance: f64) -> Result<Self, FormulaError> {
+        let mut last = self;
+        let mut followed = vec![self];
+        loop {
+            let mut halves = Vec::new();
+            for region in followed {
+                if let Verdict::Halve(axis) = region.judge(f, tolerance)? {
+                    let off = |half: Self| half.enclosed(f).map_or(f64::INFINITY, |value| half.off(value));
+                    halves.extend(region.halves(axis).map(|half| (off(half), half)));
+                }
+            }
+            // Stable: of equal ones the first come first.
+            halves.sort_by(|a, b| b.0.total_cmp(&a.0));
+            match halves.first() {
+                Some(&(_, roughest)) => last = roughest,
+                None => return Ok(last),
+            }
+            followed = halves.iter().take(MOST_FOLLOWED).map(|&(_, half)| half).collect();
+        }
+    }
+
+    fn enclosed(self, f: &Formula<'_>) -> Option<OnPlane<Interval>> {
+        let range = |axis: usize| Interval {
+            low: self.low[axis],
+            high: self.high[axis],
+        };
+        f(OnPlane::coordinate(0, range(0)), OnPlane::coordinate(1, range(1)))
+    }
+
+    /// How far the formula may be off two triangles at most.
+    fn off(self, enclosure: OnPlane<Interval>) -> f64 {
+        let [h, k] = [0, 1].map(|axis| self.high[axis] - self.low[axis]);
+        let [xx, xy, yy] = enclosure.curve.map(Interval::magnitude);
+        let [x, y] = enclosure.by.map(Interval::width);
+        let bounds = [
+            (h * h * xx + 2.0 * h * k * xy + k * k * yy) / 8.0,
+            (h * x + k * y) / 2.0,
+            enclosure.value.width(),
+        ];
+        // `min` passes over NaN.
+        bounds.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
     const fn places(self) -> [[f64; 2]; 4] {
         let Self { low, high } = self;
         [low, [high[0], low[1]], [low[0], high[1]], high]
@@ -144,22 +212,10 @@ impl Region {
 
     fn judge(self, f: &Formula<'_>, tolerance: f64) -> Result<Verdict, FormulaError> {
         let [h, k] = [self.high[0] - self.low[0], self.high[1] - self.low[1]];
-        let range = |axis: usize| Interval {
-            low: self.low[axis],
-            high: self.high[axis],
-        };
         let least = |axis: usize| NARROWEST.max(self.low[axis].abs() * NARROWEST_SHARE);
-        let enclosure = f(OnPlane::coordinate(0, range(0)), OnPlane::coordinate(1, range(1)));
+        let enclosure = self.enclosed(f);
         if let Some(enclosure) = enclosure {
-            let [xx, xy, yy] = enclosure.curve.map(Interval::magnitude);
-            let [x, y] = enclosure.by.map(Interval::width);
-            let bounds = [
-                (h * h * xx + 2.0 * h * k * xy + k * k * yy) / 8.0,
-                (h * x + k * y) / 2.0,
-                enclosure.value.width(),
-            ];
-            // `min` passes over NaN.
-            let off = bounds.into_iter().fold(f64::INFINITY, f64::min);
+            let off = self.off(enclosure);
             if off <= tolerance {
                 let mut heights = [0.0; 4];
                 let mut rounding: f64 = 0.0;
@@ -173,6 +229,8 @@ impl Region {
                     return Ok(Verdict::Flat(heights));
                 }
             }
+            let [xx, _, yy] = enclosure.curve.map(Interval::magnitude);
+            let [x, y] = enclosure.by.map(Interval::width);
             let curved = h * h * xx + k * k * yy;
             // Where curvatures are known they say along which side halving helps; else slopes, else the longer side.
             let along_x = if curved.is_finite() && curved > 0.0 && curved < 1e30 {
@@ -196,7 +254,7 @@ impl Region {
         } else if h.max(k) > least(0).max(least(1)) {
             return Ok(Verdict::Halve(usize::from(h < k)));
         }
-        let [x, y] = [self.low[0] + h / 2.0, self.low[1] + k / 2.0];
+        let [x, y] = self.middle();
         for place in self.places() {
             value(f, place)?;
         }

@@ -58,6 +58,11 @@ pub fn mm(value: f64) -> String {
     Quantity::length(value).text()
 }
 
+/// A place in mm to the nearest micrometre: what is finer says nothing to people.
+pub fn to_um(value: f64) -> f64 {
+    libm::round(value * 1000.0) / 1000.0 + 0.0
+}
+
 /// A type of the later stages that a quantity turns into.
 pub trait Measured: Copy {
     /// What a value must be to become one.

@@ -5,15 +5,44 @@
 
 use crate::sema::eval::Scope;
 use crate::sema::functions::{self, Height, Over};
+use crate::sema::part::Part;
 use crate::sema::quantity::Quantity;
 use crate::sema::report::Reports;
 use std::cell::Cell;
 use vcutc_diagnostics::source::Spanned;
-use vcutc_geometry::number::Scalar;
+use vcutc_geometry::number::{Interval, Scalar};
 use vcutc_syntax::ast::{Argument, Expr, Operator};
 
-/// Most steps of evaluation that a formula is worth: some seconds.
-const MOST_STEPS: u64 = 30_000_000;
+/// Most steps of evaluation that a formula is worth: some seconds where nothing is optimised.
+const MOST_STEPS: u64 = 8_000_000;
+
+/// Distances in mm at which a height that grows without limit shows, and by how much it grows at least from one to the other:
+/// that of the inverse of a root grows by 32.
+const NEAR: [f64; 2] = [1e-3, 1e-6];
+const GROWTH: f64 = 10.0;
+
+/// Directions in which it is looked for: none along an axis, on which formulas like to change.
+const RING: [[f64; 2]; 8] = [
+    [1.0, 0.3],
+    [0.3, 1.0],
+    [-0.3, 1.0],
+    [-1.0, 0.3],
+    [-1.0, -0.3],
+    [-0.3, -1.0],
+    [0.3, -1.0],
+    [1.0, -0.3],
+];
+
+/// What heights do about a place that triangles do not follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Around {
+    /// They grow without limit.
+    Grows,
+    /// They differ however near they are.
+    Steps,
+    /// Neither shows.
+    Unknown,
+}
 
 /// A part of a formula.
 enum Node {
@@ -44,6 +73,38 @@ impl Compiled {
             root,
             parts: compiler.parts.max(1),
         })
+    }
+
+    /// What the heights do about a place, in mm.
+    pub(super) fn around(&self, place: [f64; 2]) -> Around {
+        let [far, near] = NEAR.map(|distance| self.ring(place, distance));
+        let largest = |heights: &[f64]| {
+            heights
+                .iter()
+                .fold(0.0_f64, |most, height| most.max(height.abs()))
+        };
+        if largest(&near) > GROWTH * largest(&far) {
+            return Around::Grows;
+        }
+        let end = |pick: fn(f64, f64) -> f64| near.iter().copied().reduce(pick).unwrap_or_default();
+        let is_known = near.len() == RING.len();
+        if is_known && end(f64::max) - end(f64::min) > Part::SURFACE_TOLERANCE.to_mm() {
+            return Around::Steps;
+        }
+        Around::Unknown
+    }
+
+    /// The heights at so many mm from a place, where there are any.
+    fn ring(&self, [x, y]: [f64; 2], distance: f64) -> Vec<f64> {
+        let exactly = |axis, value| Height::coordinate(axis, Interval::exactly(value));
+        let heights = RING.iter().filter_map(|[across, along]| {
+            let at = [
+                exactly(0, x + distance * across),
+                exactly(1, y + distance * along),
+            ];
+            self.root.value(at).map(|height| height.value.middle())
+        });
+        heights.collect()
     }
 
     /// The formula with a bound on how often it is evaluated.
@@ -167,7 +228,6 @@ mod tests {
     use crate::sema::names::Names;
     use crate::sema::report::Checked;
     use vcutc_diagnostics::source::SourceMap;
-    use vcutc_geometry::number::Interval;
     use vcutc_syntax as syntax;
 
     /// Every function, and operators in all positions.

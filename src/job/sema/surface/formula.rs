@@ -1,18 +1,18 @@
 //! `z(x, y) = ...`: a surface by formula.
 
 use super::Drawn;
-use super::enclosure::Compiled;
+use super::enclosure::{Around, Compiled};
 use crate::sema::dimension::Dimension;
 use crate::sema::eval::{Scope, walk};
 use crate::sema::part::{Part, Sampling, Strip};
-use crate::sema::quantity::{Quantity, mm};
+use crate::sema::quantity::{Quantity, mm, to_um};
 use crate::sema::report::{Checked, Reported, Reports};
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::profile::Profile;
-use vcutc_surface::formula::{FormulaError, formula};
+use vcutc_surface::formula::{FormulaError, formula, roughest};
 use vcutc_surface::surface::Surface;
 use vcutc_syntax::ast::Expr;
 
@@ -37,7 +37,8 @@ impl Written<'_> {
 
     fn place(&self, [x, y]: [f64; 2]) -> String {
         let [across, along] = self.variables;
-        format!("{} = {}, {} = {}", across.node, mm(x), along.node, mm(y))
+        let [x, y] = [x, y].map(|part| mm(to_um(part)));
+        format!("{} = {x}, {} = {y}", across.node, along.node)
     }
 
     /// Says why there is no height at a place, both in mm.
@@ -46,7 +47,11 @@ impl Written<'_> {
         let mut why = Reports::default();
         let outcome = self.height(place, scope, &mut why);
         let diagnostic = match (outcome, why.into_vec().into_iter().next()) {
-            (Err(_), Some(reason)) => reason.note(format!("this is so at {}", self.place(place))),
+            // A value that is missing at one place may exist at others; names and dimensions are the same everywhere.
+            (Err(_), Some(reason)) if reason.code == Code::NotFinite => {
+                reason.note(format!("this is so at {}", self.place(place)))
+            }
+            (Err(_), Some(reason)) => reason,
             _ => Diagnostic::new(
                 Code::NotFinite,
                 format!("the formula has no value near {}", self.place(place)),
@@ -119,26 +124,57 @@ fn surface(
         Ok(mesh) => {
             super::made(&mesh, stock.node).map_err(|error| reports.push(super::not_made(error, span)))
         }
-        Err(_) if meter.is_used_up() => Err(too_rough(span, reports)),
-        Err(FormulaError::NoValue { x, y }) => Err(written.without_value([x, y], scope, reports)),
-        Err(FormulaError::Jump { x, y }) => Err(reports.push(
-            Diagnostic::new(
-                Code::ImpossibleSurface,
-                format!("the formula steps at {}", written.place([x, y])),
-                span,
-                "a surface by formula has no vertical steps",
-            )
-            .help("replace the step by a steep ramp, for example over 0.1 mm"),
-        )),
-        Err(FormulaError::BadPlan | FormulaError::TooFine) => Err(too_rough(span, reports)),
+        Err(FormulaError::NoValue { x, y }) if !meter.is_used_up() => match compiled.around([x, y]) {
+            Around::Unknown => Err(written.without_value([x, y], scope, reports)),
+            around => Err(reports.push(broken(written, [x, y], around))),
+        },
+        Err(FormulaError::Jump { x, y }) => {
+            Err(reports.push(broken(written, [x, y], compiled.around([x, y]))))
+        }
+        Err(_) => {
+            let meter = compiled.metered();
+            let place = roughest(
+                &|x, y| meter.value(x, y),
+                super::plan_of(stock.node),
+                Part::SURFACE_TOLERANCE,
+            );
+            Err(reports.push(too_rough(written, place)))
+        }
     }
 }
 
-fn too_rough(span: Span, reports: &mut Reports) -> Reported {
-    super::impossible(
+/// What a formula does where it is not continuous, or not for all that is known.
+fn broken(written: &Written<'_>, place: [f64; 2], around: Around) -> Diagnostic {
+    let shown = written.place(place);
+    let (headline, label, help) = match around {
+        Around::Grows => (
+            format!("the height of the formula grows without limit near {shown}"),
+            "no surface reaches there",
+            "change the formula so that it divides by nothing that becomes zero over the stock and takes no tangent of 90 deg, \
+             or describe the part by a mesh",
+        ),
+        Around::Steps | Around::Unknown => (
+            format!("the formula steps at {shown}"),
+            "a surface by formula has no vertical steps",
+            "replace the step by a slope, as gentle as the part allows, or describe the part by a mesh",
+        ),
+    };
+    Diagnostic::new(Code::ImpossibleSurface, headline, written.value.span, label).help(help)
+}
+
+fn too_rough(written: &Written<'_>, place: Option<[f64; 2]>) -> Diagnostic {
+    let label = match place {
+        Some(place) => format!("it takes too many triangles, most near {}", written.place(place)),
+        None => "it takes too many triangles".to_owned(),
+    };
+    Diagnostic::new(
+        Code::ImpossibleSurface,
         "the formula is too rough to follow within 10 um",
-        span,
-        "millions of triangles are not enough for it",
-        reports,
+        written.value.span,
+        label,
+    )
+    .help(
+        "make it coarser there, for example by a radius instead of an edge or by a gentler slope, or describe the part by a \
+         mesh",
     )
 }
