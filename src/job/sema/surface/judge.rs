@@ -3,7 +3,7 @@
 use super::Drawn;
 use crate::sema::part::{Part, SAME};
 use crate::sema::profile::shape::up;
-use crate::sema::quantity::{mm, number};
+use crate::sema::quantity::{mm, number, to_um};
 use crate::sema::report::{Checked, Reported, Reports};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::Stock;
@@ -57,26 +57,28 @@ pub(super) fn part(
 }
 
 fn tangled(error: Tangled, span: Span, reports: &mut Reports) -> Reported {
-    super::impossible(
-        "the surface is too tangled to work with",
-        span,
-        error.to_string(),
-        reports,
+    let [x, y] = error.place.map(|part| shown(part.to_mm()));
+    reports.push(
+        Diagnostic::new(
+            Code::ImpossibleSurface,
+            "the surface is too tangled to work with",
+            span,
+            format!("too many triangles lie over each other near x = {x}, y = {y}"),
+        )
+        .help("export the upper side of the part only, or with fewer and larger triangles there"),
     )
 }
 
 fn incomplete(coverage: &Coverage, gap: &Gap, span: Span, stock: Spanned<Stock>) -> Diagnostic {
     let plan = stock.node.width.to_mm() * stock.node.depth.to_mm();
     let area = coverage.uncovered.to_mm2();
-    let [x, y] = gap.place.map(Length::to_mm);
-    let [from, to] = [gap.low, gap.high].map(|corner| corner.map(Length::to_mm));
+    let [x, y] = gap.place.map(|part| shown(part.to_mm()));
+    let [from, to] = [gap.low, gap.high].map(|corner| corner.map(|part| shown(part.to_mm())));
     let largest = match coverage.gaps.as_slice() {
-        [_] => format!("nothing lies over x = {}, y = {}", mm(x), mm(y)),
+        [_] => format!("nothing lies over x = {x}, y = {y}"),
         _ => format!(
-            "the largest gap, {} mm2, is at x = {}, y = {}",
-            number(gap.area.to_mm2()),
-            mm(x),
-            mm(y)
+            "the largest gap, {} mm2, is at x = {x}, y = {y}",
+            number(gap.area.to_mm2())
         ),
     };
     Diagnostic::new(
@@ -92,12 +94,14 @@ fn incomplete(coverage: &Coverage, gap: &Gap, span: Span, stock: Spanned<Stock>)
     .and(stock.span, reach(stock.node))
     .note(format!(
         "the gap reaches from x = {} to x = {} and from y = {} to y = {}",
-        mm(from[0]),
-        mm(to[0]),
-        mm(from[1]),
-        mm(to[1])
+        from[0], to[0], from[1], to[1]
     ))
     .help("close the gap, or make the stock as large as the surface")
+}
+
+/// A coordinate in digits that matter.
+fn shown(coordinate: f64) -> String {
+    mm(to_um(coordinate))
 }
 
 /// A percentage in digits that matter.
@@ -127,10 +131,10 @@ pub(super) fn elsewhere(error: SurfaceError, span: Span, stock: Spanned<Stock>) 
     match error {
         SurfaceError::Elsewhere { low, high } => diagnostic.note(format!(
             "it reaches from x = {} to x = {} and from y = {} to y = {}",
-            mm(low.x),
-            mm(high.x),
-            mm(low.y),
-            mm(high.y)
+            shown(low.x),
+            shown(high.x),
+            shown(low.y),
+            shown(high.y)
         )),
         SurfaceError::BadPlan | SurfaceError::OutOfRange => diagnostic,
     }
@@ -146,6 +150,7 @@ fn undercut(coverage: &Coverage, span: Span) -> Option<Diagnostic> {
             span,
             "this part has undercuts",
         )
+        .note("the area is in plan, in all: where several parts of the surface lie under the highest one, each of them counts")
         .note("blades come from above, so what lies under the highest part of the surface stays")
         .help("leave it for another set-up, or turn the part by `place`")
     })
@@ -187,7 +192,12 @@ fn within(
 }
 
 fn outside(headline: &str, place: Point3, by: f64, span: Span, stock: Spanned<Stock>) -> Diagnostic {
-    let label = format!("by up to {}, at x = {}, y = {}", mm(by), mm(place.x), mm(place.y));
+    let label = format!(
+        "by up to {}, at x = {}, y = {}",
+        mm(up(by)),
+        shown(place.x),
+        shown(place.y)
+    );
     Diagnostic::new(Code::SurfaceOutsideStock, headline, span, label).and(
         stock.span,
         format!(
