@@ -22,6 +22,7 @@ pub mod lexical;
 mod mistakes;
 mod place;
 mod reports;
+mod short_forms;
 mod slips;
 #[cfg(test)]
 mod tests;

@@ -6,7 +6,7 @@
 use super::bad::{Bad, Fault, shown};
 use super::grammar::{Mismatch, Rule, read};
 use super::lexical::{Bracket, Token, TokenKind, tokens};
-use super::slips;
+use super::{short_forms, slips};
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -91,6 +91,8 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
             let gap = bad.span(first.end..value.start);
             is_plain_name(word).then(|| missing_equals(word, bad.span(value.start..value.end), gap))
         }
+        ("surface", Some((TokenKind::Symbol, "="))) if !is_entry => short_forms::surface(bad),
+        ("at", Some(_)) if is_entry => short_forms::station(bad),
         ("profile", Some((TokenKind::Symbol, "="))) if !is_entry => Some(
             Diagnostic::new(
                 Code::UnexpectedText,
