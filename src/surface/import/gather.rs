@@ -78,7 +78,7 @@ impl Gather {
         let Some(centre) = centre else {
             return Err(fault(
                 range,
-                "this face has hollow corners; export triangles instead of polygons",
+                "this face has concave corners; export triangles instead of polygons",
             ));
         };
         named.rotate_left(centre);

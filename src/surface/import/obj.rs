@@ -12,7 +12,7 @@ use super::{DataError, ReadMesh, fault};
 ///
 /// # Errors
 /// Corners that are no numbers or out of range, faces that name corners which do not exist, that pass a corner twice, or that
-/// are hollow; a file without a triangle that has an area.
+/// are concave; a file without a triangle that has an area.
 pub fn obj(bytes: &[u8]) -> Result<ReadMesh, DataError> {
     let mut gather = Gather::default();
     let mut named = Vec::new();

@@ -10,7 +10,7 @@
 //! that slow.
 
 use super::gather::Gather;
-use super::words::{Word, Words};
+use super::words::{Word, Words, lines};
 use super::{DataError, ReadMesh, fault};
 use crate::mesh::MOST_TRIANGLES;
 use vcutc_backend_api::geometry::Point3;
@@ -36,6 +36,14 @@ pub fn stl(bytes: &[u8]) -> Result<ReadMesh, DataError> {
         binary(bytes)?
     } else if is_text(bytes) {
         text(bytes)?
+    } else if let Some(other) = other_form(bytes) {
+        return Err(fault(
+            0..bytes.len().min(HEAD),
+            format!(
+                "these are the contents of a file in {other}: give it a name that ends in `.{}`",
+                other.to_ascii_lowercase()
+            ),
+        ));
     } else if let (Some(count), Some(promised)) = (count, promised) {
         return Err(fault(
             80..HEAD,
@@ -56,7 +64,36 @@ pub fn stl(bytes: &[u8]) -> Result<ReadMesh, DataError> {
 /// Whether a file that is not binary looks like text: it begins with `solid` and a header's length is without zero bytes.
 fn is_text(bytes: &[u8]) -> bool {
     let start = bytes.get(..HEAD).unwrap_or(bytes);
-    Words::new(start, 0).next().is_some_and(|word| word.is("solid")) && !start.contains(&0)
+    let first = Words::new(start, after_mark(bytes)).next();
+    first.is_some_and(|word| word.is("solid")) && !start.contains(&0)
+}
+
+/// Where a text begins: some programs put a byte order mark before it.
+fn after_mark(bytes: &[u8]) -> usize {
+    const MARK: &[u8] = b"\xEF\xBB\xBF";
+    if bytes.starts_with(MARK) { MARK.len() } else { 0 }
+}
+
+/// The form of a file of triangles that is no STL, if it begins as another one does.
+fn other_form(bytes: &[u8]) -> Option<&'static str> {
+    const LINES: usize = 100;
+    let start = after_mark(bytes);
+    let first = |line: Word<'_>| Words::new(bytes.get(..line.range().end)?, line.start).next();
+    let mut words = lines(bytes.get(start..)?).take(LINES).filter_map(|line| {
+        first(Word {
+            start: line.start + start,
+            ..line
+        })
+    });
+    let named = words.next()?;
+    if named.bytes == b"ply" {
+        return Some("PLY");
+    }
+    let is_corner = |word: Word<'_>| word.bytes == b"v";
+    let is_plain = bytes
+        .get(..bytes.len().min(HEAD))
+        .is_some_and(|head| !head.contains(&0));
+    (is_plain && (is_corner(named) || words.any(is_corner))).then_some("OBJ")
 }
 
 /// A corner as the file has it.
@@ -104,7 +141,7 @@ fn check_count(triangles: usize, at: usize) -> Result<(), DataError> {
 
 fn text(bytes: &[u8]) -> Result<Vec<Single>, DataError> {
     let mut corners = Vec::new();
-    let mut words = Words::new(bytes, 0);
+    let mut words = Words::new(bytes, after_mark(bytes));
     while let Some(word) = words.next() {
         if word.is("solid") || word.is("endsolid") {
             // Names may be anything up to the end of the line.

@@ -160,13 +160,33 @@ fn odd_triangles_are_left_out_and_told() {
 }
 
 #[test]
+fn texts_may_begin_with_a_byte_order_mark() {
+    let plain = text_stl(&two());
+    let marked = [b"\xEF\xBB\xBF".as_slice(), &plain].concat();
+    assert_eq!(stl(&marked), stl(&plain));
+}
+
+#[test]
+fn other_files_named_as_stl_are_called_by_their_form() {
+    let told = |bytes: &[u8]| stl(bytes).unwrap_err().message;
+    for mark in ["", "\u{feff}"] {
+        assert!(told(format!("{mark}{}", text_obj()).as_bytes()).contains("`.obj`"));
+        assert!(told(format!("{mark}{}", text_ply()).as_bytes()).contains("`.ply`"));
+    }
+    // A binary file that was cut off is none of them.
+    let mut cut = binary_stl("v of a vane", &two());
+    cut.pop();
+    assert!(told(&cut).contains("promises 2"));
+}
+
+#[test]
 fn polygons_become_fans() {
     let corners = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nv 2 8 0\nv 1 1 1\n";
     let read = |faces: &str| obj((corners.to_owned() + faces).as_bytes());
     assert_eq!(read("f 1 2 3 6 5").unwrap().mesh.triangles().len(), 3);
     // Hollow at corner 4, which sees all others.
-    let hollow = read("f 1 2 3 4 5").unwrap();
-    let area: f64 = soup(&hollow.mesh)
+    let concave = read("f 1 2 3 4 5").unwrap();
+    let area: f64 = soup(&concave.mesh)
         .iter()
         .map(|[a, b, c]| ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0)
         .sum();
@@ -178,7 +198,7 @@ fn polygons_become_fans() {
     assert_eq!(read("f 1 2 2 3").unwrap().mesh.triangles(), [[0, 1, 2]]);
     let comb = "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 8 9 0\nv 8 1 0\nv 5 1 0\nv 5 9 0\nv 4 9 0\nv 4 1 0\nv 1 1 0\nv 1 9 0\nv 0 9 0\n\
                 f 1 2 3 4 5 6 7 8 9 10 11 12";
-    assert!(obj(comb.as_bytes()).unwrap_err().message.contains("hollow"));
+    assert!(obj(comb.as_bytes()).unwrap_err().message.contains("concave"));
 }
 
 /// The bytes that a refusal points at, and why.

@@ -100,8 +100,8 @@ pub(super) fn part(
         (SurfaceFile::Mesh, None) => return Err(without_unit(named.path, &fields, session)),
     };
     let mesh = match named.kind.node {
-        SurfaceFile::Mesh => triangles(named.path, unit, session)?,
-        SurfaceFile::Grid => heights(named.path, session)?,
+        SurfaceFile::Mesh => triangles(named, unit, session)?,
+        SurfaceFile::Grid => heights(named, session)?,
     };
     let placement = Placement {
         frame: place?,
@@ -170,18 +170,37 @@ fn reader_of(path: &str) -> Option<Read> {
     }
 }
 
+/// Whether a file is a table by its ending.
+fn is_table(path: &str) -> bool {
+    let ending = path
+        .rsplit_once('.')
+        .map(|(_, ending)| ending.to_ascii_lowercase());
+    ending.is_some_and(|ending| matches!(ending.as_str(), "csv" | "tsv" | "txt" | "dat" | "xyz"))
+}
+
+/// A name that does not end as those of meshes do.
+fn no_mesh(named: &Named<'_>) -> Diagnostic {
+    let path = named.path;
+    let diagnostic = Diagnostic::new(
+        Code::BadMesh,
+        format!("`{}` is not a mesh in a form that the compiler reads", path.node),
+        path.span,
+        "not a file in STL, OBJ or PLY",
+    )
+    .note("the ending of the name says what a file holds: .stl, .obj, .ply");
+    if is_table(&path.node) {
+        let title = "if it is a table of x, y and z, write `grid`";
+        diagnostic.fix(title, named.kind.span, "grid")
+    } else {
+        diagnostic.help("export the part as STL")
+    }
+}
+
 /// The triangles of a file, in its own unit, which is so many mm.
-fn triangles(path: &Spanned<String>, unit: f64, session: &mut Session<'_>) -> Checked<Mesh> {
+fn triangles(named: &Named<'_>, unit: f64, session: &mut Session<'_>) -> Checked<Mesh> {
+    let path = named.path;
     let Some(read) = reader_of(&path.node) else {
-        let diagnostic = Diagnostic::new(
-            Code::BadMesh,
-            format!("`{}` is not a mesh in a form that the compiler reads", path.node),
-            path.span,
-            "not a file in STL, OBJ or PLY",
-        )
-        .note("the ending of the name says what a file holds: .stl, .obj, .ply")
-        .help("export the part as STL");
-        return Err(session.reports.push(diagnostic));
+        return Err(session.reports.push(no_mesh(named)));
     };
     let resolved = join_path(session.sources.name(path.span.file), &path.node);
     let bytes = match session.loader.load_data(&resolved, LARGEST_MESH_FILE) {
@@ -265,7 +284,18 @@ fn remarked(remarks: &Remarks, path: &Spanned<String>, unit: f64) -> Option<Diag
 }
 
 /// The heights of a file on a grid, in its own unit.
-fn heights(path: &Spanned<String>, session: &mut Session<'_>) -> Checked<Mesh> {
+fn heights(named: &Named<'_>, session: &mut Session<'_>) -> Checked<Mesh> {
+    let path = named.path;
+    if reader_of(&path.node).is_some() {
+        let diagnostic = Diagnostic::new(
+            Code::BadData,
+            format!("`{}` is a mesh, not heights on a grid", path.node),
+            path.span,
+            "a file of triangles by its name",
+        );
+        let diagnostic = diagnostic.fix("write `mesh`", named.kind.span, "mesh");
+        return Err(session.reports.push(diagnostic));
+    }
     let (resolved, bytes) = bytes_of(path, session)?;
     let file = as_text(&resolved, bytes, path, session)?;
     let text = session.sources.get(file).map_or("", |file| file.text.as_str());
