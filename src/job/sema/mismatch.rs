@@ -69,7 +69,11 @@ impl Mismatch<'_> {
     fn of_expression(&self, diagnostic: Diagnostic) -> Diagnostic {
         let unit = self.wanted.unit();
         let diagnostic = if self.found.dimension == Dimension::PURE && !unit.contains(['*', '^']) {
-            diagnostic.help(format!("multiply it by `1 {unit}`"))
+            let radians = match self.wanted {
+                Dimension::ANGLE => ", or by `1 rad` where it counts radians",
+                _ => "",
+            };
+            diagnostic.help(format!("multiply it by `1 {unit}`{radians}"))
         } else {
             let factor = self.wanted.over(self.found.dimension);
             match factor.filter(|factor| factor.unit().len() <= 8 && *factor != Dimension::PURE) {

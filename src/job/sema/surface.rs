@@ -16,6 +16,7 @@ use super::fields::{Place, curve_words, head_span};
 use super::gather::Placed;
 use super::kind::Kind;
 use super::part::Part;
+use super::quantity::mm;
 use super::report::{Checked, Reported, Reports};
 use super::session::Session;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
@@ -57,7 +58,7 @@ pub(crate) fn check(
     scope: Scope<'_>,
     session: &mut Session<'_>,
 ) -> Checked<Part> {
-    let source = sort(block, place, session)?;
+    let source = sort(block, place, stock, session)?;
     let stock = stock?;
     let span = source.span();
     let drawn = match source {
@@ -157,11 +158,16 @@ pub(crate) fn must_be_followed(
 }
 
 /// The one source among the entries.
-fn sort<'a>(block: &'a Block, place: Place, session: &mut Session<'_>) -> Checked<Source<'a>> {
+fn sort<'a>(
+    block: &'a Block,
+    place: Place,
+    stock: Checked<Spanned<Stock>>,
+    session: &mut Session<'_>,
+) -> Checked<Source<'a>> {
     let mut found: Option<Source<'a>> = None;
     let mut fault = None;
     for entry in &block.entries {
-        let source = match source_of(entry) {
+        let source = match source_of(entry, stock) {
             Ok(source) => source,
             Err(wrong) => {
                 fault = Some(session.reports.push(*wrong));
@@ -183,7 +189,7 @@ fn sort<'a>(block: &'a Block, place: Place, session: &mut Session<'_>) -> Checke
     }
 }
 
-fn source_of(entry: &Entry) -> Result<Source<'_>, Box<Diagnostic>> {
+fn source_of(entry: &Entry, stock: Checked<Spanned<Stock>>) -> Result<Source<'_>, Box<Diagnostic>> {
     let wrong = match entry {
         Entry::SurfaceFile {
             kind,
@@ -220,7 +226,10 @@ fn source_of(entry: &Entry) -> Result<Source<'_>, Box<Diagnostic>> {
         )
         .note(FORMS),
         Entry::Curve { curve, span } => misplaced(curve_words(curve), *span)
-            .help("draw it in `profile { ... }`, or in a profile of a `loft`: `loft { at 0 mm { ... } at 1000 mm { ... } }`"),
+            .help(format!(
+                "draw it in `profile {{ ... }}`, or in a profile of a `loft`: `loft {{ at 0 mm {{ ... }} at {} {{ ... }} }}`",
+                stock.map_or_else(|_| "1000 mm".to_owned(), |stock| mm(stock.node.depth.to_mm()))
+            )),
         Entry::Row { row, span, .. } => misplaced(&format!("`{}`", row.node.word()), *span).note(FORMS),
         Entry::Station { word, at, .. } => misplaced("`at`", word.to(at.span))
             .help("move it into a `loft { ... }` with another one"),

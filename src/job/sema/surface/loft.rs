@@ -34,12 +34,14 @@ pub(super) fn drawn(
     session: &mut Session<'_>,
 ) -> Checked<Drawn> {
     let head = head_span(block);
-    let stations = sort(block, session)?;
+    let depth = stock.node.depth;
+    let typical = mm(depth.to_mm());
+    let stations = sort(block, depth, session)?;
     let read: Vec<Checked<(Length, Profile)>> = stations
         .iter()
         .map(|station| {
             let mut reader = Reader::new(scope, &mut session.reports);
-            let at = reader.within(station.at, COORDINATE, "`at`", Some("1000 mm"));
+            let at = reader.within(station.at, COORDINATE, "`at`", Some(&typical));
             let place = Place {
                 head: station.head,
                 whole: station.whole,
@@ -73,7 +75,7 @@ pub(super) fn drawn(
             )
             .help("write them in the order of y, each once")
         }
-        Err(LoftError::TooFew) => too_few(head),
+        Err(LoftError::TooFew) => too_few(head, depth),
         Err(LoftError::Tolerance) => {
             return Err(super::impossible(
                 "the loft is too twisted to follow within 10 um",
@@ -95,7 +97,7 @@ fn same<'p>(profiles: &[(Length, &'p Profile)]) -> Option<&'p Profile> {
         .then_some(*first)
 }
 
-fn sort<'a>(block: &'a Block, session: &mut Session<'_>) -> Checked<Vec<Station<'a>>> {
+fn sort<'a>(block: &'a Block, depth: Length, session: &mut Session<'_>) -> Checked<Vec<Station<'a>>> {
     let mut stations = Vec::new();
     let mut fault = None;
     for entry in &block.entries {
@@ -128,23 +130,27 @@ fn sort<'a>(block: &'a Block, session: &mut Session<'_>) -> Checked<Vec<Station<
             span,
             "a loft contains profiles and nothing else",
         );
-        fault = Some(session.reports.push(diagnostic.help(
-            "put the pieces of a profile into `at y { ... }`, for example `at 1000 mm { start (0 mm, 20 mm) ... }`",
-        )));
+        fault = Some(session.reports.push(diagnostic.help(format!(
+            "put the pieces of a profile into `at y {{ ... }}`, for example `at {} {{ start (0 mm, 20 mm) ... }}`",
+            mm(depth.to_mm())
+        ))));
     }
     match fault.or_else(|| session.damage_at(block.span)) {
         Some(reported) => Err(reported),
-        None if stations.len() < 2 => Err(session.reports.push(too_few(head_span(block)))),
+        None if stations.len() < 2 => Err(session.reports.push(too_few(head_span(block), depth))),
         None => Ok(stations),
     }
 }
 
-fn too_few(head: Span) -> Diagnostic {
+fn too_few(head: Span, depth: Length) -> Diagnostic {
     Diagnostic::new(
         Code::MissingField,
         "a loft needs two profiles or more",
         head,
         "too few profiles",
     )
-    .help("write one for each end of the stock: `loft { at 0 mm { ... } at 1000 mm { ... } }`")
+    .help(format!(
+        "write one for each end of the stock: `loft {{ at 0 mm {{ ... }} at {} {{ ... }} }}`",
+        mm(depth.to_mm())
+    ))
 }
