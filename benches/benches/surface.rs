@@ -28,8 +28,8 @@ fn all(criterion: &mut Criterion) {
     group.bench_function("235 sections", |bench| {
         bench.iter(|| surface::sections(black_box(&placed), 235));
     });
-    group.bench_function("residual of 150 teeth", |bench| {
-        bench.iter(|| surface::residual(black_box(&placed), 150));
+    group.bench_function("what 150 teeth leave", |bench| {
+        bench.iter(|| surface::standing(black_box(&placed), 150));
     });
     group.finish();
 }

@@ -99,7 +99,7 @@ pub fn sections(surface: &Surface, count: u32) -> usize {
 
 /// What a saw-tooth of this many teeth over its shadow leaves, in litres.
 #[must_use]
-pub fn residual(surface: &Surface, teeth: u32) -> f64 {
+pub fn standing(surface: &Surface, teeth: u32) -> f64 {
     let shadow = surface.shadow().expect("it has no gaps");
     let points = (0..=2 * teeth).map(|k| {
         let x = PLAN[0] * f64::from(k) / f64::from(2 * teeth);
@@ -107,6 +107,6 @@ pub fn residual(surface: &Surface, teeth: u32) -> f64 {
         vcutc::geometry::curve::Point2::new(x, shadow.height(x) + above)
     });
     let machined = Machined::new(points.collect()).expect("from left to right");
-    let residual = surface.residual(&machined).expect("it is a sheet");
-    residual.expect("it has an area").volume.to_litres()
+    let standing = surface.standing(&machined).expect("it is a sheet");
+    standing.expect("it has an area").volume.to_litres()
 }

@@ -5,13 +5,13 @@
 
 use vcutc_geometry::curve::Point2;
 use vcutc_job::Part;
-use vcutc_surface::residual::{Machined, Residual, Volume};
+use vcutc_surface::residual::{Machined, Standing, Volume};
 
 /// What is left over a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeftOver {
     /// All that is left.
-    pub residual: Residual,
+    pub all: Standing,
     /// What of it lies below the shadow.
     pub shaded: Volume,
 }
@@ -23,8 +23,8 @@ impl LeftOver {
         let shadow = part.tessellated(Part::TOLERANCE)?;
         let below = |corners: &[Point2]| Machined::new(corners.to_vec()).ok();
         // Checking a job refuses surfaces that are too tangled for this.
-        let residual = surface.residual(&below(contour)?).ok()??;
-        let shaded = surface.volume_below(&below(shadow.points())?).ok()?;
-        Some(Self { residual, shaded })
+        let all = surface.standing(&below(contour)?).ok()??;
+        let shaded = surface.standing(&below(shadow.points())?).ok()??.volume;
+        Some(Self { all, shaded })
     }
 }

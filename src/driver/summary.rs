@@ -78,16 +78,16 @@ pub fn summary(
 
 /// Adds what is left over a part that changes along y. The lines before are about its shadow.
 pub(crate) fn with_surface(mut lines: Vec<String>, left_over: Option<&LeftOver>) -> Vec<String> {
-    let Some(LeftOver { residual, shaded }) = left_over else {
+    let Some(LeftOver { all, shaded }) = left_over else {
         return lines;
     };
-    let Over { height, place } = residual.highest;
+    let Over { height, place } = all.highest;
     let [x, y] = place.map(|length| format!("{:.1} mm", length.to_mm()));
     lines.push(row(
         "surface",
         &format!(
             "{} stay on the part, at most {:.2} mm above it at x {x}, y {y}",
-            litres(residual.volume),
+            litres(all.volume),
             height.to_mm()
         ),
     ));

@@ -161,12 +161,24 @@ impl<'b> Writer<'b> {
     /// From wherever the program is to the start of the first cut of the stage.
     fn begin(&mut self, pass: &Pass, feed: Feed) {
         let way = layer_of(pass.site).unwrap_or(pass.site);
+        self.rise_to_turn(way);
         self.travel(way, self.above(pass, feed), pass, feed);
         for drive in self.stage.drives {
             self.builder.op(way, drive.switched(Switch::On));
         }
         self.builder.op(way, Action::AwaitReady);
         self.approach(pass);
+    }
+
+    /// An operation before with the same blade may have left it where it has no room to turn: then straight up first.
+    fn rise_to_turn(&mut self, way: Site) {
+        let Some(tip) = self.builder.tip() else { return };
+        let top = self.builder.stock().height;
+        if Length::mm(tip.z) - self.stage.hang < top && tip.z < self.safe {
+            let to = Point3 { z: self.safe, ..tip };
+            let feed = self.travel;
+            self.go(way, to, Action::Retract { to, feed });
+        }
     }
 
     /// On the safe plane to the start of a cut.

@@ -65,6 +65,15 @@ pub struct Between {
     pub most: Length,
 }
 
+/// How much is left over a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Standing {
+    /// The largest height of the machined surface above the part, and where.
+    pub highest: Over,
+    /// What is left.
+    pub volume: Volume,
+}
+
 /// What is left over a surface. The surface counts as its triangles, without their tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residual {
@@ -111,12 +120,19 @@ impl Surface {
         }))
     }
 
-    /// The volume of [`Surface::residual`] alone.
+    /// What [`Surface::residual`] says without distances, which take it longest.
     ///
     /// # Errors
     /// As there.
-    pub fn volume_below(&self, machined: &Machined) -> Result<Volume, Tangled> {
-        self.sum_below(machined).map(|sum| Volume(sum.volume))
+    pub fn standing(&self, machined: &Machined) -> Result<Option<Standing>, Tangled> {
+        let sum = self.sum_below(machined)?;
+        Ok(sum.highest.map(|(height, place)| Standing {
+            highest: Over {
+                height: Length::mm(height),
+                place: place.map(Length::mm),
+            },
+            volume: Volume(sum.volume),
+        }))
     }
 
     fn sum_below(&self, machined: &Machined) -> Result<Sum, Tangled> {

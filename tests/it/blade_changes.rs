@@ -129,7 +129,7 @@ fn changes_that_were_edited_are_found() {
 #[test]
 fn a_part_that_begins_with_another_tool_is_found() {
     let cells = std::fs::read_to_string(root().join("tests/jobs/two_tools/cells.vcut")).unwrap();
-    let in_parts = cells.replacen("krl {", "krl {\n    lines_per_part = 60", 1);
+    let in_parts = cells.replacen("krl        {", "krl {\n    lines_per_part = 60", 1);
     assert_ne!(cells, in_parts);
     let bench = Bench::of(&files().with("cells.vcut", in_parts), "bench", "krl");
     assert!(bench.is_clear(&bench.written.files));

@@ -295,3 +295,20 @@ fn tracks_keep_to_a_direction() {
         assert_eq!((there.len(), back.len()), (forwards, backwards), "{direction}");
     }
 }
+
+/// The disc that has just freed strips leans farther for finishing: where it was left it has no room to turn, so it goes up first.
+#[test]
+fn a_disc_that_stays_in_hand_turns_above_the_stock() {
+    let text = "job \"m\"
+        stock { size = (60 mm, 100 mm, 50 mm) }
+        profile { start (0 mm, 29 mm) line to (60 mm, 28 mm) }
+        blade dagger { cutting_length = 12.543 mm, half_apex = 7.13 deg, thickness = 0 mm, edges = double }
+        blade wheel = disc { radius = 25 mm, thickness = 1 mm, depth = 11 mm, width = 40 mm, spin = 3000 rev/min
+            body (1 mm, 8 mm) (60 mm, 25 mm) }
+        rough rect { blade = dagger, disc = wheel, rake = 60 deg, allowance = 0.3 mm, limits { scallop <= 5 mm }, layer = 9 mm
+            feed { cut = 10 m/min, free = 6 m/min, travel = 500 mm/s, reorient = 60 deg/s }, clearance = 10 mm }
+        finish disc { blade = wheel, limits { scallop <= 0.3 mm, lead <= 25 deg }, over_hub = 0 mm
+            feed { cut = 100 mm/s, travel = 300 mm/s, reorient = 60 deg/s }, clearance = 10 mm }";
+    let outcome = proven(text);
+    assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
+}

@@ -266,8 +266,8 @@ fn no_cut_enters_what_triangles_stand_for() {
             highest = highest.max(height);
         }
     }
-    let Over { height, place } = left.residual.highest;
-    let found = left.residual.volume.to_mm3();
+    let Over { height, place } = left.all.highest;
+    let found = left.all.volume.to_mm3();
     assert!((found / volume - 1.0).abs() < 2e-3, "{found} {volume}");
     assert!(
         (highest..highest + 0.5).contains(&height.to_mm()),

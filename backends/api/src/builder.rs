@@ -55,6 +55,16 @@ impl ProgramBuilder {
         self.state.place.pose().is_some()
     }
 
+    /// Where the tip is; none at home or wherever the machine was left.
+    #[must_use]
+    #[inline]
+    pub const fn tip(&self) -> Option<Point3> {
+        match self.state.place.pose() {
+            Some(pose) => Some(pose.tip),
+            None => None,
+        }
+    }
+
     /// How the blade is held; none at home or wherever the machine was left.
     #[must_use]
     #[inline]

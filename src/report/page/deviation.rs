@@ -86,12 +86,12 @@ fn figures(subject: Subject<'_>) -> Html {
 /// What is left over a part that changes along y, of which the figures above measure the shadow.
 fn over_surface(left: &LeftOver) -> [(&'static str, String, String); 3] {
     let litres = |volume: Volume| format!("{:.3} l", volume.to_litres());
-    let Over { height, place } = left.residual.highest;
+    let Over { height, place } = left.all.highest;
     let [x, y] = place.map(|length| format!("{:.1} mm", length.to_mm()));
     [
         (
             "left over the surface",
-            litres(left.residual.volume),
+            litres(left.all.volume),
             "all that stands above the part; the figures above measure its shadow along y".to_owned(),
         ),
         (

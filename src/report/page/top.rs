@@ -150,10 +150,10 @@ fn rows(subject: Subject<'_>) -> Vec<Key> {
     rows.push(match &compiled.left_over {
         Some(over) => free(
             "Material left",
-            format!("{:.3} l", over.residual.volume.to_litres()),
+            format!("{:.3} l", over.all.volume.to_litres()),
             format!(
                 "at most {:.2} mm above the surface",
-                over.residual.highest.height.to_mm()
+                over.all.highest.height.to_mm()
             ),
         ),
         None => free(
