@@ -3,7 +3,6 @@
 use super::judge::carried_out;
 use super::*;
 use proptest::prelude::*;
-use vcutc_geometry::offset::offset_up;
 
 /// The largest distance of corners of the contour within a range from the straight line of the part, square to it.
 fn left_between(plan: &PlannedRect, sample: &Sample, from: f64, to: f64) -> f64 {
@@ -26,7 +25,6 @@ proptest! {
     #[test]
     fn residuals_of_straight_slopes(
         low in 0.0..20.0_f64, rise in 5.0..45.0_f64, mirrored: bool, layer in 2.0..10.0_f64, step in 3.0..15.0_f64,
-        allowance in 0.0..2.0_f64,
     ) {
         let height = low + rise + 2.0 * layer;
         let (a, b) = if mirrored { (low + rise, low) } else { (low, low + rise) };
@@ -68,10 +66,5 @@ proptest! {
         if step * sine <= altitude {
             prop_assert!(mixed.counts().strips <= lifted.counts().strips);
         }
-        // And with an allowance that much more.
-        let bound = offset_up(&sample.part, Length::mm(allowance));
-        let work = Work { bound: &bound, allowance: Length::mm(allowance), ..sample.work() };
-        let mixed = plan(work, &blades(), &sizes(Residual::Mixed), 100_000).unwrap();
-        prop_assert!(mixed.left.to_mm() <= altitude + allowance + 1e-6, "{:?} {} {}", mixed.left, altitude, allowance);
     }
 }
