@@ -42,10 +42,10 @@ const BESIDE: f64 = 36.0;
 /// Cells that are nearer to each other than this along x have the same line around them: what stands between two cuts and is higher
 /// than the limit.
 const NEAR: usize = 8;
-/// The least height of a class, in mm: what differs by less is not told apart.
+/// The least height of a class, in mm: smaller differences share a colour.
 const THINNEST: f64 = 0.01;
 
-/// How many cells a map of a stock of this size along x and y should have: they are about square, and as small as can be told apart.
+/// How many cells a map of a stock of this size along x and y should have: they are about square, and as small as can be distinguished.
 #[must_use]
 pub fn cells(size: [f64; 2]) -> [u32; 2] {
     let longest = size[0].max(size[1]);

@@ -2,7 +2,7 @@
 //!
 //! A surface has one source: a file of triangles or of heights (`file`), profiles that it is ruled between (`loft`), or a
 //! formula (`formula`, whose values over boxes `enclosure` works out). All become triangles over the plan of the stock, which
-//! are then held against the stock (`judge`).
+//! are then compared with the stock (`judge`).
 
 mod enclosure;
 pub(crate) mod file;

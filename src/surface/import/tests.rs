@@ -168,15 +168,15 @@ fn texts_may_begin_with_a_byte_order_mark() {
 
 #[test]
 fn other_files_named_as_stl_are_called_by_their_form() {
-    let told = |bytes: &[u8]| stl(bytes).unwrap_err().message;
+    let message = |bytes: &[u8]| stl(bytes).unwrap_err().message;
     for mark in ["", "\u{feff}"] {
-        assert!(told(format!("{mark}{}", text_obj()).as_bytes()).contains("`.obj`"));
-        assert!(told(format!("{mark}{}", text_ply()).as_bytes()).contains("`.ply`"));
+        assert!(message(format!("{mark}{}", text_obj()).as_bytes()).contains("`.obj`"));
+        assert!(message(format!("{mark}{}", text_ply()).as_bytes()).contains("`.ply`"));
     }
     // A binary file that was cut off is none of them.
     let mut cut = binary_stl("v of a vane", &two());
     cut.pop();
-    assert!(told(&cut).contains("promises 2"));
+    assert!(message(&cut).contains("promises 2"));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! A surface held against the stock: it has a height everywhere and lies within.
+//! A surface compared with the stock: it has a height everywhere and lies within.
 
 use super::Drawn;
 use crate::sema::part::{Part, SAME};

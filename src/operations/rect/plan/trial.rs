@@ -191,7 +191,7 @@ impl Trial<'_> {
         }
         let widest = Length::mm(layout.widest());
         let (limit, bound) = wheel.widest_strip(layer);
-        // Rounding may make a strip wider than the step; a step that is too wide is no rounding.
+        // Rounding may make a strip wider than its step, but it does not excuse a step that is too wide itself.
         let is_step = self.choice.sizes.step > limit.to_mm() + TOUCH;
         let spare = if is_step { Length::mm(TOUCH) } else { touch };
         if widest > limit + spare {
