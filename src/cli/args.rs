@@ -4,6 +4,7 @@ mod air;
 #[cfg(feature = "krl")]
 mod convert;
 mod examples;
+mod inner_form;
 mod pictures;
 mod tools;
 
@@ -21,6 +22,7 @@ use super::patience::{HelpBudget, help_budget};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use examples::{EXAMPLES, FIRST_EXAMPLES};
+pub(super) use inner_form::InnerForm;
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Severity};
 use vcutc_driver::{Request, Typed};
@@ -684,17 +686,4 @@ pub(super) enum Color {
     Always,
     /// Never
     Never,
-}
-
-/// What `--emit` shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum InnerForm {
-    /// The syntax tree, for people who work on the compiler
-    Ast,
-    /// The planned cuts, as CSV with a row for each
-    Plan,
-    /// The verified intermediate program, as JSON
-    Ir,
-    /// The machine's axis values along the program, as CSV with a row at least every 5 mm or 2 degrees
-    Joints,
 }

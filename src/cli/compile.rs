@@ -423,6 +423,7 @@ fn write_inner(form: InnerForm, to: &Destination, outcome: &Outcome, job: &str) 
         Ok(Progressed::Written) => published(output),
         Ok(Progressed::NotSoFar) => Ok(Made::default()),
         Ok(Progressed::WithoutMachine) => Err(without_machine()),
+        Ok(Progressed::WithoutSurface) => Err(without_surface()),
         Err(error) => Err(Failure::new(error.to_string())),
     }
 }
@@ -433,6 +434,12 @@ fn published(output: Output) -> Result<Made, Failure> {
         placed,
         ..Made::default()
     })
+}
+
+/// A job whose part is the same at every y, where what is left above a surface is asked for.
+fn without_surface() -> Failure {
+    Failure::new("the job's part is a profile, and the deviation is that of a `surface`")
+        .help("`vcutc plot JOB --what deviation` draws the deviation from a profile")
 }
 
 /// A job without a machine, where axes are asked for.

@@ -9,9 +9,12 @@ use super::joints;
 use std::io::{self, BufWriter, Write};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 use vcutc_backend_api::exchange::Exchange;
-use vcutc_driver::Outcome;
-use vcutc_job::planned::CutShape;
-use vcutc_job::{PlannedJob, PlannedOperation};
+use vcutc_backend_api::units::Angle;
+use vcutc_driver::{Compiled, Outcome};
+use vcutc_job::planned::{CutShape, PlannedStrip, PlannedTip};
+use vcutc_job::{BladeRef, CheckedJob, PlannedJob, PlannedOperation};
+use vcutc_surface::deviation;
+use vcutc_surface::residual::Machined;
 
 /// Writes a form of the job as one file. Returns whether the job got far enough to have it.
 ///
@@ -47,7 +50,20 @@ pub(super) fn write(
             },
             (Some(_) | None, _) => Ok(Progressed::NotSoFar),
         },
+        InnerForm::Deviation => match (&outcome.job, &outcome.compiled) {
+            (Some(job), Some(compiled)) => match deviation_of(job, compiled) {
+                Some(bytes) => file(sink, &name, |out| out.write_all(&bytes)),
+                None => Ok(Progressed::WithoutSurface),
+            },
+            (Some(_) | None, _) => Ok(Progressed::NotSoFar),
+        },
     }
+}
+
+fn deviation_of(job: &CheckedJob, compiled: &Compiled) -> Option<Vec<u8>> {
+    let surface = job.part.surface()?;
+    let machined = Machined::new(compiled.report.contour.clone()).ok()?;
+    Some(deviation::ply(surface, &machined))
 }
 
 /// Whether a job got as far as a form.
@@ -59,6 +75,8 @@ pub(super) enum Progressed {
     NotSoFar,
     /// The job has no machine, and the form is about one.
     WithoutMachine,
+    /// The part is a profile, and the form is about surfaces.
+    WithoutSurface,
 }
 
 /// `jobs/rib.vcut` as a tree is `rib.ast.txt`.
@@ -69,6 +87,7 @@ fn file_name(form: InnerForm, job: &str) -> String {
         InnerForm::Plan => "plan.csv",
         InnerForm::Ir => "ir.json",
         InnerForm::Joints => "joints.csv",
+        InnerForm::Deviation => "deviation.ply",
     };
     format!("{stem}.{ending}")
 }
@@ -91,10 +110,12 @@ fn write_json(value: &impl serde::Serialize, out: &mut dyn Write) -> io::Result<
     writeln!(out)
 }
 
-/// A row for each cut. Operations, layers and cuts are counted from 1. Of a V with narrowed flanks the swings of both are
-/// written, the left one first.
+/// A row for each cut. Operations, layers and cuts are counted from 1. A field that says nothing about a cut is empty.
 fn write_plan(plan: &PlannedJob, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "operation,layer,cut,x_mm,z_mm,swing_deg,tip")?;
+    writeln!(
+        out,
+        "operation,layer,cut,kind,blade,x_mm,z_mm,swing_deg,lead_deg,left_mm,right_mm,bottom_mm,top_mm,origin"
+    )?;
     for (number, operation) in (1_u32..).zip(&plan.operations) {
         write_operation(number, &**operation, out)?;
     }
@@ -102,23 +123,61 @@ fn write_plan(plan: &PlannedJob, out: &mut dyn Write) -> io::Result<()> {
 }
 
 fn write_operation(number: u32, planned: &dyn PlannedOperation, out: &mut dyn Write) -> io::Result<()> {
-    let swing = planned.swing().to_deg();
     for layer in planned.tips().chunk_by(|a, b| a.layer == b.layer) {
-        for (cut, planned) in (1_u32..).zip(layer) {
-            let origin = planned.origin.word();
-            let (layer, x, z) = (planned.layer, planned.tip.x, planned.tip.z);
-            let swing = match planned.shape {
-                CutShape::Narrowed { left, right } => {
-                    format!("{:.4}/{:.4}", left.to_deg(), right.to_deg())
-                }
-                CutShape::Plain | CutShape::Slit { .. } | CutShape::Strip(_) | CutShape::Track { .. } => {
-                    format!("{swing:.3}")
-                }
-            };
-            writeln!(out, "{number},{layer},{cut},{x:.3},{z:.3},{swing},{origin}")?;
+        for (cut, tip) in (1_u32..).zip(layer) {
+            let blade = planned.blade_of(tip.shape).map_or("", BladeRef::name);
+            let (layer, x, z) = (tip.layer, tip.tip.x, tip.tip.z);
+            let shape = columns_of(tip, planned.swing());
+            let origin = tip.origin.word();
+            writeln!(
+                out,
+                "{number},{layer},{cut},{},{blade},{x:.3},{z:.3},{},{},{},{origin}",
+                shape.kind, shape.swing, shape.lead, shape.bounds
+            )?;
         }
     }
     Ok(())
+}
+
+/// What a row says about the shape of its cut.
+struct Columns {
+    kind: &'static str,
+    /// Of a V with narrowed flanks the swings of both, the left one first; of a track how far it is rolled.
+    swing: String,
+    lead: String,
+    /// Left, right, bottom and top of what is cut free; of a track the place where it stands on the part.
+    bounds: String,
+}
+
+fn columns_of(tip: &PlannedTip, swing: Angle) -> Columns {
+    let straight = |kind, swing, bounds| Columns {
+        kind,
+        swing,
+        lead: String::new(),
+        bounds,
+    };
+    let swing = || format!("{:.3}", swing.to_deg());
+    match tip.shape {
+        CutShape::Plain => straight("cut", swing(), ",,,".to_owned()),
+        CutShape::Narrowed { left, right } => straight(
+            "cut",
+            format!("{:.4}/{:.4}", left.to_deg(), right.to_deg()),
+            ",,,".to_owned(),
+        ),
+        CutShape::Slit { top } => straight("slit", swing(), format!(",,{:.3},{top:.3}", tip.tip.z)),
+        CutShape::Strip(PlannedStrip { low, high, lead, .. }) => Columns {
+            kind: "strip",
+            swing: swing(),
+            lead: format!("{:.3}", lead.to_deg()),
+            bounds: format!("{:.3},{:.3},{:.3},{:.3}", low.x, high.x, low.z, high.z),
+        },
+        CutShape::Track { contact, lead, roll } => Columns {
+            kind: "track",
+            swing: format!("{:.3}", roll.to_deg()),
+            lead: format!("{:.3}", lead.to_deg()),
+            bounds: format!("{0:.3},{0:.3},{1:.3},{1:.3}", contact.x, contact.z),
+        },
+    }
 }
 
 /// A sink as a writer.

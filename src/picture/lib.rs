@@ -23,6 +23,7 @@ pub mod processes;
 mod projection;
 mod scale;
 mod section;
+pub mod sections;
 pub mod setup;
 mod sheet;
 pub mod strips;

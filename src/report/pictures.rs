@@ -9,6 +9,7 @@ mod machined;
 mod paths;
 mod plan_maps;
 mod process;
+mod sections;
 mod strips;
 mod time;
 
@@ -17,6 +18,7 @@ pub use joints::{joints, joints_twice};
 pub use paths::paths;
 pub use plan_maps::{SurfaceMap, residual, surface};
 pub use process::process;
+pub use sections::SurfaceSections;
 pub use time::time;
 
 use super::Material;
@@ -246,7 +248,7 @@ fn layers(material: &Material<'_>) -> Vec<(String, f64)> {
                 CutShape::Plain | CutShape::Narrowed { .. } => Some(cut.tip.z),
                 CutShape::Slit { .. } => None,
                 CutShape::Strip(strip) => Some(strip.low.z),
-                CutShape::Track { contact } => Some(contact.z),
+                CutShape::Track { contact, .. } => Some(contact.z),
             };
             let lowest = layer.iter().filter_map(floor).reduce(f64::min);
             let lowest = lowest.or_else(|| layer.iter().map(|cut| cut.tip.z).reduce(f64::min));

@@ -296,3 +296,61 @@ fn the_saddle_is_its_formula() {
     }
     assert_eq!(text, written);
 }
+
+/// A coloured mesh has above each vertex what the program leaves there: the machined contour over it less its height, which the formula
+/// of the part says once more.
+#[test]
+fn a_coloured_mesh_says_what_is_left_above_each_vertex() {
+    let folder = tempfile::tempdir().unwrap();
+    let part = "surface { z(x, y) = 40 mm - (x - 60 mm)^2 / 200 mm - (y - 40 mm)^2 / 160 mm }";
+    std::fs::write(folder.path().join("job.vcut"), job(part, VCUT)).unwrap();
+    let run = crate::cli::vcutc(folder.path(), &["job.vcut", "--emit", "deviation", "-o", "out"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let bytes = std::fs::read(folder.path().join("out/job.deviation.ply")).unwrap();
+    let outcome = compile("job.vcut", &Files::of(folder.path()));
+    let contour = outcome.compiled.unwrap().report.contour;
+    let end = b"end_header\n";
+    let start = bytes.windows(end.len()).position(|window| window == end).unwrap() + end.len();
+    let head = std::str::from_utf8(&bytes[..start]).unwrap();
+    let count: usize = head
+        .split("element vertex ")
+        .nth(1)
+        .unwrap()
+        .lines()
+        .next()
+        .unwrap()
+        .parse()
+        .unwrap();
+    assert!(count > 1000);
+    let values = bytes[start..start + 16 * count].chunks_exact(4);
+    let values: Vec<f64> = values
+        .map(|value| f64::from(f32::from_le_bytes(value.try_into().unwrap())))
+        .collect();
+    for vertex in values.chunks_exact(4) {
+        let [x, y, z, left] = vertex else { unreachable!() };
+        let height = 40.0 - (x - 60.0) * (x - 60.0) / 200.0 - (y - 40.0) * (y - 40.0) / 160.0;
+        assert!((z - height).abs() < 0.02, "{vertex:?} {height}");
+        let over = contour
+            .windows(2)
+            .filter(|pair| pair[0].x - 1e-4 <= *x && *x <= pair[1].x + 1e-4);
+        let tops = over.map(|pair| {
+            let share = ((x - pair[0].x) / (pair[1].x - pair[0].x).max(1e-9)).clamp(0.0, 1.0);
+            pair[0].z + (pair[1].z - pair[0].z) * share
+        });
+        let matches = tops.into_iter().any(|top| (top - z - left).abs() < 1e-3);
+        assert!(matches, "{vertex:?}");
+    }
+    // A profile has no such mesh.
+    std::fs::write(
+        folder.path().join("flat.vcut"),
+        job("profile { z(x) = 30 mm }", VCUT),
+    )
+    .unwrap();
+    let run = crate::cli::vcutc(folder.path(), &["flat.vcut", "--emit", "deviation"]);
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("the job's part is a profile"),
+        "{}",
+        run.stderr
+    );
+}

@@ -3,7 +3,7 @@
 use super::search::RouteSet;
 use super::{Operation, Trials, WorksThere};
 use crate::description::{ParameterFigure, ParameterTable};
-use crate::{Machine, Order, Sourced};
+use crate::{BladeRef, Machine, Order, Sourced};
 use core::any::Any;
 use core::fmt::Debug;
 use vcutc_backend_api::builder::ProgramBuilder;
@@ -84,6 +84,11 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
 
     /// Its cuts in the order of the plan: layer by layer, each from left to right.
     fn tips(&self) -> Vec<PlannedTip>;
+
+    /// The blade that makes a cut of this shape: the first one, where an operation has one only.
+    fn blade_of(&self, _shape: CutShape) -> Option<BladeRef<'_>> {
+        self.asked().blades().first().copied()
+    }
 
     /// Half the opening angle of the cuts.
     fn swing(&self) -> Angle;
@@ -273,6 +278,10 @@ pub enum CutShape {
     Track {
         /// Where it stands on the part.
         contact: Point2,
+        /// How far its axis leans along the feed, seen from the normal of the part.
+        lead: Angle,
+        /// How far it is turned about the feed, away from the upright; positive where the axis leans towards -x.
+        roll: Angle,
     },
 }
 
@@ -287,6 +296,8 @@ pub struct PlannedStrip {
     pub open: Side,
     /// The radius of the disc's edge.
     pub radius: f64,
+    /// How far the disc's axis leans along its feed.
+    pub lead: Angle,
 }
 
 /// Why a tip is where it is.

@@ -201,6 +201,23 @@
     sized.observe(box);
   }
 
+  // Of sections at several y the one that the slider points at is shown, in all drawings of the picture.
+  const slides = [...document.querySelectorAll("[data-slide]")];
+  function slideTo(number) {
+    for (const figure of slides) {
+      const parts = figure.querySelectorAll("[data-y]");
+      parts.forEach((part, index) => {
+        if (index === number) part.removeAttribute("display");
+        else part.setAttribute("display", "none");
+      });
+      figure.querySelector("input").value = number;
+      figure.querySelector("output").textContent = parts[number]?.dataset.y ?? "";
+    }
+  }
+  for (const figure of slides) {
+    figure.querySelector("input").addEventListener("input", (event) => slideTo(Number(event.target.value)));
+  }
+
   // A link to a line of a text that is folded away unfolds it.
   function unfold() {
     const target = document.getElementById(location.hash.slice(1));

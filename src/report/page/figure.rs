@@ -4,6 +4,7 @@
 //! style shows the one that fits.
 
 use crate::html::{Html, unbroken};
+use vcutc_diagnostics::number::show;
 use vcutc_picture::Prefix;
 
 /// Whether a picture can be enlarged.
@@ -28,6 +29,30 @@ pub(super) fn figure(ids: &Ids, zoom: Zoom, caption: &str, draw: &dyn Fn(Prefix)
     let page = draw(Prefix::new(ids.page));
     let phone = draw(Prefix::for_phones(ids.phone));
     framed(page, "for-page", zoom, caption) + framed(phone, "for-phones", zoom, caption)
+}
+
+/// A picture of several sections, of which a slider shows one. `places` are their y in mm.
+pub(super) fn slide(
+    ids: &Ids,
+    places: &[f64],
+    shown: usize,
+    caption: &str,
+    draw: &dyn Fn(Prefix) -> String,
+) -> Html {
+    let last = places.len().saturating_sub(1);
+    let y = places.get(shown).map_or_else(String::new, |y| show(*y));
+    let one = |prefix: Prefix, class: &str| {
+        html!(
+            "figure_slide.html",
+            class = class,
+            last = last.to_string(),
+            shown = shown.to_string(),
+            y = y,
+            svg = Html::trusted(draw(prefix)),
+            caption = unbroken(caption)
+        )
+    };
+    one(Prefix::new(ids.page), "for-page") + one(Prefix::for_phones(ids.phone), "for-phones")
 }
 
 /// An SVG text in its frame.

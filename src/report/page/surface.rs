@@ -1,8 +1,8 @@
 //! A part that changes along y from above: how high it is, and what the cuts leave above it.
 
-use super::figure::{Ids, Zoom, figure};
+use super::figure::{Ids, Zoom, figure, slide};
 use super::{Section, Subject};
-use crate::pictures::SurfaceMap;
+use crate::pictures::{SurfaceMap, SurfaceSections};
 
 /// The section; none of a part that is a profile.
 pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
@@ -30,9 +30,27 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
         ),
         &|ids| residual.draw(ids),
     );
+    let sections = SurfaceSections::of(&subject.material).map(|sections| {
+        let places: Vec<f64> = sections.places().collect();
+        slide(
+            &Ids {
+                page: "sections-",
+                phone: "sections-phone-",
+            },
+            &places,
+            sections.shown(),
+            "The section of the part at the y of the slider. The machined contour is the same at every y and lies above the shadow, the \
+             greatest height of the part along y.",
+            &|ids| sections.draw(ids),
+        )
+    });
+    let body = heights + left;
     Some(Section {
         id: "surface",
         title: "Surface",
-        body: heights + left,
+        body: match sections {
+            Some(sections) => body + sections,
+            None => body,
+        },
     })
 }

@@ -45,7 +45,7 @@ impl Rectangles {
             let mut origin = origin(cut.origin);
             let at = match cut.shape {
                 CutShape::Plain | CutShape::Narrowed { .. } => cut.tip,
-                CutShape::Track { contact } => {
+                CutShape::Track { contact, .. } => {
                     origin = Origin::Track;
                     contact
                 }

@@ -63,6 +63,13 @@ impl Machined {
         &self.points
     }
 
+    /// Its height at an x in mm; of a wall its upper end.
+    #[must_use]
+    pub fn height(&self, x: f64) -> f64 {
+        let heights = self.between(x, x).map(|[a, b]| height_between(a, b, x));
+        heights.fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// Its segments that reach over places from one x to another, without upright ones, and level ones beyond its ends.
     pub(crate) fn between(&self, from: f64, to: f64) -> impl Iterator<Item = [Point2; 2]> + '_ {
         let level = |x: f64, z: f64, other: f64| [Point2::new(x.min(other), z), Point2::new(x.max(other), z)];

@@ -455,3 +455,33 @@ fn cuts_are_played_back_up_to_the_machined_contour() {
         assert_is_calm(&tab);
     }
 }
+
+/// The slider shows one section of a part that changes along y, in every drawing of the picture: at its place, the part is as high as
+/// its own formula says.
+#[test]
+fn a_slider_shows_the_section_at_its_place() {
+    let Some(browser) = Browser::start() else { return };
+    let (_folder, file) = report("dome", &[]);
+    let tab = browser.open(&file, 1280, 900);
+    let shown = "[...document.querySelectorAll('[data-slide]')].map((figure) => \
+                 [...figure.querySelectorAll('[data-y]')].filter((part) => !part.hasAttribute('display')).map((part) => part.dataset.y))";
+    let slide = |number: u32| {
+        tab.value(&format!(
+            "(() => {{ const input = document.querySelector('[data-slide] input'); input.value = {number}; \
+             input.dispatchEvent(new Event('input')); return input.value; }})()"
+        ));
+    };
+    let places = tab.value("[...document.querySelector('[data-slide]').querySelectorAll('[data-y]')].map((part) => part.dataset.y)");
+    let places: Vec<String> = serde_json::from_value(places).unwrap();
+    assert_eq!(tab.value(shown), json!([[places[20]], [places[20]]]));
+    for number in [0_u32, 7, 40] {
+        slide(number);
+        let place = &places[number as usize];
+        assert_eq!(tab.value(shown), json!([[place], [place]]));
+        assert_eq!(
+            tab.value("document.querySelector('[data-slide] output').textContent"),
+            json!(place)
+        );
+    }
+    assert_is_calm(&tab);
+}

@@ -409,7 +409,10 @@ fn the_plan_has_a_row_for_each_cut() {
     assert_eq!(names(&shop.path().join("out")), ["rib.plan.csv"]);
     let plan = read(shop.path(), "out/rib.plan.csv");
     let (header, rows) = plan.split_once('\n').unwrap();
-    assert_eq!(header, "operation,layer,cut,x_mm,z_mm,swing_deg,tip");
+    assert_eq!(
+        header,
+        "operation,layer,cut,kind,blade,x_mm,z_mm,swing_deg,lead_deg,left_mm,right_mm,bottom_mm,top_mm,origin"
+    );
     let told = run
         .stderr
         .split_once(" cuts in")
