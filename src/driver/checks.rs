@@ -41,8 +41,8 @@ pub enum Check {
     Turns,
     /// The time of the program counts speeding up and slowing down.
     Accelerations,
-    /// Shank and holder of the blade stay out of the work.
-    Holder,
+    /// Shank and holder of the blade stay out of the work: of these blades, of all where none is named.
+    Holder(Vec<String>),
     /// The arm meets neither the work nor anything else in the cell.
     Collisions,
     /// The text that was written, read again, is the program.
@@ -102,22 +102,29 @@ pub enum ReadBack {
 }
 
 /// Whether the bodies of a job's blades are known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Bodies {
     /// Of all of them.
     Stated,
-    /// Not of all of them.
+    /// Of none of them.
     Lacking,
+    /// Of all but these.
+    LackingOf(Vec<String>),
 }
 
 impl Bodies {
     /// Of the blades of a job.
     #[must_use]
     pub fn of(job: &CheckedJob) -> Self {
-        let mut blades = job.operations.iter().flat_map(|operation| operation.blades());
-        match blades.all(|blade| blade.body().is_some()) {
-            true => Self::Stated,
-            false => Self::Lacking,
+        let blades = job.operations.iter().flat_map(|operation| operation.blades());
+        let (stated, lacking): (Vec<_>, Vec<_>) = blades.partition(|blade| blade.body().is_some());
+        let mut names: Vec<String> = lacking.iter().map(|blade| blade.name().to_owned()).collect();
+        names.sort_unstable();
+        names.dedup();
+        match (stated.is_empty(), names.is_empty()) {
+            (_, true) => Self::Stated,
+            (true, false) => Self::Lacking,
+            (false, false) => Self::LackingOf(names),
         }
     }
 }
@@ -140,8 +147,9 @@ impl Checks {
     #[must_use]
     pub fn of(carried: Option<Carried<'_>>, basis: Basis, bodies: Bodies) -> Self {
         let holder = match bodies {
-            Bodies::Stated => made(Check::Holder),
-            Bodies::Lacking => not_made(Check::Holder, Reason::NoBody),
+            Bodies::Stated => made(Check::Holder(Vec::new())),
+            Bodies::Lacking => not_made(Check::Holder(Vec::new()), Reason::NoBody),
+            Bodies::LackingOf(blades) => not_made(Check::Holder(blades), Reason::NoBody),
         };
         Self::after(
             vec![made(Check::Chips), made(Check::Part)],
@@ -154,11 +162,11 @@ impl Checks {
     /// The checks of an air cut.
     #[must_use]
     pub fn of_air_cut(carried: Option<Carried<'_>>, basis: Basis, bodies: Bodies) -> Self {
-        let reason = match bodies {
-            Bodies::Stated => Reason::AirCut,
-            Bodies::Lacking => Reason::NoBody,
+        let holder = match bodies {
+            Bodies::Stated => not_made(Check::Holder(Vec::new()), Reason::AirCut),
+            Bodies::Lacking => not_made(Check::Holder(Vec::new()), Reason::NoBody),
+            Bodies::LackingOf(blades) => not_made(Check::Holder(blades), Reason::NoBody),
         };
-        let holder = not_made(Check::Holder, reason);
         Self::after(vec![made(Check::AboveStock)], carried, basis, holder)
     }
 
@@ -214,7 +222,7 @@ impl Checks {
                 | Check::Part
                 | Check::AboveStock
                 | Check::Accelerations
-                | Check::Holder
+                | Check::Holder(_)
                 | Check::Collisions
                 | Check::ReadBack,
                 Outcome::NotMade(_),

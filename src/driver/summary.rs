@@ -123,7 +123,10 @@ pub(crate) fn with_processes(lines: &mut Vec<String>, comparisons: &[Comparison]
 /// `at least 3.20 mm above the stock in cuts, nearest in layer 7, cut 12`.
 fn body(nearest: Passage) -> String {
     let place = match nearest.site {
-        Site::Cut { layer, cut, .. } => format!(", nearest in layer {layer}, cut {cut}"),
+        Site::Cut { layer, cut, .. } => {
+            let kind = nearest.kind.noun();
+            format!(", nearest in layer {layer}, {kind} {cut}")
+        }
         Site::Program | Site::Operation(_) | Site::Layer { .. } => String::new(),
     };
     format!(

@@ -19,7 +19,10 @@ pub fn site_words(program: &Program, site: Site) -> String {
             operation,
             layer,
             cut,
-        } => format!("layer {layer}, cut {cut}{}", of(operation)),
+        } => {
+            let kind = program.cut_kind_at(site).noun();
+            format!("layer {layer}, {kind} {cut}{}", of(operation))
+        }
     }
 }
 

@@ -297,8 +297,8 @@ pub fn overcut(asked: &dyn Operation, finding: Finding, at: Point2, depth: Lengt
 /// `layer 7, cut 12 (x 43.2 mm, z 18.6 mm)`.
 #[must_use]
 pub fn place(finding: &Finding) -> String {
-    let (layer, cut) = (finding.layer, finding.cut);
-    format!("layer {layer}, cut {cut} ({})", point(finding.tip))
+    let (layer, kind, cut) = (finding.layer, finding.kind.noun(), finding.cut);
+    format!("layer {layer}, {kind} {cut} ({})", point(finding.tip))
 }
 
 /// `x 43.2 mm, z 18.6 mm`.

@@ -406,7 +406,7 @@ impl Read<'_> {
         let (message, label) = match finding.fault {
             CutFault::NotFreed { needed, .. } if !needed.is_finite() && frees_strips(passes) => (
                 format!(
-                    "the slit of {} goes on below what its strips leave",
+                    "{} goes on below what its strips leave",
                     site_words(self.program(), site)
                 ),
                 "a strip beside it stays attached".to_owned(),

@@ -11,7 +11,7 @@ use vcutc_backend_api::ir::{Action, OpId, Registered};
 use vcutc_backend_api::readback::{Command, Effect, FrameRole, Mismatch, Moment, normalized};
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic, Label};
-use vcutc_job::Machine;
+use vcutc_job::{HeldTool, Machine};
 
 /// So many differences are told one by one.
 const MOST_IN_FULL: usize = 20;
@@ -272,7 +272,7 @@ impl Reporter<'_> {
         }
     }
 
-    /// The op that a statement of the fresh program, or the first one behind it that says an op, says.
+    /// The op that a statement of the fresh program, or the first one after it that says an op, says.
     fn next_owner(&self, fresh: usize) -> Option<OpId> {
         self.comparison.owners.iter().skip(fresh).find_map(|owner| *owner)
     }
@@ -339,7 +339,7 @@ impl Reporter<'_> {
                     (_, _) => format!("{} differs from what the compiler writes", kind_words(should)),
                 };
                 let diagnostic = Diagnostic::new(code, what, span, "reads differently");
-                match self.frame_span(should) {
+                match self.frame_span(should, fresh) {
                     Some(frame) => diagnostic.and(frame, OWN_VALUE),
                     None => diagnostic,
                 }
@@ -393,18 +393,25 @@ impl Reporter<'_> {
             let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.');
             numbers.filter_map(|number| number.parse::<f64>().ok())
         });
-        let load = machine.tools.first().load.and_then(|load| match load.value {
-            Registered::Value(value) => Some((value.mass.to_kg(), load.span)),
-            Registered::Number(_) => None,
-        });
+        let load = self
+            .tool_in_hand(machine, fresh)
+            .load
+            .and_then(|load| match load.value {
+                Registered::Value(value) => Some((value.mass.to_kg(), load.span)),
+                Registered::Number(_) => None,
+            });
         let Some((mass, load)) = load else {
-            return self.frame_span(should);
+            return self.frame_span(should, fresh);
         };
         let names_load = should_be.zip(are).any(|(should, is)| {
             let is_mass = (should - mass).abs() < SAME_MASS;
             is_mass && (is - mass).abs() >= SAME_MASS
         });
-        if names_load { load } else { self.frame_span(should) }
+        if names_load {
+            load
+        } else {
+            self.frame_span(should, fresh)
+        }
     }
 
     fn moved(&self, fresh: usize, given: usize) -> Diagnostic {
@@ -597,17 +604,31 @@ impl Reporter<'_> {
         span.unwrap_or(asked)
     }
 
-    fn frame_span(&self, effect: &Effect) -> Option<Span> {
-        let of = |machine: &Machine| match effect {
-            Effect::Frame(FrameRole::Tool, _) => machine.tools.first().frame.span,
+    fn frame_span(&self, effect: &Effect, fresh: usize) -> Option<Span> {
+        let machine = self.comparison.job.machine.as_ref()?;
+        match effect {
+            Effect::Frame(FrameRole::Tool, _) => self.tool_in_hand(machine, fresh).frame.span,
             Effect::Frame(FrameRole::Base, _) => machine.base.span,
             _ => None,
-        };
-        self.comparison.job.machine.as_ref().and_then(of)
+        }
+    }
+
+    /// The tool of the machine that is at hand where the fresh program has a statement.
+    fn tool_in_hand<'m>(&self, machine: &'m Machine, fresh: usize) -> &'m HeldTool {
+        let program = self.comparison.program();
+        let op = self.next_owner(fresh).and_then(|op| usize::try_from(op.0).ok());
+        let before = op.and_then(|op| program.ops.get(..=op)).unwrap_or_default();
+        let tool = before.iter().rev().find_map(|op| match op.action {
+            Action::ToolChange { tool } => Some(tool),
+            _ => None,
+        });
+        let blade = tool.and_then(|tool| program.blade(tool));
+        let held = blade.and_then(|blade| machine.tools.holding(&blade.name));
+        held.unwrap_or_else(|| machine.tools.first())
     }
 }
 
-/// Whether a statement sets something for those behind it.
+/// Whether a statement sets something for those after it.
 const fn is_setting(effect: &Effect) -> bool {
     matches!(effect, Effect::Frame(..) | Effect::Setting)
 }

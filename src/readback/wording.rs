@@ -1,7 +1,7 @@
 //! Ops and what differs from them, in words with numbers.
 
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, Cell, Flank, OpId, Program, Site, Switch};
+use vcutc_backend_api::ir::{Action, Cell, CutKind, Flank, OpId, Program, Site, Switch};
 use vcutc_backend_api::readback::{
     Command, Configuration, DivergenceKind, Effect, FrameRole, Mismatch, Pace,
 };
@@ -22,9 +22,10 @@ pub(super) fn op_words(program: &Program, op: OpId) -> String {
             format!("the way to {site}")
         }
         Action::Retract { .. } => format!("the way up from {site}"),
-        Action::Cut { flank, .. } if in_cut => match flank {
-            Flank::Left => format!("the left flank of {site}"),
-            Flank::Right => format!("the right flank of {site}"),
+        Action::Cut { flank, .. } if in_cut => match (program.cut_kind_at(op.site), flank) {
+            (CutKind::Slit, _) => site,
+            (_, Flank::Left) => format!("the left flank of {site}"),
+            (_, Flank::Right) => format!("the right flank of {site}"),
         },
         Action::Cut { .. } => format!("a cut of {site}"),
         Action::Follow { .. } => format!("a piece of the path of {site}"),
@@ -43,7 +44,7 @@ pub(super) fn op_words(program: &Program, op: OpId) -> String {
     }
 }
 
-/// An op that goes through the material, of an operation with a disc: `the pass of layer 2, cut 3`, or as [`op_words`].
+/// An op that goes through the material, of an operation with a disc: `the pass of layer 2, strip 3`, or as [`op_words`].
 pub(super) fn cut_words(program: &Program, id: OpId) -> String {
     let op = program.op(id);
     match op.filter(|op| matches!(op.action, Action::Follow { .. })) {

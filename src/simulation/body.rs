@@ -23,7 +23,7 @@ use super::surface::Surface;
 use section::{Ceiling, Near, Section};
 use stage::{Axis, Cylinder};
 use vcutc_backend_api::geometry::{Orientation, Point3};
-use vcutc_backend_api::ir::{Action, BodyStage, OpId, OperationId, Program, Site, Stock, ToolId};
+use vcutc_backend_api::ir::{Action, BodyStage, CutKind, OpId, OperationId, Program, Site, Stock, ToolId};
 use vcutc_backend_api::segments::Segment;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
@@ -51,6 +51,8 @@ pub struct Passage {
     pub operation: OperationId,
     /// The blade.
     pub tool: ToolId,
+    /// What it cuts in that operation.
+    pub kind: CutKind,
     /// The stage, counted from the edge.
     pub stage: usize,
     /// Where on the body.
@@ -176,6 +178,7 @@ impl<'p> Watcher<'p> {
             site: segment.op.site,
             operation,
             tool: segment.before.tool,
+            kind: self.program.cut_kind(operation, segment.before.tool),
             stage: near.stage,
             at: near.at,
             clearance: Length::mm(near.gap),

@@ -36,7 +36,7 @@ use std::collections::BTreeMap;
 use strip::Through;
 pub use strip::{Passes, Skin, Strips};
 use vcutc_backend_api::ir::{
-    Action, Flank, Joint, Op, OpId, OperationId, OrientationId, Program, Site, ToolId,
+    Action, CutKind, Flank, Joint, Op, OpId, OperationId, OrientationId, Program, Site, ToolId,
 };
 use vcutc_backend_api::segments::Segment;
 use vcutc_backend_api::state::{State, TipPose};
@@ -66,6 +66,8 @@ pub struct Finding {
     pub operation: OperationId,
     /// Its layer, from the top.
     pub layer: NonZeroU32,
+    /// What it cuts.
+    pub kind: CutKind,
     /// The cut in its layer.
     pub cut: NonZeroU32,
     /// Where its tip runs.
@@ -244,10 +246,11 @@ impl Cut {
         })
     }
 
-    const fn finding(&self, fault: CutFault) -> Finding {
+    fn finding(&self, program: &Program, fault: CutFault) -> Finding {
         Finding {
             operation: self.operation,
             layer: self.layer,
+            kind: program.cut_kind(self.operation, self.tool),
             cut: self.cut,
             tip: self.tip,
             fault,
@@ -378,6 +381,7 @@ impl<'p> Player<'p> {
 
     /// A cut of one flank.
     fn single(&mut self, cut: &Cut, geometry: FlankGeometry) {
+        let program = self.program;
         let vee = Vee::one(cut.tip, cut.side(), geometry.slope);
         self.count(cut);
         match self.section.single(vee) {
@@ -390,7 +394,7 @@ impl<'p> Player<'p> {
                 let run = self.section.surface().flank(vee, cut.side());
                 self.longest_edge = self.longest_edge.max(run.reach * geometry.edge_per_height);
                 self.note_blocked(run.blocked_at, cut);
-                self.note_edge(f64::INFINITY, |fault| cut.finding(fault));
+                self.note_edge(f64::INFINITY, |fault| cut.finding(program, fault));
             }
             Single::Outside => {}
             Single::Frees(run) => {
@@ -403,13 +407,15 @@ impl<'p> Player<'p> {
 
     /// Notes how much edge a flank uses.
     fn use_edge(&mut self, needed: f64, cut: &Cut) {
-        self.note_edge(needed, |fault| cut.finding(fault));
+        let program = self.program;
+        self.note_edge(needed, |fault| cut.finding(program, fault));
         self.longest_edge = self.longest_edge.max(needed);
     }
 
     fn note_blocked(&mut self, at: Option<Point2>, cut: &Cut) {
+        let program = self.program;
         if let Some(at) = at {
-            let finding = cut.finding(CutFault::Blocked { at });
+            let finding = cut.finding(program, CutFault::Blocked { at });
             note(&mut self.findings.blocked, finding, |_, _| false);
         }
     }
@@ -470,6 +476,7 @@ impl<'p> Player<'p> {
     /// Notes where flanks of a V enter the part whose sides lie deeper than the operation's own, so that its guard, which takes all
     /// of them for as deep, does not show it.
     fn note_narrow_flanks(&mut self, vee: Vee, cut: &Cut) {
+        let program = self.program;
         let Some(bound) = self.bounds.get(usize::from(cut.operation.0)) else {
             return;
         };
@@ -491,7 +498,7 @@ impl<'p> Player<'p> {
         let part = self.part_below_top(cut.operation, bound.part);
         let nearest = flanks.map(|flank| flank.nearest(part));
         for (at, gap) in nearest.into_iter().flatten() {
-            self.note_entry(at, -gap, |fault| cut.finding(fault));
+            self.note_entry(at, -gap, |fault| cut.finding(program, fault));
         }
     }
 
@@ -504,10 +511,11 @@ impl<'p> Player<'p> {
 
     /// Notes a slit, which leaves no trace in a surface, where it enters the part.
     fn note_slit(&mut self, tip: Point2, bound: &Bound<'_>, cut: &Cut) {
+        let program = self.program;
         let (start, end) = bound.part.span();
         let part = bound.part.height(tip.x).min(self.section.surface().top());
         if (start..=end).contains(&tip.x) {
-            self.note_entry(tip, part - tip.z, |fault| cut.finding(fault));
+            self.note_entry(tip, part - tip.z, |fault| cut.finding(program, fault));
         }
     }
 
@@ -541,9 +549,11 @@ impl<'p> Player<'p> {
         let (Some(course), Some(blade)) = (Course::of(self.program, segment), blade) else {
             return;
         };
+        let program = self.program;
         let finding = |fault| Finding {
             operation,
             layer,
+            kind: program.cut_kind(operation, segment.before.tool),
             cut,
             tip: Point2 { x: to.x, z: to.z },
             fault,
@@ -622,6 +632,7 @@ impl<'p> Player<'p> {
 
     /// The cut of an operation whose V passes lowest through a point's x.
     fn cut_through(&self, operation: OperationId, at: Point2, fault: CutFault) -> Option<Finding> {
+        let program = self.program;
         let tools = (0..).map(ToolId).take(self.program.blades.len());
         let flanks: Vec<_> = tools.map(|tool| flanks(self.program, tool)).collect();
         let mut lowest: Option<(f64, Cut)> = None;
@@ -636,7 +647,7 @@ impl<'p> Player<'p> {
                 lowest = Some((height, cut));
             }
         }
-        lowest.map(|(_, cut)| cut.finding(fault))
+        lowest.map(|(_, cut)| cut.finding(program, fault))
     }
 }
 

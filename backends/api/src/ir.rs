@@ -4,10 +4,12 @@
 //! that old readers would misread raises [`IR_VERSION`].
 
 mod blade;
+mod cut_kind;
 mod op;
 mod tools;
 
 pub use blade::{Blade, BodyStage, Crusher, Disc, Edges, Extent, Shape, Spindle, Straight};
+pub use cut_kind::CutKind;
 pub use op::{Action, ActionKind, Flank, Joint, Op, Site, Switch};
 pub use tools::{Change, Changer, NoTools, Tool, ToolId, Tools};
 

@@ -1,7 +1,7 @@
 //! What a person has to check because the compiler did not: a line for every check that was not made, so that a list of them and
 //! the verdict cannot disagree.
 
-use super::words::listed;
+use super::words::{bodies_of, listed};
 use super::{Check, Checks, Outcome, Reason};
 
 impl Checks {
@@ -49,8 +49,11 @@ impl Check {
                 "The edge clears the work where the blade turns beside it: watch the turns in the air"
             }
             Self::Accelerations => "Time of the first part: computed without speeding up and slowing down",
-            Self::Holder => {
-                "Shank and holder of the blade clear the work, at the deepest cut too: run it in the air first"
+            Self::Holder(blades) => {
+                return format!(
+                    "Shank and holder of {} clear the work, at the deepest cut too: run it in the air first",
+                    bodies_of(blades)
+                );
             }
             Self::Collisions => {
                 "Arm, table, fixture and cables clear each other on every way: run it in the air first"
@@ -95,7 +98,7 @@ mod tests {
             Check::ElbowAngle,
             Check::Turns,
             Check::Accelerations,
-            Check::Holder,
+            Check::Holder(Vec::new()),
             Check::Collisions,
             Check::ReadBack,
         ];

@@ -25,7 +25,7 @@ impl Checks {
             | Check::Part
             | Check::AboveStock
             | Check::Accelerations
-            | Check::Holder
+            | Check::Holder(_)
             | Check::Collisions
             | Check::ReadBack => None,
         });

@@ -11,6 +11,9 @@ pub struct CheckFigure {
     /// The axis that it is about, if it is about one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axis: Option<String>,
+    /// The blades that it is about, where it is about some of the job's only.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub blades: Vec<String>,
     pub made: bool,
     /// The permanent name of the reason, where it was not made.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -31,7 +34,7 @@ impl Checks {
         if self.is_made(&Check::AboveStock) {
             parts.push("the tip stays above the stock".to_owned());
         }
-        if self.is_made(&Check::Holder) {
+        if self.is_made(&Check::Holder(Vec::new())) {
             parts.push("the body of the blade stays out of the stock".to_owned());
         }
         if self.is_made(&Check::AxisLimits) {
@@ -80,6 +83,7 @@ impl Checks {
                     match &checked.check {
                         Check::AxisRate(_) if kept.is_empty() => "the speeds of all axes".to_owned(),
                         Check::AxisRate(_) => format!("the speeds of {}", listed(&unknown)),
+                        Check::Holder(blades) => format!("shank and holder of {}", bodies_of(blades)),
                         other => other.what().to_owned(),
                     },
                 );
@@ -127,9 +131,13 @@ impl Checks {
                     | Check::ElbowAngle
                     | Check::Turns
                     | Check::Accelerations
-                    | Check::Holder
+                    | Check::Holder(_)
                     | Check::Collisions
                     | Check::ReadBack => None,
+                },
+                blades: match &checked.check {
+                    Check::Holder(blades) => blades.clone(),
+                    _ => Vec::new(),
                 },
                 made: reason.is_none(),
                 reason: reason.map(Reason::name),
@@ -137,6 +145,16 @@ impl Checks {
             }
         };
         self.iter().map(figure).collect()
+    }
+}
+
+/// The blades whose shank and holder a check is about.
+pub(super) fn bodies_of(blades: &[String]) -> String {
+    let quoted: Vec<String> = blades.iter().map(|blade| format!("`{blade}`")).collect();
+    let names: Vec<&str> = quoted.iter().map(String::as_str).collect();
+    match names.as_slice() {
+        [] => "the blade".to_owned(),
+        names => listed(names),
     }
 }
 
@@ -155,7 +173,7 @@ impl Check {
             Self::ElbowAngle => "elbow_angle",
             Self::Turns => "turns",
             Self::Accelerations => "accelerations",
-            Self::Holder => "holder",
+            Self::Holder(_) => "holder",
             Self::Collisions => "collisions",
             Self::ReadBack => "read_back",
         }
@@ -174,7 +192,7 @@ impl Check {
             Self::ElbowAngle => "the angle between the arms, J3 - J2",
             Self::Turns => "the sweep of the edge where the blade turns beside the work",
             Self::Accelerations => "times with accelerations",
-            Self::Holder => "shank and holder of the blade",
+            Self::Holder(_) => "shank and holder of the blade",
             Self::Collisions => "collisions of the machine",
             Self::ReadBack => "the written text",
         }

@@ -90,9 +90,10 @@ fn told(asked: &dyn Operation, blade: BladeRef<'_>, count: usize, contact: Conta
 #[must_use]
 pub fn headline(blade: &str, contact: Contact) -> String {
     let depth = show(-contact.passage.clearance.to_mm());
+    let kind = contact.passage.kind.noun();
     let place = match (contact.during, contact.passage.site) {
-        (During::Cut, Site::Cut { layer, cut, .. }) => format!("in layer {layer}, cut {cut}"),
-        (During::Way, Site::Cut { layer, cut, .. }) => format!("on the way to layer {layer}, cut {cut}"),
+        (During::Cut, Site::Cut { layer, cut, .. }) => format!("in layer {layer}, {kind} {cut}"),
+        (During::Way, Site::Cut { layer, cut, .. }) => format!("on the way to layer {layer}, {kind} {cut}"),
         (_, Site::Layer { layer, .. }) => format!("on the way to or from layer {layer}"),
         (_, Site::Program | Site::Operation(_)) => "on the way to or from the work".to_owned(),
     };

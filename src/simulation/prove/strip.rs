@@ -200,6 +200,7 @@ const IDLE: f64 = 0.25;
 impl<'p> Player<'p> {
     /// An upright slit with its bottom in the material. It frees nothing by itself.
     pub(super) fn slit(&mut self, cut: &Cut, geometry: FlankGeometry) {
+        let program = self.program;
         let Point2 { x, z } = cut.tip;
         let uncut = self.section.uncut(x, z).max(0.0);
         self.use_edge(uncut * geometry.edge_per_height, cut);
@@ -209,12 +210,12 @@ impl<'p> Player<'p> {
             needed: Length::mm(f64::INFINITY),
             available,
         };
-        self.slits.push((x, cut.finding(idle)));
+        self.slits.push((x, cut.finding(program, idle)));
         let entry = self
             .guard(cut.operation)
             .and_then(|(guard, aside)| guard.below_slit(cut.tip, aside));
         if let Some(depth) = entry {
-            self.note_entry(cut.tip, depth, |fault| cut.finding(fault));
+            self.note_entry(cut.tip, depth, |fault| cut.finding(program, fault));
         }
     }
 

@@ -4,10 +4,10 @@
 //! has to heed. The compiler's version is not among them: a version that writes the same motions would change every program
 //! that a shop has under version control.
 
-use crate::ir::{Action, Crusher, Disc, Flank, Head, Op, Program, Purpose, Shape, Site, Straight};
+use crate::ir::{Action, Crusher, CutKind, Disc, Flank, Head, Op, Program, Purpose, Shape, Site, Straight};
 use crate::state::State;
 use crate::units::{AngularSpeed, Duration, Length};
-use crate::verify::UPRIGHT;
+use std::collections::BTreeMap;
 
 /// A comment: words of ours, and words that people wrote behind them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -107,22 +107,16 @@ fn shown(head: &Head) -> &str {
     head.job.get(..SHOWN_DIGITS).unwrap_or(&head.job)
 }
 
-/// How many cuts, slits, strips and tracks there are. Programs of one blade have cuts only, of several what is there.
+/// How many cuts, slits, strips and tracks there are, of those that there are.
 fn cuts(program: &Program) -> String {
     let mut counts = Counts::default();
     for (_, op, after) in program.ends() {
         counts.add(program, op, after);
     }
-    let kinds = [
-        (counts.cuts, "cut"),
-        (counts.slits, "slit"),
-        (counts.strips, "strip"),
-        (counts.tracks, "track"),
-    ];
-    let had = kinds.into_iter().filter(|(count, _)| *count > 0);
-    let words: Vec<String> = had.map(|(count, what)| counted(count, what)).collect();
+    let had = counts.of.into_iter();
+    let words: Vec<String> = had.map(|(kind, count)| counted(count, kind.noun())).collect();
     if words.is_empty() {
-        return counted(0, "cut");
+        return counted(0, CutKind::Cut.noun());
     }
     words.join(", ")
 }
@@ -134,48 +128,29 @@ fn counted(count: usize, what: &str) -> String {
     }
 }
 
+/// What a program cuts.
 #[derive(Default)]
 struct Counts {
-    cuts: usize,
-    slits: usize,
-    strips: usize,
-    tracks: usize,
+    of: BTreeMap<CutKind, usize>,
     /// Of the latest chain. Its pieces are of one cut.
     chain: Option<Site>,
 }
 
 impl Counts {
-    /// Every V has one left flank; upright beside a disc it is a slit. A chain is a cut; of a disc beside other blades it is a strip,
-    /// or a track where the operation has no other blade.
+    /// Every V has one left flank, and so has a slit. A chain is a cut.
     fn add(&mut self, program: &Program, op: &Op, after: State) {
-        let several = program.blades.len() > 1;
-        let shape = program.blade(after.tool).map(|blade| &blade.shape);
-        match op.action {
-            Action::Cut {
-                flank: Flank::Left, ..
-            } if several && is_upright(program, after) => self.slits += 1,
-            Action::Cut {
-                flank: Flank::Left, ..
-            } => self.cuts += 1,
-            Action::Follow { .. } if self.chain.replace(op.site) != Some(op.site) => match shape {
-                Some(Shape::Disc(_)) if several => match op.site.operation() {
-                    Some(operation) if program.blades_of(operation).count() < 2 => self.tracks += 1,
-                    Some(_) | None => self.strips += 1,
-                },
-                Some(Shape::Disc(_) | Shape::Straight(_) | Shape::Crusher(_)) | None => self.cuts += 1,
-            },
-            _ => {}
+        let begins = match op.action {
+            Action::Cut { flank, .. } => flank == Flank::Left,
+            Action::Follow { .. } => self.chain.replace(op.site) != Some(op.site),
+            _ => false,
+        };
+        if begins && let Some(operation) = op.site.operation() {
+            *self
+                .of
+                .entry(program.cut_kind(operation, after.tool))
+                .or_default() += 1;
         }
     }
-}
-
-/// Whether the blade leans to no side.
-fn is_upright(program: &Program, after: State) -> bool {
-    let held = after
-        .place
-        .pose()
-        .and_then(|pose| program.orientation(pose.orientation));
-    held.is_some_and(|held| held.matrix()[0][2].abs() <= UPRIGHT)
 }
 
 /// A length in mm with up to three decimals, and none that say nothing.
@@ -252,7 +227,9 @@ mod tests {
         let program = Recipe::default().program();
         let before = lines(&program).pop().unwrap();
         let program = with_disc(program, Changer::Hand, Spindle::Own);
-        assert_eq!(lines(&program).pop().unwrap(), format!("{before}, 1 strip"));
+        // What the straight blade cuts in the same operation is for the disc.
+        let slits = before.replace("cuts", "slits");
+        assert_eq!(lines(&program).pop().unwrap(), format!("{slits}, 1 strip"));
     }
 
     #[test]

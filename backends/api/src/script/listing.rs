@@ -2,7 +2,7 @@
 //!
 //! The same answer serves the writer, which writes it, and the splitter, which counts it.
 
-use crate::ir::{Action, FeedId, Op, OperationId, RateId, Site};
+use crate::ir::{Action, FeedId, Op, OperationId, Program, RateId, Site, ToolId};
 use core::num::NonZeroU32;
 
 /// A layer of the job.
@@ -120,9 +120,9 @@ const fn place(site: Site) -> (Option<Layer>, Option<NonZeroU32>) {
     }
 }
 
-/// Where a part begins, in words.
+/// Where a part begins, in words, with this blade at hand.
 #[must_use]
-pub fn first_of(op: &Op) -> String {
+pub fn first_of(program: &Program, op: &Op, tool: ToolId) -> String {
     match op.site {
         Site::Program => "from the start".to_owned(),
         Site::Operation(operation) => format!("from operation {}", u32::from(operation.0) + 1),
@@ -134,8 +134,9 @@ pub fn first_of(op: &Op) -> String {
             layer,
             cut,
         } => format!(
-            "from operation {} layer {layer} cut {cut}",
-            u32::from(operation.0) + 1
+            "from operation {} layer {layer} {} {cut}",
+            u32::from(operation.0) + 1,
+            program.cut_kind(operation, tool).noun()
         ),
     }
 }

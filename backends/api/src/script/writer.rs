@@ -9,7 +9,7 @@ use super::tables::operation_heading;
 use super::text::{Written, digits};
 use crate::backend::EmitError;
 use crate::corners::may_round;
-use crate::ir::{Action, Blade, Changer, Joint, Op, OpId, Ready, Spindle, Switch, ToolId};
+use crate::ir::{Action, Blade, Changer, CutKind, Joint, Op, OpId, Ready, Spindle, Switch, ToolId};
 use crate::readback::End;
 use crate::segments::{LinearSegment, Path, Segment};
 use crate::state::{Drive, Place};
@@ -87,8 +87,9 @@ pub fn write<D: Dialect>(
 
 /// The call of a part.
 fn call(dialect: &mut impl Dialect, source: Source<'_>, file: File<'_>) -> Written {
-    if let Some(op) = file.part.and_then(|part| source.ops(part).first()) {
-        dialect.comment(&first_of(op), "")?;
+    if let Some((part, op)) = file.part.and_then(|part| Some((part, source.ops(part).first()?))) {
+        let program = source.program();
+        dialect.comment(&first_of(program, op, part.start.tool), "")?;
     }
     dialect.call(file)
 }
@@ -121,11 +122,13 @@ struct PartWriter<'a, 'd, D> {
 struct CutHeading(String);
 
 impl CutHeading {
-    fn set(&mut self, layer: NonZeroU32, cut: NonZeroU32) {
+    fn set(&mut self, layer: NonZeroU32, kind: CutKind, cut: NonZeroU32) {
         self.0.clear();
         self.0.push_str("layer ");
         self.whole(layer);
-        self.0.push_str(" cut ");
+        self.0.push(' ');
+        self.0.push_str(kind.noun());
+        self.0.push(' ');
         self.whole(cut);
     }
 
@@ -159,7 +162,7 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
         let segments = self.source.program().segments_of(part.ops.clone(), part.start);
         let followers = ops.iter().skip(1).map(Some).chain([None]);
         for (segment, next) in segments.zip(followers) {
-            self.lead(segment.op)?;
+            self.lead(segment.op, segment.before.tool)?;
             self.op(&segment, next.map(|next| &next.action))?;
         }
         if let Some(layer) = self.modal.open_layer() {
@@ -194,7 +197,7 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
     }
 
     /// What comes before an op: headings and speeds.
-    fn lead(&mut self, op: &Op) -> Written {
+    fn lead(&mut self, op: &Op, tool: ToolId) -> Written {
         let Lead {
             close,
             operation,
@@ -214,7 +217,8 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
             self.dialect.layer_begins(layer, cut.map(|(_, cut)| cut))?;
         }
         if let Some((layer, cut)) = cut {
-            self.heading.set(layer.number, cut);
+            let kind = self.source.program().cut_kind(layer.operation, tool);
+            self.heading.set(layer.number, kind, cut);
             self.dialect.comment(&self.heading.0, "")?;
         }
         match feed {
