@@ -8,7 +8,7 @@ use super::progress::Progress;
 use super::{Exit, Targets};
 use std::path::{Path, PathBuf};
 use vcutc_backend_api::bundle::Sink;
-use vcutc_vcut_optimize::{Optimisation, Refusal, report};
+use vcutc_optimize::{Optimisation, Refusal, report};
 
 /// Optimises one job.
 pub(super) fn optimize(args: &OptimizeArgs, targets: &Targets, console: &Console) -> Exit {
@@ -19,7 +19,7 @@ pub(super) fn optimize(args: &OptimizeArgs, targets: &Targets, console: &Console
     let disk = Disk::around(&args.job);
     let mut progress = Progress::start(console.shows_progress());
     let request = args.overrides.request(&disk, targets);
-    let optimised = vcutc_vcut_optimize::optimise(request, args.points, &mut |stage| progress.enter(stage));
+    let optimised = vcutc_optimize::optimise(request, args.points, &mut |stage| progress.enter(stage));
     progress.finish();
     match optimised {
         Ok(optimisation) => tell(&optimisation, picture.as_ref(), console),

@@ -10,7 +10,7 @@ use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::Duration;
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_diagnostics::{Diagnostic, Severity};
-use vcutc_job::CheckedJob;
+use vcutc_job::{CheckedJob, Operation};
 use vcutc_process::comparison::PlanTime;
 
 /// Ways to do an operation, compared.
@@ -29,6 +29,8 @@ pub struct Comparison {
 pub struct ComparedWay {
     /// What it is called in the language.
     pub word: &'static str,
+    /// What the job asks for, done in this way.
+    pub operation: Box<dyn Operation>,
     pub came: Came,
 }
 
@@ -103,12 +105,20 @@ fn fastest(
             Ended::Cancelled => return None,
         };
         head = head.or_else(|| Some(job.operations.get(operation)?.setup().head_span));
+        let Some(asked) = job.operations.get(operation) else {
+            continue;
+        };
+        let asked = asked.clone();
         let is_better = match (&best, &made) {
             (None, _) | (Some((_, None)), Some(_)) => true,
             (Some((_, Some(best))), Some(made)) => made.time() < best.time(),
             (Some(_), None) => false,
         };
-        let way = ComparedWay { word, came };
+        let way = ComparedWay {
+            word,
+            operation: asked,
+            came,
+        };
         if is_better {
             compared.insert(0, way);
             best = Some((job, made));

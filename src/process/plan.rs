@@ -101,6 +101,18 @@ fn first_ground<'j>(job: &PlanningJob<'j>, space: SearchSpace, wanted: &Wanted) 
     }
 }
 
+/// The work as an operation finds it, by its number from 0; none where one before it has no plan.
+#[must_use]
+pub fn ground_of<'j>(job: &PlanningJob<'j>, operation: usize) -> Option<Ground<'j>> {
+    let mut ground = first_ground(job, SearchSpace::along(RouteSet::Full), &Wanted::ALWAYS);
+    for before in job.job().operations.iter().take(operation) {
+        let Laid { planned, after } = before.plan(ground.clone()).ok()?;
+        ground.cuts_left -= planned.cuts();
+        ground.before = after;
+    }
+    Some(ground)
+}
+
 /// Why a job has no plan, in two steps: what to report is known at once, and what helps takes plans to find out.
 pub enum Refusal<'j> {
     /// The job as a whole cannot be planned.

@@ -7,10 +7,10 @@ use crate::repository::root;
 use vcutc::diagnostics::{Code, has_errors};
 use vcutc::driver::ways::{Came, ComparedWay};
 use vcutc::driver::{self, Outcome, Request, Typed};
+use vcutc::optimize;
 use vcutc::process::comparison::{Faster, PlanTime};
 use vcutc::process::plan::plan;
 use vcutc::registry;
-use vcutc::vcut_optimize;
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::Length;
 
@@ -496,16 +496,42 @@ fn optimising_reports_what_has_no_formulas_and_both_processes() {
     }
     .text();
     let files = Files::of(root().join("examples")).with("block.vcut", text);
-    let optimised = vcut_optimize::optimise(request(&files), 3, &mut |_| {}).unwrap();
-    let text = vcut_optimize::report::text(&optimised);
+    let optimised = optimize::optimise(request(&files), 3, &mut |_| {}).unwrap();
+    let text = optimize::report::text(&optimised);
     for line in [
         "rect           30 slits, 36 strips, 11 changes of blade",
         "break even     vcut is faster below",
     ] {
         assert!(text.contains(line), "{text}");
     }
-    let body = serde_json::to_value(vcut_optimize::report::body(&optimised)).unwrap();
+    let body = serde_json::to_value(optimize::report::body(&optimised)).unwrap();
     assert_eq!(body["processes"][0]["process"], "rect");
     assert_eq!(body["processes"][1]["cuts"], 41);
     assert_eq!(body["others"][0]["operation"], 1);
+    // Slits and strips under other limits are what the job comes to with such a limit.
+    let points = body["rects"][0]["trade_off"].as_array().unwrap();
+    assert!(!points.is_empty(), "{text}");
+    for point in points {
+        let planned = &point["planned"];
+        let Some(slits) = planned["slits"].as_u64() else {
+            continue;
+        };
+        let job = Job {
+            size: [60.0, 600.0, 70.0],
+            scallop: point["limit"].as_f64().unwrap(),
+            ..SLOW
+        };
+        let [_, (cuts, _)] = job.counted();
+        assert_eq!(slits + planned["strips"].as_u64().unwrap(), cuts as u64, "{text}");
+    }
+    // Each change that is shorter by a second saves a second.
+    let changes = body["rects"][0]["planned"]["changes"].as_f64().unwrap();
+    let time = |of: &serde_json::Value| of["planned"]["time"].as_f64().unwrap();
+    let prices = body["rects"][0]["prices"].as_array().unwrap();
+    let shorter = prices
+        .iter()
+        .find(|price| price["change"].as_str().unwrap().contains("1 s shorter"))
+        .unwrap();
+    let saved = time(&body["rects"][0]) - time(shorter);
+    assert!((saved - changes).abs() < 1e-6, "{saved} {changes}");
 }

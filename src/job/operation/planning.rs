@@ -22,6 +22,12 @@ impl<'j> PlanningJob<'j> {
         Some(Self { job, profile })
     }
 
+    /// The job itself.
+    #[must_use]
+    pub const fn job(&self) -> &'j CheckedJob {
+        self.job
+    }
+
     /// Area of the cross-section above the part (A_C).
     #[must_use]
     pub fn area_to_remove(&self) -> Area {

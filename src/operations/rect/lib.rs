@@ -5,6 +5,7 @@
 //! | what is asked, and its check | [`asked`], `check` |
 //! | the plan: layers, strips, slits, their order | [`plan`] |
 //! | counts and times by formulas | [`plan::model`] |
+//! | what limits and blades cost | [`prices`] |
 //! | why there is no plan | `refused` |
 //! | every choice made | `decided`, `planned` |
 //! | motions | `lower` |
@@ -18,6 +19,7 @@ mod lower;
 mod operation;
 pub mod plan;
 mod planned;
+pub mod prices;
 mod refused;
 mod verdict;
 mod words;

@@ -2,6 +2,8 @@
 
 use super::bounds::{Relaxed, name, value};
 use super::others::{self, OtherBody, ProcessBody};
+use super::rect::{RectBody, RectOptimum};
+use super::table::{seconds, table};
 use super::{
     Came, Faster, FoundBy, GivenOperation, OperationOptimum, Optimisation, Plan, Planned, Role, Row,
 };
@@ -233,15 +235,6 @@ fn percent(share: f64) -> String {
     if text == "-0.00" { "0.00".to_owned() } else { text }
 }
 
-/// As elsewhere: `2 min 05.4 s`; savings may be below zero.
-fn seconds(time: Duration) -> String {
-    if time < Duration::s(-0.05) {
-        format!("-{}", vcutc_driver::summary::time(Duration::ZERO - time))
-    } else {
-        vcutc_driver::summary::time(time.max(Duration::ZERO))
-    }
-}
-
 fn row_cells(row: &Row) -> Vec<String> {
     let mark = match row.role {
         Role::Chosen => "*",
@@ -337,57 +330,6 @@ fn alike(a: &Optimum, b: &Optimum) -> bool {
     (a.scallop - b.scallop).abs() < Length::mm(0.005) && (a.time - b.time).abs() < Duration::s(0.05)
 }
 
-/// Cells in columns, those of numbers to the right. A row may be shorter than the head; its last cell then runs on.
-fn table(head: &[&str], rows: &[Vec<String>]) -> String {
-    let whole = || rows.iter().filter(|row| row.len() == head.len());
-    let columns: Vec<Column> = (0..head.len())
-        .map(|column| {
-            let cells = || whole().filter_map(|row| row.get(column));
-            let words = head.get(column).map_or(0, |word| word.len());
-            Column {
-                width: cells().map(String::len).fold(words, usize::max),
-                // Every number has a unit or none, and may be a bound.
-                side: if cells().any(|cell| cell.contains(|c: char| c.is_ascii_digit())) {
-                    Side::Right
-                } else {
-                    Side::Left
-                },
-            }
-        })
-        .collect();
-    let head: Vec<String> = head.iter().map(|&word| word.to_owned()).collect();
-    let lines = [&head].into_iter().chain(rows);
-    lines.map(|cells| line(cells, &columns, head.len())).collect()
-}
-
-struct Column {
-    width: usize,
-    side: Side,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Side {
-    Left,
-    Right,
-}
-
-fn line(cells: &[String], columns: &[Column], whole: usize) -> String {
-    let padded = cells
-        .iter()
-        .zip(columns)
-        .enumerate()
-        .map(|(index, (cell, column))| {
-            let width = column.width;
-            let runs_on = cells.len() < whole && index + 1 == cells.len();
-            match column.side {
-                Side::Right if !runs_on => format!("{cell:>width$}"),
-                Side::Right | Side::Left => format!("{cell:<width$}"),
-            }
-        });
-    let line = padded.collect::<Vec<_>>().join("  ");
-    format!("  {}\n", line.trim_end())
-}
-
 /// The same for programs.
 #[derive(Debug, Serialize)]
 pub struct OptimisationBody<'a> {
@@ -402,6 +344,9 @@ pub struct OptimisationBody<'a> {
     others: Vec<OtherBody<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     processes: Vec<ProcessBody<'a>>,
+    /// Rectangular roughing: limits and prices.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    rects: Vec<RectBody<'a>>,
 }
 
 #[derive(Debug, Serialize)]
@@ -515,6 +460,7 @@ pub fn body(optimisation: &Optimisation) -> OptimisationBody<'_> {
             .iter()
             .flat_map(others::process_bodies)
             .collect(),
+        rects: optimisation.rects.iter().map(RectOptimum::body).collect(),
     }
 }
 

@@ -7,12 +7,15 @@
 mod bounds;
 mod came;
 mod others;
+mod rect;
 pub mod report;
+mod table;
 mod trade_off;
 
 pub use bounds::Relaxed;
 pub use came::{Came, Plan};
 pub use others::OtherOperation;
+pub use rect::RectOptimum;
 pub use trade_off::TradeOff;
 
 use came::{Room, came};
@@ -40,6 +43,8 @@ pub struct Optimisation {
     pub given: Vec<GivenOperation>,
     /// Operations of other kinds, which these formulas are not about.
     pub others: Vec<OtherOperation>,
+    /// Rectangular roughing: what other limits cost, and what better blades would buy.
+    pub rects: Vec<RectOptimum>,
     /// How other ways to do its operations compare, where the job leaves that open.
     pub comparisons: Vec<Comparison>,
     /// The simulated scallop of the whole job.
@@ -187,9 +192,11 @@ pub fn optimise(
     let operations = operations(&job, &plan, &compiled, &sources, points);
     let given = given(&job, &sources);
     let others = others::of(&plan, &compiled, &sources);
+    let rects = rect::of(&job, &comparisons, &operations, points, &sources);
     Ok(Optimisation {
         given,
         others,
+        rects,
         comparisons,
         job: job.name,
         operations,

@@ -35,7 +35,7 @@ pub(super) fn of(plan: &PlannedJob, compiled: &Compiled, sources: &SourceMap) ->
 pub(super) fn texts(optimisation: &Optimisation) -> Vec<String> {
     let others = optimisation.others.iter().map(|other| {
         let head = format!(
-            "{}: operation {} ({}), of a kind without tables; as planned\n\n",
+            "{}: operation {} ({}); as planned\n\n",
             optimisation.job, other.number, other.place
         );
         let lines = other.lines.iter().map(|(name, words)| row(name, words) + "\n");
@@ -45,7 +45,8 @@ pub(super) fn texts(optimisation: &Optimisation) -> Vec<String> {
         let lines = processes::of_one(comparison).into_iter();
         lines.map(|line| line + "\n").collect::<String>()
     });
-    others.chain(compared).collect()
+    let rects = optimisation.rects.iter().map(|rect| rect.text(&optimisation.job));
+    others.chain(compared).chain(rects).collect()
 }
 
 #[derive(Debug, Serialize)]
