@@ -5,6 +5,7 @@
 //! motions, explains what a proof finds wrong with it, and describes itself for summary, report and editor. The stages know
 //! no more of it than that.
 
+pub mod less;
 pub mod planned;
 pub mod planning;
 pub mod search;
@@ -40,13 +41,14 @@ pub trait Operation: OperationValue + Any + Debug + Send + Sync {
         None
     }
 
-    /// What must stay on the part, measured along its normal.
-    fn allowance(&self) -> Option<Sourced<Length>> {
-        None
+    /// The same operation so that it leaves less on the part, but no less than this along its normal, for one that takes off
+    /// the rest; what changes the least comes first.
+    fn leaving_less(&self, _least: Length) -> Vec<Variant> {
+        Vec::new()
     }
 
-    /// The same with another allowance, if it has one.
-    fn with_allowance(&self, _allowance: Length) -> Option<Box<dyn Operation>> {
+    /// How much it takes off the part at most, where it takes off what others have left.
+    fn takes_off(&self) -> Option<Sourced<Length>> {
         None
     }
 

@@ -412,7 +412,7 @@ fn bare_word<'a>(word: &'a str, field: Option<&'static FieldSpec>) -> Kind<'a> {
         Some(
             Takes::Anything
             | Takes::Quantity(_)
-            | Takes::Blade
+            | Takes::Blade(_)
             | Takes::Machine
             | Takes::Calls(_)
             | Takes::Fields(_),
@@ -565,7 +565,7 @@ mod tests {
                     "{name}: {reported:?}"
                 );
             }
-            Takes::Blade | Takes::Machine => {
+            Takes::Blade(_) | Takes::Machine => {
                 assert!(has(&with(file, span, "zzzzzzzz"), "VC0201"), "{name}");
                 assert!(!with(file, span, "reach").is_empty(), "{name}: a value is none");
             }

@@ -107,7 +107,7 @@ fn of_field(field: &FieldSpec) -> Vec<(String, Vec<String>)> {
                 }
             }
         }
-        Takes::Anything | Takes::Quantity(_) | Takes::Blade | Takes::Machine => {}
+        Takes::Anything | Takes::Quantity(_) | Takes::Blade(_) | Takes::Machine => {}
     }
     all
 }

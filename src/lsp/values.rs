@@ -72,7 +72,7 @@ impl Place<'_> {
         }
         match spec.takes {
             Takes::Words(words) => offers.extend(words().iter().map(|word| self.word(spec.name, word))),
-            Takes::Blade => offers.extend(self.blades()),
+            Takes::Blade(kind) => offers.extend(self.blades(kind)),
             Takes::Machine => offers.extend(self.named(Meaning::Machine)),
             Takes::Calls(calls) => offers.extend(self.calls(spec.name, calls)),
             Takes::Quantity(range) => {
@@ -136,10 +136,12 @@ impl Place<'_> {
         }
     }
 
-    /// The blades of the job: whether a field takes a straight one or a disc, its check says.
-    fn blades(&self) -> Vec<Offer> {
-        let kinds = BladeKind::WORDS.iter().map(|(_, kind)| *kind);
-        kinds.flat_map(|kind| self.named(Meaning::Blade(kind))).collect()
+    /// The blades of the job that are of this kind.
+    fn blades(&self, kind: &str) -> Vec<Offer> {
+        let kinds = BladeKind::WORDS.iter().filter(|(word, _)| *word == kind);
+        kinds
+            .flat_map(|(_, kind)| self.named(Meaning::Blade(*kind)))
+            .collect()
     }
 
     fn named(&self, meaning: Meaning) -> Vec<Offer> {

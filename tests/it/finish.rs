@@ -163,7 +163,13 @@ fn assert_mended(text: &str, code: Code, change: &str) {
 fn what_does_not_go_is_refused_with_what_does() {
     // Strips run over the hub, which has to let them pass.
     let at_hub = job(CAP, "limits { scallop <= 0.1 mm }");
-    assert_mended(&at_hub, Code::BladesTooSmall, "over_hub = ");
+    assert_mended(&at_hub, Code::BladesTooSmall, "`scallop <= ");
+    // Roughing that states its sizes is not changed.
+    let coarse = at_hub.replace(
+        "limits { swing <= 50 deg, scallop <= 6 mm }",
+        "swing = 50 deg, layer = 6 mm, step = 10 mm",
+    );
+    assert_mended(&coarse, Code::BladesTooSmall, "over_hub = ");
     // A side tilt that is given carries no strip past the hub.
     let upright = finely_roughed("side = 0 deg, limits { scallop <= 0.1 mm }");
     assert_mended(&upright, Code::BladesTooSmall, "`side = auto`");
@@ -311,4 +317,64 @@ fn a_disc_that_stays_in_hand_turns_above_the_stock() {
             feed { cut = 100 mm/s, travel = 300 mm/s, reorient = 60 deg/s }, clearance = 10 mm }";
     let outcome = proven(text);
     assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
+}
+
+/// Strips and then tracks, with what roughing and finishing state.
+fn strips_then_tracks(rough: &str, finish: &str) -> String {
+    format!(
+        "job \"m\"
+        stock {{ size = (120 mm, 300 mm, 40 mm) }}
+        profile {{ z(x) = 30 mm - (x - 60 mm)^2 / 400 mm }}
+        blade dagger {{ cutting_length = 40 mm, half_apex = 7.13 deg, thickness = 0.5 mm, edges = double }}
+        blade wheel = disc {{ radius = 25 mm, thickness = 1.2 mm, depth = 12 mm, width = 30 mm, spin = 3000 rev/min
+            body (1.2 mm, 8 mm) (60 mm, 25 mm) }}
+        rough rect {{ blade = dagger, disc = wheel, rake = 60 deg, {rough}
+            feed {{ cut = 10 m/min, free = 6 m/min, travel = 500 mm/s, reorient = 60 deg/s }}, clearance = 10 mm }}
+        finish disc {{ blade = wheel, {finish}
+            feed {{ cut = 100 mm/s, travel = 300 mm/s, reorient = 60 deg/s }}, clearance = 10 mm }}"
+    )
+}
+
+#[test]
+fn changes_of_roughing_and_lead_are_offered_together() {
+    // Vs that end higher than more lead makes up for, and whose strips pass the hub only with more lead than they get.
+    let both = job(CAP, "limits { scallop <= 0.1 mm }").replace(
+        "limits { swing <= 50 deg, scallop <= 6 mm }",
+        "swing = 50 deg, layer = 4 mm, step = 7 mm",
+    );
+    assert_mended(&both, Code::BladesTooSmall, "mm`, and allow `lead <= 20 deg`");
+    let alone = strips_then_tracks(
+        "layer = 6 mm, step = 12 mm, allowance = 0.3 mm, residual = discard",
+        "limits { scallop <= 0.1 mm, lead <= 12 deg }",
+    );
+    assert_mended(
+        &alone,
+        Code::BladesTooSmall,
+        "leave less on the part: `residual = lift`",
+    );
+}
+
+/// Without a limit of its own, roughing leaves no more than the disc of the finishing takes off; a limit that the job states stands.
+#[test]
+fn roughing_leaves_what_the_disc_takes_off() {
+    let left = |rough: &str, depth: &str| {
+        let text = strips_then_tracks(
+            rough,
+            "limits { scallop <= 0.1 mm, lead <= 12 deg }, over_hub = 20 mm",
+        )
+        .replace("depth = 12 mm", &format!("depth = {depth} mm"));
+        let outcome = proven(&text);
+        let plan = outcome
+            .plan
+            .unwrap_or_else(|| panic!("{depth}: {:?}", outcome.diagnostics));
+        let rect: &dyn core::any::Any = &*plan.operations[0];
+        rect.downcast_ref::<vcutc::rect::Planned>()
+            .unwrap()
+            .plan
+            .left
+            .to_mm()
+    };
+    assert!(left("layer = 4 mm", "6") <= 6.0);
+    assert!(left("layer = 4 mm", "9") <= 9.0);
+    assert!(left("layer = 4 mm, limits { scallop <= 3 mm }", "9") <= 3.0);
 }

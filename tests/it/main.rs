@@ -44,6 +44,7 @@ mod hostile;
 mod jobs;
 #[cfg(feature = "krl")]
 mod krl_text;
+mod left_out;
 #[cfg(all(feature = "krl", feature = "lsp"))]
 mod lsp;
 #[cfg(feature = "krl")]

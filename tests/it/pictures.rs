@@ -104,7 +104,8 @@ fn area(outline: &[Point2]) -> f64 {
 
 /// Whether an example is cut in Vs only.
 fn is_of_vs((example, _): &(String, Vec<crate::shop::Pairing>)) -> bool {
-    !example.ends_with("_rect.vcut") && !example.starts_with("finished_")
+    let others = ["_rect.vcut", "_auto.vcut"];
+    !others.iter().any(|end| example.ends_with(end)) && !example.starts_with("finished_")
 }
 
 #[test]

@@ -43,7 +43,7 @@ const GANTRY: &str = "tool dagger { frame = frame(x = 0 mm, y = 0 mm, z = 160 mm
                       change { at = axes(x = 300 mm, y = 100 mm, z = -200 mm, b = 0 deg, a = 0 deg, c = 0 deg), time = 10 s, \
                       by = program }\n  ultrasonic = output(3)\n  gcode { dialect = sinumerik }";
 
-fn job(profile: &str, more: &str) -> String {
+pub(crate) fn job(profile: &str, more: &str) -> String {
     format!(
         "job \"strips\"\n\nstock {{ size = (100 mm, 60 mm, 50 mm) }}\n\nprofile {{ {profile} }}\n\n\
          blade dagger {{ cutting_length = 13 mm, half_apex = 7.13 deg, thickness = 0.5 mm, edges = double }}\n\
@@ -94,12 +94,12 @@ fn compiled(text: String, machine: &str) -> Outcome {
     driver::compile(request, &mut |_| {}).unwrap()
 }
 
-fn codes(outcome: &Outcome) -> Vec<Code> {
+pub(crate) fn codes(outcome: &Outcome) -> Vec<Code> {
     let codes = outcome.diagnostics.iter().map(|diagnostic| diagnostic.code);
     codes.collect()
 }
 
-fn planned(outcome: &Outcome) -> &Planned {
+pub(crate) fn planned(outcome: &Outcome) -> &Planned {
     let planned: &dyn core::any::Any = &*outcome.plan.as_ref().unwrap().operations[0];
     planned.downcast_ref().unwrap()
 }
@@ -256,11 +256,11 @@ fn changed_strips_are_told_as_strips() {
     };
     // The last pass 4 mm lower.
     let low = changed("X 5.500,Y 87.105,Z 20.459", "X 5.500,Y 87.105,Z 16.459");
-    low("the pass of layer 4, cut 6 enters the part by");
+    low("the pass of layer 4, strip 6 enters the part by");
     // A slit 3 micrometres higher: its rim passes at 20.19863 there.
     let high = changed("Z 20.198", "Z 20.201");
-    high("at the pass of layer 4, cut 6, the strip from x 20 mm to 30.5 mm stays attached");
-    high("the slit of layer 4, cut 3 goes on below what its strips leave");
+    high("at the pass of layer 4, strip 6, the strip from x 20 mm to 30.5 mm stays attached");
+    high("layer 4, slit 3 goes on below what its strips leave");
 }
 
 /// The proof alone, on a program with a slit raised by 2 micrometres, of which 0.63 were to spare.
@@ -603,4 +603,49 @@ fn the_speed_of_the_disc_is_offered_where_it_belongs() {
         before_and_after(&text),
         (vec![Code::MissingField], Some(Vec::new()))
     );
+}
+
+/// In a valley of crests at 40 mm, layers of 9 mm from 50 mm on end at 41 mm: 40 mm would be a layer of 1 mm more.
+#[test]
+fn a_height_to_stop_at_leaves_no_thin_layer() {
+    for (layer, height) in [("9 mm", "41 mm"), ("10 mm", "40 mm"), ("6 mm", "40 mm")] {
+        for down_to in ["", ", down_to = 5 mm"] {
+            let text = job(VALLEY, &format!("layer = {layer}, step = 10 mm{down_to}"));
+            let outcome = compiled(text.clone(), "kuka");
+            assert_eq!(codes(&outcome), [Code::NoAccess], "{layer}");
+            let fix = &outcome.diagnostics[0].fixes[0];
+            assert!(
+                fix.title.contains(&format!("`down_to = {height}`")),
+                "{layer}: {}",
+                fix.title
+            );
+            assert_eq!(codes(&compiled(mended(&text, fix), "kuka")), [], "{layer}");
+        }
+    }
+}
+
+/// Another frame of the wheel is the wheel's own value, and not the dagger's.
+#[test]
+fn a_changed_frame_of_the_wheel_points_at_the_wheel() {
+    let text = job(SLOPE, TENS);
+    let outcome = compiled(text.clone(), "kuka");
+    let backend = registry::backend("krl").unwrap();
+    let files = driver::write(&outcome, backend).unwrap().unwrap().files;
+    for (z, of) in [("280", "tool wheel"), ("310", "tool dagger")] {
+        let changed = edited(
+            &files,
+            &format!("$TOOL={{X 0.000,Y 0.000,Z {z}.000"),
+            "$TOOL={X 0.000,Y 0.000,Z 200.000",
+        );
+        let found = verdict(&outcome, backend, &changed);
+        let labels = found.iter().flat_map(|one| &one.secondary);
+        let own = labels.filter(|label| label.text == "the job's own value");
+        let starts: Vec<usize> = own.map(|label| label.span.start as usize).collect();
+        let block = text.find(of).unwrap();
+        let frame = block + text[block..].find("frame = ").unwrap() + "frame = ".len();
+        assert!(
+            !starts.is_empty() && starts.iter().all(|start| *start == frame),
+            "{of}: {starts:?} {frame} {found:?}"
+        );
+    }
 }

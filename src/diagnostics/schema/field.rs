@@ -39,8 +39,8 @@ pub enum Takes {
     Quantity(Range),
     /// One of a few words.
     Words(fn() -> Vec<&'static str>),
-    /// The name of a blade.
-    Blade,
+    /// The name of a blade of this kind: `straight`, `disc` or `crusher`.
+    Blade(&'static str),
     /// The name of a machine.
     Machine,
     /// One of a few calls, each with an example.
@@ -116,7 +116,7 @@ impl FieldSpec {
             Takes::Quantity(range) => Some(range),
             Takes::Anything
             | Takes::Words(_)
-            | Takes::Blade
+            | Takes::Blade(_)
             | Takes::Machine
             | Takes::Calls(_)
             | Takes::Fields(_) => None,
@@ -135,7 +135,7 @@ impl FieldSpec {
             Takes::Anything
             | Takes::Quantity(_)
             | Takes::Words(_)
-            | Takes::Blade
+            | Takes::Blade(_)
             | Takes::Machine
             | Takes::Calls(_) => None,
         }

@@ -35,7 +35,7 @@ pub trait Kind: Debug + Sync {
             .iter()
             .filter(|field| field.need == Need::Required);
         let lines = required.map(|field| match field.takes {
-            Takes::Blade => format!("  {} = {blade}\n", field.name),
+            Takes::Blade(_) => format!("  {} = {blade}\n", field.name),
             _ => format!("  {}\n", field.sample()),
         });
         format!("{} {{\n{}}}", self.head(), lines.collect::<String>())

@@ -37,7 +37,7 @@ const SIDES: Range = Range::closed(Dimension::ANGLE, 0.0, 30.0);
 pub const SPEC: BlockSpec = BlockSpec {
     title: "`finish disc`",
     fields: &[
-        value("blade", "finisher").required().takes(Takes::Blade),
+        value("blade", "finisher").required().takes(Takes::Blade("disc")),
         value("step", "auto").within(SIZE).or_auto(),
         value("lead", "auto").within(LEADS).or_auto(),
         value("side", "auto").within(SIDES).or_auto(),

@@ -41,14 +41,8 @@ impl Operation for FinishDisc {
         Some(self.limits.scallop)
     }
 
-    fn allowance(&self) -> Option<Sourced<Length>> {
-        Some(self.allowance)
-    }
-
-    fn with_allowance(&self, allowance: Length) -> Option<Box<dyn Operation>> {
-        let mut other = self.clone();
-        other.allowance.value = allowance;
-        Some(Box::new(other))
+    fn takes_off(&self) -> Option<Sourced<Length>> {
+        Some(self.disc.depth)
     }
 
     fn plan<'j>(&'j self, ground: Ground<'j>) -> Result<Laid, Box<dyn Unplanned + 'j>> {

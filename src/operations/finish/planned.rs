@@ -37,6 +37,8 @@ impl PlannedOperation for Planned {
             origin: TipOrigin::Lattice,
             shape: CutShape::Track {
                 contact: track.contact,
+                lead: self.plan.lead,
+                roll: track.roll,
             },
         });
         tips.collect()

@@ -5,7 +5,7 @@ mod changes;
 
 use crate::asked::FinishDisc;
 use crate::plan::{MOST_TRACKS, Refusal};
-use changes::{Change, Scope};
+use changes::Change;
 use vcutc_cancellation::{Effort, Wanted};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
@@ -38,7 +38,7 @@ impl Unplanned for Refused<'_> {
                 return false;
             }
             effort.spend(TRIAL);
-            self.does(change, works)
+            self.does(change, wanted, works)
         });
         let diagnostic = self.diagnostic();
         let diagnostic = match found {
@@ -51,16 +51,24 @@ impl Unplanned for Refused<'_> {
 
 impl Refused<'_> {
     /// Whether the job compiles with a change.
-    fn does(&self, change: &Change, works: &mut WorksThere<'_>) -> bool {
-        let plans = match &change.scope {
-            Scope::Here(asked) => asked.plan(self.ground.clone()).is_ok(),
-            Scope::Before(roughing) => self.plans_after(&**roughing),
+    fn does(&self, change: &Change, wanted: &Wanted, works: &mut WorksThere<'_>) -> bool {
+        let asked = change.here.as_ref().unwrap_or(self.asked);
+        let ground = Ground {
+            wanted: wanted.clone(),
+            ..self.ground.clone()
+        };
+        let plans = match &change.before {
+            None => asked.plan(ground).is_ok(),
+            Some(roughing) => {
+                let after = self.after(&**roughing, ground);
+                after.is_some_and(|ground| asked.plan(ground).is_ok())
+            }
         };
         plans && works(&change.edits)
     }
 
-    /// Whether there is a plan with another operation in place of the one before this one.
-    fn plans_after(&self, roughing: &dyn Operation) -> bool {
+    /// The work with another operation in place of the one before this one; none where that has no plan.
+    fn after<'j>(&'j self, roughing: &dyn Operation, ground: Ground<'j>) -> Option<Ground<'j>> {
         let own = self.asked.setup.head_span;
         let operations = self.ground.job.operations.iter();
         let mut earlier: Vec<&dyn Operation> = operations
@@ -70,15 +78,12 @@ impl Refused<'_> {
         earlier.pop();
         let mut ground = Ground {
             before: Surface::untouched(self.ground.job.stock),
-            ..self.ground.clone()
+            ..ground
         };
         for operation in earlier.into_iter().chain([roughing]) {
-            match operation.plan(ground.clone()) {
-                Ok(laid) => ground.before = laid.after,
-                Err(_) => return false,
-            }
+            ground.before = operation.plan(ground.clone()).ok()?.after;
         }
-        self.asked.plan(ground).is_ok()
+        Some(ground)
     }
 
     fn diagnostic(&self) -> Diagnostic {

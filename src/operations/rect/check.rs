@@ -43,7 +43,7 @@ pub const SPEC: BlockSpec = BlockSpec {
     title: "`rough rect`",
     fields: &[
         setup::BLADE,
-        value("disc", "wheel").required().takes(Takes::Blade),
+        value("disc", "wheel").required().takes(Takes::Blade("disc")),
         setup::RAKE_FIELD,
         value("lead", "3 deg").within(LEADS),
         value("layer", "auto").within(SIZE).or_auto(),

@@ -1,9 +1,10 @@
 //! Rectangular roughing as an operation of a job.
 
-use crate::asked::{AIR, RoughRect};
+use crate::asked::{AIR, Residual, RoughRect};
 use crate::decided::{Extensions, Planned};
 use crate::plan::blades::{Cover, Hold, Knife, Wheel};
 use crate::plan::model::Pace;
+use crate::plan::shank::Shank;
 use crate::plan::{self, Blades, Limits, Rounding, Span as Range, WORTH, Wish, Work};
 use crate::{lower, refused};
 use vcutc_backend_api::ir::Flank;
@@ -11,7 +12,9 @@ use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::source::Span;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::offset::offset_up;
-use vcutc_job::operation::{Ground, Laid, Operation, Unplanned};
+use vcutc_job::operation::less::Leaves;
+use vcutc_job::operation::planning::PlanningJob;
+use vcutc_job::operation::{Ground, Laid, Operation, Unplanned, Variant};
 use vcutc_job::{BladeRef, Bounds, Machine, Setup, Sourced};
 use vcutc_process::posture::Feed;
 
@@ -53,14 +56,14 @@ impl Operation for RoughRect {
         self.limits.scallop
     }
 
-    fn allowance(&self) -> Option<Sourced<Length>> {
-        Some(self.allowance)
-    }
-
-    fn with_allowance(&self, allowance: Length) -> Option<Box<dyn Operation>> {
-        let mut other = self.clone();
-        other.allowance.value = allowance;
-        Some(Box::new(other))
+    fn leaving_less(&self, least: Length) -> Vec<Variant> {
+        let leaves = Leaves {
+            allowance: |asked: &mut Self| &mut asked.allowance,
+            scallop: |asked| &mut asked.limits.scallop,
+            residual: |asked| &mut asked.residual,
+            lift: Residual::Lift,
+        };
+        leaves.less(self, least)
     }
 
     fn plan<'j>(&'j self, ground: Ground<'j>) -> Result<Laid, Box<dyn Unplanned + 'j>> {
@@ -75,7 +78,11 @@ impl Operation for RoughRect {
             allowance: self.allowance.value,
         };
         let blades = self.pair(ground.job.machine.as_ref());
-        let plan = plan::plan(work, &blades, &self.wish(), ground.cuts_left)
+        let wish = self.wish();
+        let plan = self
+            .for_finishing(&ground.job, &wish)
+            .and_then(|wish| plan::plan(work, &blades, &wish, ground.cuts_left).ok())
+            .map_or_else(|| plan::plan(work, &blades, &wish, ground.cuts_left), Ok)
             .map_err(|refusal| Box::new(refused::diagnostic(self, &refusal)) as Box<dyn Unplanned>)?;
         let standoff = blades.knife.standoff;
         let planned = Planned {
@@ -95,7 +102,7 @@ impl Operation for RoughRect {
 
 impl RoughRect {
     /// The blades as the planner needs them, and how fast they go.
-    fn pair(&self, machine: Option<&Machine>) -> Blades {
+    pub(crate) fn pair(&self, machine: Option<&Machine>) -> Blades {
         Blades {
             knife: Knife::of(
                 &self.blade,
@@ -103,6 +110,11 @@ impl RoughRect {
                 self.standoff.value,
                 Cover::Uncut,
             ),
+            shank: self.blade.in_program().body.map(|stages| Shank {
+                stages,
+                held: lower::slit_holder(self).cutting(Flank::Left, Feed::Forward),
+                extension: self.extensions().slits.to_mm(),
+            }),
             wheel: Wheel::of(
                 &self.disc,
                 Hold {
@@ -129,7 +141,7 @@ impl RoughRect {
         }
     }
 
-    fn wish(&self) -> Wish {
+    pub(crate) fn wish(&self) -> Wish {
         let limits = &self.limits;
         let whole = |limit: Sourced<f64>| limit.value.floor();
         Wish {
@@ -149,6 +161,22 @@ impl RoughRect {
             rounding: Rounding::Grid,
             worth: WORTH,
         }
+    }
+
+    /// Of an operation without a limit on the scallop the one that an operation after it asks for, which takes off the rest.
+    fn for_finishing(&self, job: &PlanningJob<'_>, wish: &Wish) -> Option<Wish> {
+        if wish.limits.scallop.is_some() {
+            return None;
+        }
+        let own = self.setup.head_span;
+        let after = job.operations.iter();
+        let mut after = after
+            .skip_while(|operation| operation.setup().head_span != own)
+            .skip(1);
+        let takes_off = after.find_map(|operation| operation.takes_off())?;
+        let mut wish = wish.clone();
+        wish.limits.scallop = Some(takes_off.value);
+        Some(wish)
     }
 
     /// How far beside the work each blade is clear of it while it turns from one feed to the other.

@@ -16,6 +16,7 @@ mod layout;
 mod mixed;
 pub mod model;
 pub mod refusal;
+pub mod shank;
 pub mod slits;
 mod terrain;
 #[cfg(test)]
@@ -28,6 +29,7 @@ use crate::asked::Residual;
 use blades::{Knife, Wheel};
 use core::ops::RangeInclusive;
 use model::{Counts, Pace};
+use shank::Shank;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_geometry::curve::Point2;
@@ -105,6 +107,8 @@ pub enum Rounding {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blades {
     pub knife: Knife,
+    /// The body of the straight blade, if the job states it.
+    pub shank: Option<Shank>,
     pub wheel: Wheel,
     pub pace: Pace,
 }
@@ -122,6 +126,8 @@ pub struct PlannedRect {
     pub levels: Vec<f64>,
     /// What the blades do, one after the other. No stage is empty, and every change of blade lies between two of them.
     pub stages: Vec<Stage>,
+    /// How many strips are left out because the body of the straight blade has no room beside them.
+    pub left_out: usize,
     /// The most that stays on the part.
     pub left: Length,
     /// What stays, from left to right; walls are two corners at one x.

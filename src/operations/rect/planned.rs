@@ -11,10 +11,10 @@ use vcutc_backend_api::units::{Angle, Area, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
-use vcutc_job::PlannedOperation;
 use vcutc_job::description::{ParameterFigure, ParameterTable};
 use vcutc_job::operation::{Operation, Trials, WorksThere};
-use vcutc_job::planned::{CutShape, Estimate, PlannedStrip, PlannedTip, TipOrigin};
+use vcutc_job::planned::{Balance, Compile, CutShape, Estimate, PlannedStrip, PlannedTip, TipOrigin};
+use vcutc_job::{BladeRef, PlannedOperation};
 use vcutc_simulation::prove::{Bound, Finding, Passes, Strips};
 use vcutc_simulation::report::Report;
 
@@ -52,6 +52,7 @@ impl PlannedOperation for Planned {
                 high: Point2::new(strip.right, strip.top),
                 open: strip.open,
                 radius: self.asked.disc.radius.value.to_mm(),
+                lead: self.asked.lead.value,
             }),
         });
         let kinds = slits.map(|tip| (0, tip)).chain(strips.map(|tip| (1, tip)));
@@ -59,6 +60,15 @@ impl PlannedOperation for Planned {
         let order = |(kind, tip): &(u8, PlannedTip)| (tip.layer, *kind);
         all.sort_by(|a, b| order(a).cmp(&order(b)).then(a.1.tip.x.total_cmp(&b.1.tip.x)));
         all.into_iter().map(|(_, tip)| tip).collect()
+    }
+
+    fn blade_of(&self, shape: CutShape) -> Option<BladeRef<'_>> {
+        Some(match shape {
+            CutShape::Strip(_) | CutShape::Track { .. } => BladeRef::Disc(&self.asked.disc),
+            CutShape::Plain | CutShape::Narrowed { .. } | CutShape::Slit { .. } => {
+                BladeRef::Straight(&self.asked.blade)
+            }
+        })
     }
 
     fn swing(&self) -> Angle {
@@ -105,6 +115,10 @@ impl PlannedOperation for Planned {
 
     fn to_remove(&self, _: &Profile, top: &[Point2]) -> Area {
         words::to_remove(self, top)
+    }
+
+    fn explain_what_stays(&self, balance: Balance<'_>, compile: &Compile<'_>) -> Option<Diagnostic> {
+        verdict::much_stays(self, balance, compile)
     }
 
     fn parameters(&self) -> Vec<ParameterFigure> {

@@ -4,6 +4,7 @@ use crate::asked::RoughRect;
 use crate::plan::LEAST_LAYER;
 use crate::plan::blades::WidthBound;
 use crate::plan::refusal::{Closed, Exceeded, Over, Refusal, SizeField};
+use crate::words;
 use vcutc_backend_api::script::duration_words;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::number::show;
@@ -89,7 +90,17 @@ pub(crate) fn diagnostic(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
         )
         .and(place(asked, asked.residual.span), "strips in other places in each layer")
         .help("use `through = 1`, or another `residual`"),
-        Refusal::Scallop { left, limit } => scallop(asked, *left, *limit),
+        Refusal::Scallop {
+            left,
+            limit,
+            left_out,
+        } => {
+            let diagnostic = scallop(asked, *left, *limit);
+            match words::left_out(asked, *left_out) {
+                Some(note) => diagnostic.note(note),
+                None => diagnostic,
+            }
+        }
         Refusal::Over(limit) => over(asked, *limit),
         Refusal::Bounds { field, least, most } => {
             let (name, bounds) = match field {

@@ -1,8 +1,13 @@
-//! What a proof found wrong with slits and strips, in the user's words.
+//! What a proof found wrong with slits and strips, and that much stays, in the user's words.
 
+use crate::asked::RoughRect;
 use crate::decided::Planned;
+use core::any::Any;
+use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::operation::Operation;
+use vcutc_job::planned::{Balance, Compile};
 use vcutc_process::verdict::{explained, place};
 use vcutc_simulation::prove::{CutFault, Finding};
 
@@ -10,10 +15,7 @@ use vcutc_simulation::prove::{CutFault, Finding};
 fn idle(asked: &dyn Operation, finding: &Finding) -> Diagnostic {
     Diagnostic::new(
         Code::ChipNotFreed,
-        format!(
-            "the slit of {} goes on below what its strips leave",
-            place(finding)
-        ),
+        format!("{} goes on below what its strips leave", place(finding)),
         asked.setup().head_span,
         "a slit of this operation",
     )
@@ -35,5 +37,66 @@ pub(crate) fn explain(planned: &Planned, finding: Finding, count: usize) -> Diag
         0 | 1 => told,
         2 => told.note("the same holds for one more slit or strip"),
         _ => told.note(format!("the same holds for {} more slits and strips", count - 1)),
+    }
+}
+
+/// A share of the material to cut away that is much, where a body keeps it from being cut.
+const MUCH: f64 = 0.1;
+
+/// By how many mm the body of the straight blade is raised to see what would come of it.
+const RAISED: [f64; 4] = [5.0, 10.0, 20.0, 40.0];
+
+/// A change is offered if it leaves no more than this share of what stays now.
+const WORTH: f64 = 0.8;
+
+/// Warns where much stays because the body of the straight blade has no room beside slits. What it says of other bodies was planned.
+pub(crate) fn much_stays(
+    planned: &Planned,
+    balance: Balance<'_>,
+    compile: &Compile<'_>,
+) -> Option<Diagnostic> {
+    let asked = &planned.asked;
+    let left_out = crate::words::left_out(asked, planned.plan.left_out)?;
+    let (body, share) = (asked.blade.body.as_ref()?, balance.share());
+    if share <= MUCH {
+        return None;
+    }
+    let diagnostic = Diagnostic::new(
+        Code::MuchStays,
+        format!(
+            "{:.0} % of the material to cut away stays: {:.0} of {:.0} mm2",
+            share * 100.0,
+            balance.stays().to_mm2(),
+            balance.whole.to_mm2()
+        ),
+        body.span,
+        "this body meets what stands beside slits",
+    )
+    .and(asked.setup.head_span, "strips of this operation")
+    .note(left_out);
+    let better = RAISED.iter().find_map(|&by| {
+        let (plan, report) = compile(&|operation| raise(operation, Length::mm(by)))?;
+        let then = Balance::of(&plan, &report)?.share();
+        (then < WORTH * share).then_some((by, then))
+    });
+    Some(match better {
+        Some((by, then)) => diagnostic.help(format!(
+            "use a longer blade: with a body that begins {} mm higher, {:.0} % stay",
+            show(by),
+            then * 100.0
+        )),
+        None => diagnostic.help("use a longer blade, or one with a thinner shank"),
+    })
+}
+
+/// Moves the body of the straight blade up its axis.
+fn raise(operation: &mut dyn Operation, by: Length) {
+    let operation: &mut dyn Any = operation;
+    let stages = operation
+        .downcast_mut::<RoughRect>()
+        .and_then(|asked| asked.blade.body.as_mut())
+        .map(|body| &mut body.stages);
+    for stage in stages.into_iter().flatten() {
+        stage.from.value += by;
     }
 }

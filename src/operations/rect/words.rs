@@ -1,5 +1,6 @@
 //! What a plan of rectangular roughing says of itself: parameters, lines of the summary, and values of fields that were left open.
 
+use crate::asked::RoughRect;
 use crate::decided::Planned;
 use vcutc_backend_api::units::Area;
 use vcutc_diagnostics::number::show;
@@ -116,7 +117,20 @@ pub(crate) fn summary(planned: &Planned, _: &Report) -> Vec<(&'static str, Strin
             counted(counts.changes, "change of blade")
         ),
     ));
+    lines.extend(left_out(&planned.asked, planned.plan.left_out).map(|text| ("avoid", text)));
     lines
+}
+
+/// What stays because the body of the straight blade has no room.
+pub(crate) fn left_out(asked: &RoughRect, strips: usize) -> Option<String> {
+    (strips > 0).then(|| {
+        let verb = if strips == 1 { "is" } else { "are" };
+        let strips = counted(strips, "strip");
+        format!(
+            "{strips} {verb} left out, because the body of `{}` has no room beside the slits",
+            asked.blade.name
+        )
+    })
 }
 
 fn counted(count: usize, one: &str) -> String {

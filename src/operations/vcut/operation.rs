@@ -1,6 +1,6 @@
 //! V-shaped roughing as an operation of a job.
 
-use crate::asked::{Avoid, Objective, RoughVcut};
+use crate::asked::{Avoid, Objective, Residual, RoughVcut};
 use crate::choice;
 use crate::plan::PlannedVcut;
 use core::any::Any;
@@ -8,6 +8,7 @@ use vcutc_backend_api::units::{Angle, Length};
 use vcutc_cancellation::Effort;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
+use vcutc_job::operation::less::Leaves;
 use vcutc_job::operation::{Aim, Ground, Laid, Operation, Settled, Swing, Unplanned, Variant, Variation};
 use vcutc_job::{Auto, BladeRef, Order, PlannedOperation, Setup, Sourced};
 
@@ -121,14 +122,17 @@ impl Operation for RoughVcut {
         self.limits.scallop
     }
 
-    fn allowance(&self) -> Option<Sourced<Length>> {
-        Some(self.allowance)
-    }
-
-    fn with_allowance(&self, allowance: Length) -> Option<Box<dyn Operation>> {
-        let mut other = self.clone();
-        other.allowance.value = allowance;
-        Some(Box::new(other))
+    fn leaving_less(&self, least: Length) -> Vec<Variant> {
+        if self.tips.is_some() {
+            return Vec::new();
+        }
+        let leaves = Leaves {
+            allowance: |asked: &mut Self| &mut asked.allowance,
+            scallop: |asked| &mut asked.limits.scallop,
+            residual: |asked| &mut asked.residual,
+            lift: Residual::Lift,
+        };
+        leaves.less(self, least)
     }
 
     fn aim(&self) -> Aim {

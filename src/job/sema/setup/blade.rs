@@ -12,8 +12,10 @@ use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::Expr;
 
-/// `blade = NAME`.
-pub const BLADE: FieldSpec = value("blade", "dagger").required().takes(Takes::Blade);
+/// `blade = NAME`, of a straight blade.
+pub const BLADE: FieldSpec = value("blade", "dagger")
+    .required()
+    .takes(Takes::Blade("straight"));
 
 /// The blade that a field names.
 pub fn blade<B: OfKind>(

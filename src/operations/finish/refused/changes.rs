@@ -16,22 +16,29 @@ const MOST_LEAD: u32 = 20;
 /// Thicker strips than that are not offered to run over a hub, in mm.
 const MOST_OVER_HUB: u32 = 30;
 
-/// Shares of the allowance of the roughing that are tried.
-const ALLOWANCES: [f64; 3] = [0.5, 0.25, 0.1];
+/// The leads, in degrees, that are tried together with a change of the roughing.
+const LEADS_AFTER_ROUGHING: [u32; 3] = [10, 15, MOST_LEAD];
 
 /// A change of the job's text.
 pub(super) struct Change {
     pub(super) title: String,
     pub(super) edits: Vec<(Span, String)>,
-    pub(super) scope: Scope,
+    /// This operation then; none where it stays as it is.
+    pub(super) here: Option<FinishDisc>,
+    /// The operation before it then; none where that stays as it is.
+    pub(super) before: Option<Box<dyn Operation>>,
 }
 
-/// What a change is of.
-pub(super) enum Scope {
-    /// Of this operation, which is then this.
-    Here(Box<FinishDisc>),
-    /// Of the one before it, which is then this.
-    Before(Box<dyn Operation>),
+impl Change {
+    /// A change of this operation, after the one before it has been changed, too.
+    fn after(self, roughing: Self) -> Self {
+        Self {
+            title: format!("{}, and {}", roughing.title, self.title),
+            edits: roughing.edits.into_iter().chain(self.edits).collect(),
+            here: self.here,
+            before: roughing.before,
+        }
+    }
 }
 
 impl Refused<'_> {
@@ -52,11 +59,13 @@ impl Refused<'_> {
             ((stays || hangs) && is_given(&asked.lead)).then(|| self.opened("lead")),
         ];
         let leads = (stays || hangs || runs_at_hub).then(|| self.larger_leads());
-        let allowances = is_strip.then(|| self.smaller_allowances());
+        let roughings = is_strip.then(|| self.roughings_leaving_less());
+        let both = is_strip.then(|| self.roughings_and_leads());
         let hubs = runs_at_hub.then(|| self.over_hub());
         (opened.into_iter().flatten())
-            .chain(allowances.into_iter().flatten())
+            .chain(roughings.into_iter().flatten())
             .chain(leads.into_iter().flatten())
+            .chain(both.into_iter().flatten())
             .chain(hubs.into_iter().flatten())
     }
 
@@ -72,15 +81,21 @@ impl Refused<'_> {
         Change {
             title: format!("use `{field} = auto`"),
             edits: self.written(field, span, "auto"),
-            scope: Scope::Here(Box::new(asked)),
+            here: Some(asked),
+            before: None,
+        }
+    }
+
+    /// The greatest lead that the job allows.
+    fn lead_now(&self) -> Angle {
+        match self.asked.lead.value {
+            Auto::Auto => self.asked.limits.lead.value,
+            Auto::Given(lead) => lead,
         }
     }
 
     fn larger_leads(&self) -> impl Iterator<Item = Change> + '_ {
-        let now = match self.asked.lead.value {
-            Auto::Auto => self.asked.limits.lead.value,
-            Auto::Given(lead) => lead,
-        };
+        let now = self.lead_now();
         let leads = (1..=MOST_LEAD).map(|lead| Angle::deg(f64::from(lead)));
         leads
             .filter(move |lead| *lead > now)
@@ -92,6 +107,8 @@ impl Refused<'_> {
         let word = format!("{} deg", show(lead.to_deg()));
         let (title, edits) = match self.asked.lead.value {
             Auto::Auto => {
+                // All leads up to the limit were tried in vain.
+                asked.relief.value = asked.limits.lead.value;
                 asked.limits.lead.value = lead;
                 // The limits are required, so there is a place for one more.
                 let edits = match (self.asked.limits.lead.span, self.asked.limits.scallop.span) {
@@ -110,29 +127,33 @@ impl Refused<'_> {
         Change {
             title,
             edits,
-            scope: Scope::Here(Box::new(asked)),
+            here: Some(asked),
+            before: None,
         }
     }
 
-    /// Roughing that ends its grooves nearer to the part.
-    fn smaller_allowances(&self) -> impl Iterator<Item = Change> + '_ {
-        let roughing = self.roughing();
-        let stated = roughing.and_then(|before| {
-            let allowance = before.allowance()?;
-            Some((before, allowance.value, allowance.span?))
-        });
-        let own = self.asked.allowance.value;
-        stated.into_iter().flat_map(move |(before, now, span)| {
-            let shares = ALLOWANCES.map(|share| Length::mm((now.to_mm() * share * 1e3).floor() / 1e3));
-            let smaller = shares.into_iter().filter(move |smaller| *smaller >= own);
-            smaller.filter_map(move |smaller| {
-                let word = format!("{} mm", show(smaller.to_mm()));
-                Some(Change {
-                    title: format!("let roughing end its grooves nearer to the part: `allowance = {word}`"),
-                    edits: vec![(span, word)],
-                    scope: Scope::Before(before.with_allowance(smaller)?),
-                })
+    /// Roughing that leaves less on the part.
+    fn roughings_leaving_less(&self) -> impl Iterator<Item = Change> + '_ {
+        let least = self.asked.allowance.value;
+        let variants = self.roughing().map(|before| before.leaving_less(least));
+        let written = variants.unwrap_or_default().into_iter();
+        written
+            .filter(|variant| !variant.edits.is_empty())
+            .map(|variant| Change {
+                title: format!("let roughing leave less on the part: {}", variant.advice),
+                edits: variant.edits,
+                here: None,
+                before: Some(variant.operation),
             })
+    }
+
+    /// The same, each with larger leads.
+    fn roughings_and_leads(&self) -> impl Iterator<Item = Change> + '_ {
+        let leads = LEADS_AFTER_ROUGHING.map(|lead| Angle::deg(f64::from(lead)));
+        let larger = leads.into_iter().filter(|lead| *lead > self.lead_now());
+        larger.flat_map(move |lead| {
+            self.roughings_leaving_less()
+                .map(move |roughing| self.with_lead(lead).after(roughing))
         })
     }
 
@@ -149,7 +170,8 @@ impl Refused<'_> {
                     asked.disc.name
                 ),
                 edits: self.written("over_hub", self.asked.over_hub.span, &word),
-                scope: Scope::Here(Box::new(asked)),
+                here: Some(asked),
+                before: None,
             }
         })
     }

@@ -4,6 +4,7 @@
 //! more on the part than may stay, smaller ones are planned too, those with the largest sections first. How many layers slits go
 //! through is decided by the time of the plans.
 
+use super::blades::TOUCH;
 use super::ground::{Sizes, Terms};
 use super::refusal::{Closed, Exceeded, Over, Refusal, SizeField};
 use super::trial::{self, Choice};
@@ -21,6 +22,12 @@ const SHRUNK: u32 = 8;
 
 /// Most layers that slits go through where that is open.
 const MOST_THROUGH: u32 = 8;
+
+/// A last layer thinner than this share of the others is not offered: a judgement, from no source.
+const THIN: f64 = 0.25;
+
+/// At the ends of so many layers it is tried to stop above a closed place.
+const LAYERS_TRIED: usize = 8;
 
 /// Thinner layers are not chosen: a judgement, from no source. Where blades do no thicker ones, something else is to be changed.
 pub const LEAST_LAYER: Length = Length::mm(0.1);
@@ -163,6 +170,7 @@ impl Search<'_> {
             return Err(Refusal::Scallop {
                 left: plan.left,
                 limit,
+                left_out: plan.left_out,
             });
         }
         let counts = plan.counts();
@@ -290,26 +298,46 @@ impl Search<'_> {
         }
     }
 
-    /// A closed place with a height down to which the job can be planned, the lowest one tried first: the lower one of the crests
-    /// beside it, then the layer above.
+    /// A closed place with a height down to which the job can be planned: the lowest one of those that are tried.
     fn opened(&self, closed: Closed) -> Closed {
+        let top = Length::mm(super::ground::top(self.work.before));
+        let is_below_top = |height: &Length| *height > self.wish.down_to && *height < top;
+        let heights = self.heights_above(&closed, top);
+        let down_to = (heights.into_iter())
+            .filter(is_below_top)
+            .find(|&height| self.best(height).is_ok());
+        Closed { down_to, ..closed }
+    }
+
+    /// Where layers may end above a closed place: at the lower one of the crests beside it, without a thin layer above that, and
+    /// at the ends of the layers above it.
+    fn heights_above(&self, closed: &Closed, top: Length) -> Vec<Length> {
         let bound = self.work.bound;
         let (start, end) = bound.span();
-        let crest = super::ground::highest(bound, start, closed.left.to_mm()).min(super::ground::highest(
-            bound,
-            closed.right.to_mm(),
-            end,
-        ));
+        let beside = [
+            super::ground::highest(bound, start, closed.left.to_mm()),
+            super::ground::highest(bound, closed.right.to_mm(), end),
+        ];
+        let crest = Length::mm(grid::up(beside[0].min(beside[1])));
         let layer = match self.wish.layer {
             Auto::Given(layer) => Some(layer),
             Auto::Auto => self.layers(1).ok().and_then(|layers| layers.first().copied()),
         };
-        let above =
-            layer.map(|layer| self.work.stock.height - layer * f64::from(closed.layer.saturating_sub(1)));
-        let heights = [Some(Length::mm(grid::up(crest))), above];
-        let down_to = heights.into_iter().flatten().find(|&height| {
-            height > self.wish.down_to && height < self.work.stock.height && self.best(height).is_ok()
-        });
-        Closed { down_to, ..closed }
+        let Some(layer) = layer else {
+            return vec![crest];
+        };
+        let end_of = |layers: f64| Length::mm(grid::up((top - layer * layers).to_mm()));
+        let whole = ((top - crest).to_mm() / layer.to_mm() + TOUCH).floor();
+        let rest = end_of(whole) - crest;
+        let at_crest = if whole >= 1.0 && rest < layer * THIN {
+            [end_of(whole), crest]
+        } else {
+            [crest, end_of(whole)]
+        };
+        let above = (1..closed.layer).rev().take(LAYERS_TRIED);
+        at_crest
+            .into_iter()
+            .chain(above.map(|layers| end_of(f64::from(layers))))
+            .collect()
     }
 }

@@ -290,7 +290,7 @@ pub(crate) fn highest(profile: &Profile, from: f64, to: f64) -> f64 {
 }
 
 /// The highest of some corners.
-fn top(corners: &[Point2]) -> f64 {
+pub(crate) fn top(corners: &[Point2]) -> f64 {
     corners.iter().map(|corner| corner.z).fold(0.0, f64::max)
 }
 

@@ -10,6 +10,7 @@ use super::StripOrigin;
 use super::blades::{Extent, TOUCH};
 use super::ground::{Ground, Stretch};
 use super::terrain::Terrain;
+use core::cell::OnceCell;
 
 /// A strip that is not in order yet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +21,14 @@ pub(crate) struct Piece {
     /// How high it stands before its layer is cut.
     pub(crate) top: f64,
     pub(crate) origin: StripOrigin,
+}
+
+impl Piece {
+    /// Whether it lies above another one, wholly or in part.
+    pub(crate) fn is_over(&self, other: &Self) -> bool {
+        let overlap = self.extent.right.min(other.extent.right) - self.extent.left.max(other.extent.left);
+        self.layer < other.layer && overlap > TOUCH
+    }
 }
 
 /// The strips of all layers.
@@ -74,9 +83,10 @@ impl Layout {
         mut cut: impl FnMut(&Column<'_, '_>) -> Vec<Piece>,
     ) -> Self {
         let levels = ground.levels();
+        let open = OnceCell::new();
         let columns = ground.columns().into_iter();
         let mut pieces: Vec<Piece> = columns
-            .flat_map(|over| cut(&Column::new(ground, &levels, over)))
+            .flat_map(|over| cut(&Column::new(ground, (&levels, &open), over)))
             .collect();
         pieces.sort_by(|a, b| {
             let place = |piece: &Piece| (piece.layer, piece.extent.left);
@@ -152,6 +162,8 @@ impl Layout {
 pub(crate) struct Column<'c, 'w> {
     pub(crate) ground: &'c Ground<'w>,
     levels: &'c [f64],
+    /// Of each layer where strips may lie, once a column has asked for it: to find it takes a walk along the part.
+    open: &'c OnceCell<Vec<Vec<Stretch>>>,
     over: Stretch,
     /// The lowest that a strip over all of it may end.
     floor: f64,
@@ -160,12 +172,17 @@ pub(crate) struct Column<'c, 'w> {
 }
 
 impl<'c, 'w> Column<'c, 'w> {
-    fn new(ground: &'c Ground<'w>, levels: &'c [f64], over: Stretch) -> Self {
+    fn new(
+        ground: &'c Ground<'w>,
+        (levels, open): (&'c [f64], &'c OnceCell<Vec<Vec<Stretch>>>),
+        over: Stretch,
+    ) -> Self {
         let floor = ground.floor(over);
         let whole = levels.partition_point(|&level| level >= floor - TOUCH);
         Self {
             ground,
             levels,
+            open,
             over,
             floor,
             whole,
@@ -220,10 +237,13 @@ impl<'c, 'w> Column<'c, 'w> {
     /// The whole layers, and so many more up to the part.
     pub(crate) fn shifted(&self, more: usize) -> Vec<Piece> {
         let mut pieces = self.whole_layers();
-        let further = (1..).zip(self.levels).enumerate().skip(self.whole).take(more);
-        for (above, (layer, &level)) in further {
-            let open = self.ground.open_at(level).into_iter();
-            let within = open.map(|stretch| Stretch {
+        let open = self.open.get_or_init(|| {
+            let levels = self.levels.iter();
+            levels.map(|&level| self.ground.open_at(level)).collect()
+        });
+        let layers = (1..).zip(self.levels).zip(open).enumerate();
+        for (above, ((layer, &level), open)) in layers.skip(self.whole).take(more) {
+            let within = open.iter().map(|stretch| Stretch {
                 left: stretch.left.max(self.over.left),
                 right: stretch.right.min(self.over.right),
             });

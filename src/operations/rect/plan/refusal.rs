@@ -63,7 +63,12 @@ pub enum Refusal {
     /// Slits through several layers need columns that stay where they are, which this strategy does not have.
     NoColumns { through: u32 },
     /// More stays on the part than may.
-    Scallop { left: Length, limit: Length },
+    Scallop {
+        left: Length,
+        limit: Length,
+        /// How many strips are left out because the body of the straight blade has no room beside them.
+        left_out: usize,
+    },
     /// There is a plan, but one that breaks a limit on the whole.
     Over(Over),
     /// No layer or step within the bounds: the least that the job allows is more than blades or bounds do.

@@ -30,6 +30,7 @@ fn blades() -> Blades {
             standoff: Length::ZERO,
             covers: Cover::Uncut,
         },
+        shank: None,
         wheel: Wheel {
             radius: Length::mm(25.0),
             depth: Length::mm(100.0),

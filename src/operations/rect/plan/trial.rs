@@ -7,6 +7,7 @@ use super::layout::{Layout, Piece};
 use super::mixed::{self, Tolerated};
 use super::model::RectCut;
 use super::refusal::{Closed, Refusal};
+use super::shank::{self, Shank};
 use super::slits::{self, Through};
 use super::terrain::Terrain;
 use super::{Blades, PlannedRect, Slit, Stage};
@@ -102,7 +103,36 @@ impl Trial<'_> {
         }
     }
 
+    /// A plan in which the body of the straight blade stays clear of what stands beside its slits; where there is none, one without
+    /// a look at it, of which the proof says what is in the way.
     fn planned(&self, layout: &Layout) -> Result<PlannedRect, Refusal> {
+        let planned = self.laid(layout);
+        let (Ok(plan), Some(shank)) = (&planned, &self.blades.shank) else {
+            return planned;
+        };
+        self.cleared(layout, plan, shank).map_or(planned, Ok)
+    }
+
+    /// The plan without the strips whose slits take the body into what stands.
+    fn cleared(&self, layout: &Layout, plan: &PlannedRect, shank: &Shank) -> Option<PlannedRect> {
+        let (mut layout, mut plan) = (layout.clone(), plan.clone());
+        let pieces = layout.pieces.len();
+        loop {
+            let met = shank.meets(&plan, self.ground, self.terms.work.stock);
+            if met.is_empty() {
+                plan.left_out = pieces - layout.pieces.len();
+                return Some(plan);
+            }
+            let fewer = shank::without(&layout, &met, self.ground);
+            if fewer.pieces.len() == layout.pieces.len() {
+                return None;
+            }
+            layout = fewer;
+            plan = self.laid(&layout).ok()?;
+        }
+    }
+
+    fn laid(&self, layout: &Layout) -> Result<PlannedRect, Refusal> {
         if layout.pieces.is_empty() {
             return Err(Refusal::Nothing);
         }
@@ -254,6 +284,7 @@ impl Trial<'_> {
             residual: self.choice.residual,
             levels: layout.levels.clone(),
             stages,
+            left_out: 0,
             left: Length::mm(self.ground.left_by(&contour)),
             contour,
             time: Duration::ZERO,

@@ -153,7 +153,7 @@ proptest! {
                 prop_assert!(blades.knife.covers == Cover::Standing);
                 prop_assert!(needed > edge && top.to_mm() - bottom.to_mm() > 10.0);
             }
-            Err(Refusal::Scallop { left, limit }) => prop_assert!(left > limit),
+            Err(Refusal::Scallop { left, limit, .. }) => prop_assert!(left > limit),
             Err(Refusal::Nothing) => {}
             Err(other) => prop_assert!(false, "{:?}", other),
         }

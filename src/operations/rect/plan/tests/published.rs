@@ -120,7 +120,9 @@ fn block() -> Sample {
 
 /// The planned block, with as many Vs as this compiler plans for it.
 fn compared(plan: &PlannedRect, v_cuts: f64, extension: f64) -> Comparison {
-    let Blades { knife, wheel, pace } = blades();
+    let Blades {
+        knife, wheel, pace, ..
+    } = blades();
     Comparison {
         v: VCut {
             cuts: v_cuts,
