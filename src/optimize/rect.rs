@@ -66,7 +66,8 @@ pub(super) fn of(
             Some(vcut) => vcut.trade_off.points.iter().map(|point| point.scallop).collect(),
             None => limits_about(limit.or(now.map(|now| now.left)), points),
         };
-        let others = limits.into_iter().filter(|other| Some(*other) != limit);
+        let is_own = |other: &Length| limit.is_some_and(|limit| (*other - limit).abs() < ALIKE);
+        let others = limits.into_iter().filter(|other| !is_own(other));
         let trade_off = others.map(|limit| (limit, asked.figures_under(limit, &ground)));
         Some(RectOptimum {
             number,
@@ -95,6 +96,9 @@ fn limits_about(limit: Option<Length>, points: u32) -> Vec<Length> {
     let limits = (0..points).map(|point| Length::mm(grid::up(limit.to_mm() * factor(point) * 0.1) * 10.0));
     limits.collect()
 }
+
+/// Limits nearer to each other are printed alike.
+const ALIKE: Length = Length::mm(0.005);
 
 impl RectOptimum {
     /// For people.

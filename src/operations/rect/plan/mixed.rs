@@ -15,6 +15,10 @@ use super::slits::Through;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Tolerated(pub(crate) f64);
 
+/// Shares of the limit that are tolerated one after the other: the fewest strips within a limit may stand in each other's way where a few
+/// more do not.
+const TIGHTER: [f64; 4] = [1.0, 0.85, 0.7, 0.5];
+
 impl Tolerated {
     fn holds(self, left: f64) -> bool {
         left <= self.0 + TOUCH
@@ -23,12 +27,16 @@ impl Tolerated {
 
 /// The layouts from the best one on: those that keep the limit, by their strips; then the others, by what they leave.
 pub(crate) fn layouts(ground: &Ground<'_>, tolerated: Tolerated, through: Through) -> Vec<Layout> {
-    let mut all = vec![
-        Layout::of_columns(ground, |column| fewest(column, tolerated, through)),
+    let fewest_within = TIGHTER.map(|share| {
+        let tolerated = Tolerated(tolerated.0 * share);
+        Layout::of_columns(ground, |column| fewest(column, tolerated, through))
+    });
+    let mut all = Vec::from(fewest_within);
+    all.extend([
         Layout::of_columns(ground, |column| lifted_or_not(column, tolerated)),
         Layout::discard(ground),
         Layout::lift(ground),
-    ];
+    ]);
     if through == Through::One {
         all.push(Layout::shift(ground));
     }
