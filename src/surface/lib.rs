@@ -7,9 +7,12 @@
 //! 3. [`coverage`] says whether each place of the plan lies under a triangle, and what is odd about them.
 //! 4. A surface has a shadow along y, sections, a height at each place ([`shadow`]), a highest and a lowest place.
 //! 5. [`residual`] says what straight cuts leave over it.
-//! 6. A [`map`] has the highest place of each of its cells, of the surface or of what is left over it.
+//! 6. A [`drop`] says how far a leaning disc comes down on it.
+//! 7. A [`map`] has the highest place of each of its cells, of the surface or of what is left over it.
 
 pub mod coverage;
+pub mod disc;
+pub mod drop;
 mod envelope;
 mod extremes;
 pub mod formula;
