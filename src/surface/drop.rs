@@ -8,14 +8,16 @@
 //! ([`plate`]). Cylinders on the disc have closed forms in the same coordinates ([`stage`]). All heights are exact up to
 //! rounding; the surface counts as its triangles.
 //!
-//! The bins of the surface say how high it comes in each of them, and so which ones cannot matter.
+//! A plane above each bin of the surface says which bins cannot matter ([`ceiling`]).
 
+mod ceiling;
 mod plate;
 mod stage;
 mod view;
 
 use crate::disc::{Axis, Disc};
 use crate::surface::{Cell, Surface};
+use ceiling::{Ceilings, Roofed};
 use plate::Plate;
 use stage::Cylinder;
 use vcutc_backend_api::geometry::Point3;
@@ -42,20 +44,25 @@ pub struct Rest {
 }
 
 /// A surface that discs come down on.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Dropper<'s> {
     surface: &'s Surface,
+    ceilings: Ceilings,
     /// Its greatest height, in mm.
     highest: f64,
 }
 
 impl<'s> Dropper<'s> {
-    /// Looks once at all corners.
+    /// Looks once at all triangles.
     #[must_use]
     pub fn new(surface: &'s Surface) -> Self {
         let heights = surface.mesh().corners().iter().map(|corner| corner.z);
         let highest = heights.fold(f64::NEG_INFINITY, f64::max);
-        Self { surface, highest }
+        Self {
+            surface,
+            ceilings: Ceilings::new(surface),
+            highest,
+        }
     }
 
     /// The surface.
@@ -116,23 +123,35 @@ impl<'s> Dropper<'s> {
     /// Raises a body until it clears the triangles below it.
     fn bring(&self, body: &impl Body, part: Part, search: &mut Search) {
         let bins = self.surface.bins();
-        let bounds = body.bounds();
-        let most = |cell: Cell| body.most(bins.bounds(cell), bins.heights(cell)[1]);
+        let [first, last] = bins.touched(body.bounds());
         // The bin that may ask for most comes first, so that most others need no look.
-        let mut first: Option<(Cell, f64)> = None;
-        for cell in bins.cells(bounds) {
-            let height = most(cell);
-            if first.is_none_or(|(_, before)| height > before) {
-                first = Some((cell, height));
+        let mut best: Option<(Cell, f64)> = None;
+        for row in first.row..=last.row {
+            for column in first.column..=last.column {
+                let cell = Cell { column, row };
+                if let Some(most) = self.most(body, cell)
+                    && best.is_none_or(|(_, before)| most > before)
+                {
+                    best = Some((cell, most));
+                }
             }
         }
-        let Some((first, _)) = first else { return };
-        self.look(first, body, part, search);
-        for cell in bins.cells(bounds) {
-            if cell != first && most(cell) > search.height() {
-                self.look(cell, body, part, search);
+        let Some((best, most)) = best else { return };
+        if most > search.height() {
+            self.look(best, body, part, search);
+        }
+        for row in first.row..=last.row {
+            for column in first.column..=last.column {
+                let cell = Cell { column, row };
+                if cell != best && self.most(body, cell).is_some_and(|most| most > search.height()) {
+                    self.look(cell, body, part, search);
+                }
             }
         }
+    }
+
+    fn most(&self, body: &impl Body, cell: Cell) -> Option<f64> {
+        self.ceilings.over(cell).and_then(|bin| body.most(bin))
     }
 
     fn look(&self, cell: Cell, body: &impl Body, part: Part, search: &mut Search) {
@@ -166,8 +185,8 @@ trait Body {
     /// The box in plan that it lies in: least x and y, greatest x and y.
     fn bounds(&self) -> [f64; 4];
 
-    /// No part of a surface over a rectangle that is nowhere higher than this makes the centre go higher.
-    fn most(&self, rectangle: [[f64; 2]; 2], top: f64) -> f64;
+    /// Nothing within a bin makes the centre go higher than this; none if the body is not over the bin.
+    fn most(&self, bin: Roofed) -> Option<f64>;
 
     /// The lowest height of the centre that clears a triangle, and where it touches it; none if that is not above a height.
     fn clear(&self, face: [Point3; 3], above: f64) -> Option<(f64, Point3)>;

@@ -1,6 +1,7 @@
 //! Round plates: the face of a disc, and both ends of a cylinder on it.
 
 use super::Body;
+use super::ceiling::Roofed;
 use super::view::{Seen, View, between};
 use crate::disc::Axis;
 use vcutc_backend_api::geometry::Point3;
@@ -33,9 +34,25 @@ impl Body for Plate {
         [x - a, y - b, x + a, y + b]
     }
 
-    fn most(&self, rectangle: [[f64; 2]; 2], top: f64) -> f64 {
-        let [_, far] = self.view.along(rectangle);
-        top + self.view.sine * (far / self.view.cosine).min(self.radius) - self.above
+    fn most(&self, bin: Roofed) -> Option<f64> {
+        let (origin, heading) = (self.view.origin, self.view.heading);
+        let [dx, dy] = [bin.middle[0] - origin[0], bin.middle[1] - origin[1]];
+        // No place of the bin is nearer to the middle of the plate than that.
+        let (near_x, near_y) = (
+            (dx.abs() - bin.half[0]).max(0.0),
+            (dy.abs() - bin.half[1]).max(0.0),
+        );
+        if near_x * near_x + near_y * near_y > self.radius * self.radius {
+            return None;
+        }
+        let tangent = self.view.sine / self.view.cosine;
+        let rise: [f64; 2] = core::array::from_fn(|axis| bin.slope[axis] + tangent * heading[axis]);
+        let middle = bin.height + tangent * (dx * heading[0] + dy * heading[1]);
+        let within_bin = middle + bin.half[0] * rise[0].abs() + bin.half[1] * rise[1].abs();
+        // The same plane over all of the plate, for bins that are larger.
+        let steepness = (rise[0] * rise[0] + rise[1] * rise[1]).sqrt();
+        let within_plate = bin.height - bin.slope[0] * dx - bin.slope[1] * dy + self.radius * steepness;
+        Some(within_bin.min(within_plate) - self.above)
     }
 
     fn clear(&self, face: [Point3; 3], above: f64) -> Option<(f64, Point3)> {

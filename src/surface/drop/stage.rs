@@ -8,6 +8,7 @@
 //! one is part of the body, so what it asks for is right too.
 
 use super::Body;
+use super::ceiling::Roofed;
 use super::plate::{Plate, top};
 use super::view::{Seen, View, between};
 use crate::disc::{Axis, Stage};
@@ -90,9 +91,12 @@ impl Body for Cylinder {
         [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
     }
 
-    fn most(&self, rectangle: [[f64; 2]; 2], top: f64) -> f64 {
+    fn most(&self, bin: Roofed) -> Option<f64> {
         let View { sine, cosine, .. } = self.view;
-        let [near, far] = self.view.along(rectangle);
+        let ([near, far], [right, left]) = self.view.ranges(bin.middle, bin.half);
+        if right > self.radius || left < -self.radius {
+            return None;
+        }
         let crest = self.radius * cosine;
         let lifted = if far <= crest || sine < UPRIGHT {
             far.min(crest) * sine / cosine
@@ -102,7 +106,7 @@ impl Body for Cylinder {
             // The side rises from the lowest place of the rim.
             self.radius * sine - (near - crest) * cosine / sine
         };
-        top + lifted - self.above
+        Some(bin.top() + lifted - self.above)
     }
 
     fn clear(&self, face: [Point3; 3], above: f64) -> Option<(f64, Point3)> {

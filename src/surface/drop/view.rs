@@ -51,19 +51,15 @@ impl View {
         )
     }
 
-    /// The least and the greatest distance along the heading, in plan, of a rectangle.
-    pub(super) fn along(&self, [low, high]: [[f64; 2]; 2]) -> [f64; 2] {
-        let mut range = [0.0, 0.0];
-        for axis in [0, 1] {
-            let part = self.heading[axis];
-            let (a, b) = (
-                part * (low[axis] - self.origin[axis]),
-                part * (high[axis] - self.origin[axis]),
-            );
-            range[0] += a.min(b);
-            range[1] += a.max(b);
-        }
-        range
+    /// The least and the greatest distance of a rectangle along the heading, in plan, and across it. The rectangle is given
+    /// by its middle and half its size.
+    pub(super) fn ranges(&self, middle: [f64; 2], half: [f64; 2]) -> ([f64; 2], [f64; 2]) {
+        let [x, y] = [middle[0] - self.origin[0], middle[1] - self.origin[1]];
+        let [along, across] = self.heading;
+        let (p, q) = (x * along + y * across, y * along - x * across);
+        let [a, b] = [along.abs(), across.abs()];
+        let (u, v) = (half[0] * a + half[1] * b, half[1] * a + half[0] * b);
+        ([p - u, p + u], [q - v, q + v])
     }
 
     /// Half the size in plan, along x and y, of a round plate.

@@ -1,0 +1,55 @@
+//! Discs that come down on a waved sheet.
+
+use super::surface::PLAN;
+use vcutc::surface::disc::{Axis, Disc, Stage};
+use vcutc::surface::drop::Dropper;
+use vcutc::surface::surface::Surface;
+use vcutc_backend_api::units::Length;
+
+/// Places at which a disc comes down.
+pub const PLACES: u64 = 10_000;
+
+/// Of the edge, in mm.
+const RADIUS: f64 = 25.0;
+
+/// The surface, prepared.
+#[must_use]
+pub fn dropper(surface: &Surface) -> Dropper<'_> {
+    Dropper::new(surface)
+}
+
+/// Places all over the plan, and an axis that leans by 5 degrees in a direction of its own at each.
+fn postures() -> impl Iterator<Item = ([f64; 2], Axis)> {
+    (0..PLACES as u32).map(|k| {
+        // Fractional parts of multiples of irrational numbers fill the plan evenly.
+        let share = |step: f64| (f64::from(k) * step).fract();
+        let place = [PLAN[0] * share(0.754_877_666), PLAN[1] * share(0.569_840_291)];
+        let (sine, cosine) = (std::f64::consts::TAU * share(0.618_033_989)).sin_cos();
+        let axis = Axis::new([0.087 * cosine, 0.087 * sine, 1.0]).expect("it points up");
+        (place, axis)
+    })
+}
+
+/// The sum of the heights at which the face of a disc rests, in mm.
+#[must_use]
+pub fn faces(dropper: &Dropper<'_>) -> f64 {
+    let rests = postures().filter_map(|(place, axis)| dropper.face(Length::mm(RADIUS), place, axis));
+    rests.map(|rest| rest.height.to_mm()).sum()
+}
+
+/// The same with a hub and a holder on it.
+///
+/// # Panics
+/// Never: the disc is a good one.
+#[must_use]
+pub fn discs(dropper: &Dropper<'_>) -> f64 {
+    let stage = |radius, from, to| Stage {
+        radius: Length::mm(radius),
+        from: Length::mm(from),
+        to: Length::mm(to),
+    };
+    let stages = vec![stage(8.0, 1.2, 30.0), stage(30.0, 30.0, 200.0)];
+    let disc = Disc::new(Length::mm(RADIUS), stages).expect("it is a disc");
+    let rests = postures().filter_map(|(place, axis)| dropper.disc(&disc, place, axis));
+    rests.map(|rest| rest.height.to_mm()).sum()
+}
