@@ -11,6 +11,7 @@
 //! 7. A [`map`] has the highest place of each of its cells, of the surface or of what is left over it.
 
 pub mod coverage;
+pub mod curvature;
 pub mod disc;
 pub mod drop;
 mod envelope;
@@ -23,10 +24,13 @@ pub mod map;
 pub mod mesh;
 mod nearest;
 pub mod patch;
+pub mod posture;
 mod region;
 pub mod residual;
+pub mod scallop;
 pub mod shadow;
 pub mod surface;
 #[cfg(test)]
 mod testkit;
+pub mod tilt;
 mod visible;
