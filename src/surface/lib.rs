@@ -19,6 +19,7 @@ mod extremes;
 pub mod formula;
 pub mod grid;
 pub mod import;
+pub mod lead;
 pub mod loft;
 pub mod map;
 pub mod mesh;
