@@ -15,9 +15,10 @@ mod plate;
 mod stage;
 mod view;
 
-use crate::disc::{Axis, Disc};
+use crate::disc::{Axis, Disc, Stage};
 use crate::surface::{Cell, Surface};
-use ceiling::{Ceilings, Roofed};
+use ceiling::Ceilings;
+pub(crate) use ceiling::Roofed;
 use plate::Plate;
 use stage::Cylinder;
 use vcutc_backend_api::geometry::Point3;
@@ -100,18 +101,20 @@ impl<'s> Dropper<'s> {
         search.rest
     }
 
-    /// The lowest height of the centre at which the stages of a disc, without its face, clear the surface.
-    #[must_use]
-    pub fn body(&self, disc: &Disc, place: [f64; 2], axis: Axis) -> Option<Rest> {
+    /// The lowest height of the centre of a disc at which one of its stages clears the surface.
+    pub(crate) fn stage(&self, stage: Stage, index: usize, place: [f64; 2], axis: Axis) -> Option<Rest> {
         let mut search = Search::default();
-        for (index, stage) in disc.stages().iter().enumerate() {
-            self.bring_stage(
-                &Cylinder::new(*stage, place, axis),
-                Part::Stage(index),
-                &mut search,
-            );
-        }
+        self.bring_stage(
+            &Cylinder::new(stage, place, axis),
+            Part::Stage(index),
+            &mut search,
+        );
         search.rest
+    }
+
+    /// A bin with a plane above what lies in it; none without triangles.
+    pub(crate) fn roofed(&self, cell: Cell) -> Option<Roofed> {
+        self.ceilings.over(cell)
     }
 
     fn bring_stage(&self, cylinder: &Cylinder, part: Part, search: &mut Search) {

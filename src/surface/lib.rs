@@ -17,6 +17,7 @@ pub mod drop;
 mod envelope;
 mod extremes;
 pub mod formula;
+pub mod gouge;
 pub mod grid;
 pub mod import;
 pub mod lead;

@@ -20,12 +20,13 @@ pub(super) struct Ceiling {
 
 /// A bin with the plane above it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Roofed {
-    pub(super) middle: [f64; 2],
-    pub(super) half: [f64; 2],
+pub(crate) struct Roofed {
+    pub(crate) middle: [f64; 2],
+    /// Half its size.
+    pub(crate) half: [f64; 2],
     /// The height of the plane over the middle.
-    pub(super) height: f64,
-    pub(super) slope: [f64; 2],
+    pub(crate) height: f64,
+    pub(crate) slope: [f64; 2],
 }
 
 impl Roofed {

@@ -1,0 +1,244 @@
+//! How deep a disc may enter a surface on its way from one pose to the next.
+//!
+//! On the way the centre moves on a straight line, evenly, and the axis turns evenly by an angle phi, about one fixed axis. Let f be
+//! how far a point of the disc lies below the surface p, along z. It is bounded by what is known at both ends.
+//!
+//! 1. The way X(t) of a point at a distance Rb from the centre stays within `Rb phi^2/8` of its chord, and is no longer than
+//!    `l = |dC| + Rb phi` in plan. Where p is continuous along the way, f is the integral of its slope along the chord, plus what
+//!    the way deviates from it. A function whose derivatives differ by at most G over a length l rises above the greater of its
+//!    values at both ends by at most `G l/4`. So with slopes g of p in a window as large as the way,
+//!    `f <= max(f(0), f(1)) + (spread of g.dC + Rb phi * spread of g)/4 + (sqrt(1 + g^2) + 8/3 spread of g) Rb phi^2/8`.
+//!    The last term bounds the integral of `g.(X' - V)` with V the chord's velocity: the mean slope moves through the deviation, and
+//!    the rest through `|X' - V|`, whose integral is at most `|X''| t^2/3`.
+//! 2. Slopes are those of the triangles in a bin and in the bins that a way from it may reach ([`slopes`]). Bins that lie well below
+//!    the disc at both ends cannot matter, by the planes above them.
+//! 3. Where a sheet begins or ends, where it is steep, and beyond the plan, f jumps. At such a place x the lower plane of the disc
+//!    is `h(t) = Cz + m.(x - C)`, and changes nearly evenly: it stays above its chord less `max |h''|/8`, so that f there is bounded by
+//!    that of both planes, extended as far as the disc comes ([`jumps`]). Between jumps rule 1 holds, with these in place of ends.
+//!
+//! Rounding of corners by a controller, and what a five-axis machine deviates from such a way, come on top, `sqrt(1 + g^2)` times.
+
+mod jumps;
+mod member;
+mod slopes;
+
+use crate::coverage::Tangled;
+use crate::disc::{Disc, Pose};
+use crate::drop::{Dropper, Part};
+use jumps::Outline;
+use member::{Member, Turn};
+use slopes::{Box2, Slopes};
+use vcutc_backend_api::units::Length;
+
+/// A surface over which discs move.
+#[derive(Clone, Debug)]
+pub struct Moves<'d, 's> {
+    dropper: &'d Dropper<'s>,
+    slopes: Slopes,
+    outline: Outline,
+}
+
+/// A disc in a pose, and how far each of its parts enters the surface there, along z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placed {
+    pose: Pose,
+    /// Of the face, then of each stage, in mm; below 0 what it is clear by. None of one over nothing.
+    depths: Vec<Option<f64>>,
+}
+
+impl Placed {
+    /// The pose.
+    #[must_use]
+    pub const fn pose(&self) -> Pose {
+        self.pose
+    }
+
+    /// How far the disc enters the surface, along z; below 0 what it is clear by. None over nothing.
+    #[must_use]
+    pub fn depth(&self) -> Option<Length> {
+        let deepest = self.depths.iter().copied().flatten().reduce(f64::max);
+        deepest.map(Length::mm)
+    }
+}
+
+/// The deepest that a disc may come on a move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry {
+    /// At no time does it enter the surface by more, along z. Not below 0.
+    pub depth: Length,
+    /// The part of the disc that this is of.
+    pub part: Part,
+    /// The steepest slope below the move, without what counts as steep: height for length.
+    pub slope: f64,
+}
+
+impl<'d, 's> Moves<'d, 's> {
+    /// Looks once at all triangles and edges.
+    ///
+    /// # Errors
+    /// If triangles lie over each other in such numbers that this takes too long.
+    pub fn new(dropper: &'d Dropper<'s>) -> Result<Self, Tangled> {
+        Ok(Self {
+            dropper,
+            slopes: Slopes::new(dropper.surface())?,
+            outline: Outline::new(),
+        })
+    }
+
+    /// A disc in a pose. None if the pose is not finite.
+    #[must_use]
+    pub fn place(&self, disc: &Disc, pose: Pose) -> Option<Placed> {
+        let centre = pose.centre;
+        if !centre.is_finite() {
+            return None;
+        }
+        let depth = |rest: Option<crate::drop::Rest>| rest.map(|rest| rest.height.to_mm() - centre.z);
+        let place = [centre.x, centre.y];
+        let face = self.dropper.face(disc.radius(), place, pose.axis);
+        let stages = disc.stages().iter().enumerate();
+        let stages = stages.map(|(index, stage)| self.dropper.stage(*stage, index, place, pose.axis));
+        Some(Placed {
+            pose,
+            depths: core::iter::once(face).chain(stages).map(depth).collect(),
+        })
+    }
+
+    /// The deepest that a disc may come on its way between two poses, ends included.
+    #[must_use]
+    pub fn between(&self, disc: &Disc, from: &Placed, to: &Placed) -> Entry {
+        let mut entry = Entry {
+            depth: Length::ZERO,
+            part: Part::Face,
+            slope: 0.0,
+        };
+        let members = core::iter::once((Part::Face, Member::face(disc)));
+        let stages = disc.stages().iter().enumerate();
+        let members = members.chain(stages.map(|(index, stage)| (Part::Stage(index), Member::stage(stage))));
+        for ((part, member), depths) in members.zip(from.depths.iter().zip(&to.depths)) {
+            let turn = Turn::new(member, [from.pose, to.pose]);
+            let (depth, slope) = self.deepest(&turn, [*depths.0, *depths.1]);
+            if depth > entry.depth.to_mm() {
+                entry = Entry {
+                    depth: Length::mm(depth),
+                    part,
+                    ..entry
+                };
+            }
+            entry.slope = entry.slope.max(slope);
+        }
+        entry
+    }
+
+    /// The bound for a part of a disc, and the steepest slope below it.
+    fn deepest(&self, turn: &Turn, depths: [Option<f64>; 2]) -> (f64, f64) {
+        let bins = self.dropper.surface().bins();
+        let [first, last] = bins.touched(turn.bounds());
+        let (columns, rows) = (last.column - first.column + 1, last.row - first.row + 1);
+        let cells = bins.cells(turn.bounds());
+        let known: Vec<Known> = cells
+            .map(|cell| {
+                let jump = self.jump(turn, cell);
+                let at = |end: usize| self.at_end(turn, end, cell, depths[end]);
+                let [start, end] = [at(0), at(1)];
+                Known {
+                    start: greater(start, jump),
+                    end: greater(end, jump),
+                    slopes: self.slopes.of(cell),
+                }
+            })
+            .collect();
+        let [across, along] = turn.window(bins.bounds(first));
+        // The greatest within the window, along one axis after the other.
+        let wide = slide(&known, [rows, columns], [columns, 1], across);
+        let whole = slide(&wide, [columns, rows], [1, columns], along);
+        let mut deepest = 0.0_f64;
+        let mut steepest = 0.0_f64;
+        for (here, window) in known.iter().zip(&whole) {
+            let slopes = window.slopes.unwrap_or(Box2::LEVEL);
+            steepest = steepest.max(slopes.steepest());
+            if let Some(ends) = here
+                .start
+                .map(|start| greater(Some(start), window.end).unwrap_or(start))
+            {
+                deepest = deepest.max(ends + turn.sag(slopes));
+            }
+        }
+        let at_ends = depths.into_iter().flatten().fold(0.0, f64::max);
+        (deepest.max(at_ends), steepest)
+    }
+
+    /// How far at most a part of a disc enters what lies in a bin, at one end of its move.
+    fn at_end(&self, turn: &Turn, end: usize, cell: crate::surface::Cell, depth: Option<f64>) -> Option<f64> {
+        let depth = depth?;
+        let bin = self.dropper.roofed(cell)?;
+        let (middle, half) = (bin.middle, bin.half);
+        if !turn.is_over(end, middle, half) {
+            return None;
+        }
+        let (height, slope) = turn.plane(end, middle);
+        let rise = [0, 1].map(|axis| half[axis] * (bin.slope[axis] - slope[axis]).abs());
+        Some((bin.height - height + rise[0] + rise[1]).min(depth))
+    }
+
+    /// How far at most a part of a disc enters at places of a bin at which the surface jumps, at any time.
+    fn jump(&self, turn: &Turn, cell: crate::surface::Cell) -> Option<f64> {
+        let surface = self.dropper.surface();
+        let steep = self
+            .slopes
+            .steep(cell)
+            .iter()
+            .map(|&number| surface.triangle(number).to_vec());
+        let borders = self
+            .slopes
+            .borders(cell)
+            .iter()
+            .map(|&edge| self.slopes.edge(edge).to_vec());
+        let pieces = steep.chain(borders);
+        let deepest = pieces
+            .filter_map(|piece| self.outline.deepest(turn, piece))
+            .reduce(f64::max)?;
+        Some(deepest + turn.bend())
+    }
+}
+
+/// What is known of a bin.
+#[derive(Clone, Copy, Debug)]
+struct Known {
+    start: Option<f64>,
+    end: Option<f64>,
+    slopes: Option<Box2>,
+}
+
+fn greater(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.max(b)),
+        (a, b) => a.or(b),
+    }
+}
+
+/// Of all bins what is greatest in a window of bins about them, in lines of bins: so many lines of so many bins, the steps from line to
+/// line and from bin to bin, and how far the window reaches to either side.
+fn slide(
+    known: &[Known],
+    [lines, count]: [usize; 2],
+    [line, step]: [usize; 2],
+    reach: [usize; 2],
+) -> Vec<Known> {
+    let mut out = known.to_vec();
+    for start in (0..lines).map(|number| number * line) {
+        for place in 0..count {
+            let window = place.saturating_sub(reach[0])..=place.saturating_add(reach[1]).min(count - 1);
+            let within = window.filter_map(|other| known.get(start + other * step));
+            if let Some(slot) = out.get_mut(start + place * step) {
+                for other in within {
+                    slot.end = greater(slot.end, other.end);
+                    slot.slopes = Box2::both(slot.slopes, other.slopes);
+                }
+            }
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests;
