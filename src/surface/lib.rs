@@ -30,6 +30,7 @@ pub mod posture;
 mod region;
 pub mod residual;
 pub mod scallop;
+pub mod section;
 pub mod shadow;
 pub mod surface;
 #[cfg(test)]
