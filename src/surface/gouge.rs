@@ -24,7 +24,8 @@ mod slopes;
 
 use crate::coverage::Tangled;
 use crate::disc::{Disc, Pose};
-use crate::drop::{Dropper, Part};
+use crate::drop::{Dropper, Part, Rest};
+use crate::surface::Cell;
 use jumps::Outline;
 use member::{Member, Turn};
 use slopes::{Box2, Slopes};
@@ -85,6 +86,12 @@ impl<'d, 's> Moves<'d, 's> {
         })
     }
 
+    /// The surface that discs come down on.
+    #[must_use]
+    pub const fn dropper(&self) -> &'d Dropper<'s> {
+        self.dropper
+    }
+
     /// A disc in a pose. None if the pose is not finite.
     #[must_use]
     pub fn place(&self, disc: &Disc, pose: Pose) -> Option<Placed> {
@@ -92,7 +99,7 @@ impl<'d, 's> Moves<'d, 's> {
         if !centre.is_finite() {
             return None;
         }
-        let depth = |rest: Option<crate::drop::Rest>| rest.map(|rest| rest.height.to_mm() - centre.z);
+        let depth = |rest: Option<Rest>| rest.map(|rest| rest.height.to_mm() - centre.z);
         let place = [centre.x, centre.y];
         let face = self.dropper.face(disc.radius(), place, pose.axis);
         let stages = disc.stages().iter().enumerate();
@@ -103,9 +110,9 @@ impl<'d, 's> Moves<'d, 's> {
         })
     }
 
-    /// The deepest that a disc may come on its way between two poses, ends included.
+    /// The deepest that a disc may come on its way between two poses, ends included. A bound below `enough` is not made better.
     #[must_use]
-    pub fn between(&self, disc: &Disc, from: &Placed, to: &Placed) -> Entry {
+    pub fn between(&self, disc: &Disc, from: &Placed, to: &Placed, enough: Length) -> Entry {
         let mut entry = Entry {
             depth: Length::ZERO,
             part: Part::Face,
@@ -116,7 +123,7 @@ impl<'d, 's> Moves<'d, 's> {
         let members = members.chain(stages.map(|(index, stage)| (Part::Stage(index), Member::stage(stage))));
         for ((part, member), depths) in members.zip(from.depths.iter().zip(&to.depths)) {
             let turn = Turn::new(member, [from.pose, to.pose]);
-            let (depth, slope) = self.deepest(&turn, [*depths.0, *depths.1]);
+            let (depth, slope) = self.deepest(&turn, [*depths.0, *depths.1], enough.to_mm());
             if depth > entry.depth.to_mm() {
                 entry = Entry {
                     depth: Length::mm(depth),
@@ -130,12 +137,12 @@ impl<'d, 's> Moves<'d, 's> {
     }
 
     /// The bound for a part of a disc, and the steepest slope below it.
-    fn deepest(&self, turn: &Turn, depths: [Option<f64>; 2]) -> (f64, f64) {
+    fn deepest(&self, turn: &Turn, depths: [Option<f64>; 2], enough: f64) -> (f64, f64) {
         let bins = self.dropper.surface().bins();
         let [first, last] = bins.touched(turn.bounds());
         let (columns, rows) = (last.column - first.column + 1, last.row - first.row + 1);
-        let cells = bins.cells(turn.bounds());
-        let known: Vec<Known> = cells
+        let known: Vec<Known> = bins
+            .cells(turn.bounds())
             .map(|cell| {
                 let jump = self.jump(turn, cell);
                 let at = |end: usize| self.at_end(turn, end, cell, depths[end]);
@@ -151,24 +158,57 @@ impl<'d, 's> Moves<'d, 's> {
         // The greatest within the window, along one axis after the other.
         let wide = slide(&known, [rows, columns], [columns, 1], across);
         let whole = slide(&wide, [columns, rows], [1, columns], along);
-        let mut deepest = 0.0_f64;
+        let mut places = Places {
+            known: vec![None; known.len()],
+            first,
+            columns,
+            rows,
+        };
+        let mut deepest = depths.into_iter().flatten().fold(0.0, f64::max);
         let mut steepest = 0.0_f64;
-        for (here, window) in known.iter().zip(&whole) {
+        for (index, (here, window)) in known.iter().zip(&whole).enumerate() {
             let slopes = window.slopes.unwrap_or(Box2::LEVEL);
             steepest = steepest.max(slopes.steepest());
-            if let Some(ends) = here
-                .start
-                .map(|start| greater(Some(start), window.end).unwrap_or(start))
-            {
-                deepest = deepest.max(ends + turn.sag(slopes));
+            let Some(start) = here.start else { continue };
+            let mut bound = start.max(window.end.unwrap_or(start)) + turn.sag(slopes);
+            if bound > enough && bound > deepest {
+                let within = places.window(index, [across, along]);
+                let place = within.filter_map(|(index, cell)| {
+                    *places
+                        .known
+                        .get_mut(index)?
+                        .get_or_insert_with(|| self.at_places(turn, cell, enough))
+                });
+                // Nothing lies there without a triangle.
+                bound = place.reduce(f64::max).map_or(0.0, |place| place.min(bound));
             }
+            deepest = deepest.max(bound);
         }
-        let at_ends = depths.into_iter().flatten().fold(0.0, f64::max);
-        (deepest.max(at_ends), steepest)
+        (deepest, steepest)
+    }
+
+    /// How far at most a part of a disc enters triangles of a bin, at any time, by its plane at both ends.
+    fn at_places(&self, turn: &Turn, cell: Cell, enough: f64) -> Option<f64> {
+        let surface = self.dropper.surface();
+        let bend = turn.bend();
+        let depth = |&number: &u32| {
+            let face = surface.triangle(number);
+            let at_corners = face
+                .iter()
+                .map(|corner| turn.depth(*corner))
+                .fold(f64::NEG_INFINITY, f64::max);
+            if at_corners + bend <= enough {
+                Some(at_corners)
+            } else {
+                self.outline.deepest(turn, face.to_vec())
+            }
+        };
+        let numbers = surface.bins().triangles(cell).iter();
+        Some(numbers.filter_map(depth).reduce(f64::max)? + bend)
     }
 
     /// How far at most a part of a disc enters what lies in a bin, at one end of its move.
-    fn at_end(&self, turn: &Turn, end: usize, cell: crate::surface::Cell, depth: Option<f64>) -> Option<f64> {
+    fn at_end(&self, turn: &Turn, end: usize, cell: Cell, depth: Option<f64>) -> Option<f64> {
         let depth = depth?;
         let bin = self.dropper.roofed(cell)?;
         let (middle, half) = (bin.middle, bin.half);
@@ -181,7 +221,7 @@ impl<'d, 's> Moves<'d, 's> {
     }
 
     /// How far at most a part of a disc enters at places of a bin at which the surface jumps, at any time.
-    fn jump(&self, turn: &Turn, cell: crate::surface::Cell) -> Option<f64> {
+    fn jump(&self, turn: &Turn, cell: Cell) -> Option<f64> {
         let surface = self.dropper.surface();
         let steep = self
             .slopes
@@ -207,6 +247,39 @@ struct Known {
     start: Option<f64>,
     end: Option<f64>,
     slopes: Option<Box2>,
+}
+
+/// What is known of bins by their places, as far as it was asked for: none without a triangle under the disc.
+struct Places {
+    known: Vec<Option<Option<f64>>>,
+    first: Cell,
+    columns: usize,
+    rows: usize,
+}
+
+impl Places {
+    /// The bins in a window about one of them.
+    fn window(
+        &self,
+        index: usize,
+        [across, along]: [[usize; 2]; 2],
+    ) -> impl Iterator<Item = (usize, Cell)> + use<> {
+        let (columns, first) = (self.columns, self.first);
+        let (column, row) = (index % columns, index / columns);
+        let range = |at: usize, [back, forth]: [usize; 2], count: usize| {
+            at.saturating_sub(back)..=at.saturating_add(forth).min(count - 1)
+        };
+        let across = range(column, across, columns);
+        range(row, along, self.rows).flat_map(move |row| {
+            across.clone().map(move |column| {
+                let cell = Cell {
+                    column: first.column + column,
+                    row: first.row + row,
+                };
+                (row * columns + column, cell)
+            })
+        })
+    }
 }
 
 fn greater(a: Option<f64>, b: Option<f64>) -> Option<f64> {

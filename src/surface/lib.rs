@@ -25,6 +25,7 @@ pub mod loft;
 pub mod map;
 pub mod mesh;
 mod nearest;
+pub mod normals;
 pub mod patch;
 pub mod posture;
 mod region;
@@ -36,4 +37,5 @@ pub mod surface;
 #[cfg(test)]
 mod testkit;
 pub mod tilt;
+pub mod track;
 mod visible;

@@ -105,7 +105,7 @@ proptest! {
     fn no_move_enters_by_more_than_its_bound(
         surface in surfaces(), radius in 2.0..20.0f64, x in -15.0..115.0f64, y in -15.0..75.0f64, lean in 0.0..0.3f64,
         turn in 0.0..6.3f64, by in prop::array::uniform2(-9.0..9.0f64), more in -0.1..0.1f64, about in -0.3..0.3f64,
-        lifted in prop_oneof![Just([0.0, 0.0]), prop::array::uniform2(0.0..0.5f64)],
+        enough in prop_oneof![Just(0.0), 0.0..0.1f64], lifted in prop_oneof![Just([0.0, 0.0]), prop::array::uniform2(0.0..0.5f64)],
     ) {
         let dropper = Dropper::new(&surface);
         let moves = Moves::new(&dropper).unwrap();
@@ -113,7 +113,7 @@ proptest! {
         let from = down(&moves, &disc, [x, y], leaning(lean, turn), lifted[0]);
         let to = down(&moves, &disc, [x + by[0], y + by[1]], leaning(lean + more, turn + about), lifted[1]);
         let (Some(from), Some(to)) = (from, to) else { return Ok(()) };
-        let bound = moves.between(&disc, &from, &to).depth.to_mm();
+        let bound = moves.between(&disc, &from, &to, Length::mm(enough)).depth.to_mm();
         let found = deepest(&dropper, &disc, [&from, &to], 200);
         prop_assert!(found <= bound + 1e-9, "{found} above {bound}");
     }
@@ -146,7 +146,7 @@ fn bounds_on_domes_are_useful() {
             let x = 30.0 + step * f64::from(k);
             let from = down(&moves, &disc, [x, 60.3], axis, 0.0).unwrap();
             let to = down(&moves, &disc, [x + step, 60.3], axis, 0.0).unwrap();
-            worst = worst.max(moves.between(&disc, &from, &to).depth.to_mm());
+            worst = worst.max(moves.between(&disc, &from, &to, Length::ZERO).depth.to_mm());
             deep = deep.max(deepest(&dropper, &disc, [&from, &to], 100));
         }
         assert!(deep > 0.0 && worst <= 15.0 * deep, "{worst} for {deep}");
