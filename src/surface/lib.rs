@@ -34,6 +34,7 @@ pub mod scallop;
 pub mod section;
 pub mod shadow;
 pub mod surface;
+pub mod swath;
 #[cfg(test)]
 mod testkit;
 pub mod tilt;

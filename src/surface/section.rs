@@ -43,6 +43,12 @@ impl Upright {
         self.heading
     }
 
+    /// How far it lies to the left of the origin, in mm.
+    #[must_use]
+    pub const fn offset(&self) -> f64 {
+        self.offset
+    }
+
     /// The place in plan at a distance s along it, in mm.
     #[must_use]
     pub fn place(&self, s: f64) -> [f64; 2] {

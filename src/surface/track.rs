@@ -7,7 +7,7 @@
 //! 4. Between poses the depth of entry is bounded ([`crate::gouge`]); where that is above the limit, another pose is put in between,
 //!    and all is done again for it, until poses are as near to each other as they may be.
 //!
-//! A track has no run-in and no run-out: it begins and ends with the contact over the sides of the plan.
+//! Beyond the plan a track goes straight on, along the surface at its side.
 
 use crate::disc::{Axis, Disc};
 use crate::gouge::{Entry, Moves, Placed};
@@ -47,6 +47,9 @@ pub struct Demand {
     pub widest: Length,
     /// Contacts nearer to each other get no further pose between them, but where the disc turns over an edge of the part.
     pub finest: Length,
+    /// How far contacts go on beyond the plan, before the first place of the section and after the last one, in plan. A disc is past the
+    /// side of the plan after its radius.
+    pub beyond: Length,
 }
 
 /// A pose of a track.
@@ -197,7 +200,12 @@ impl Layer<'_, '_, '_> {
         if !(finest > 0.0 && finest <= widest && widest.is_finite() && demand.gouge.to_mm() > 0.0) {
             return Err(NoTrack::Demand);
         }
+        let beyond = demand.beyond.to_mm();
+        if !(beyond >= 0.0 && beyond.is_finite()) {
+            return Err(NoTrack::Demand);
+        }
         let (from, to) = section.profile.span();
+        let (from, to) = (from - beyond, to + beyond);
         let count = ((to - from) / widest).ceil().max(1.0);
         if count >= MOST_POSES as f64 {
             return Err(NoTrack::TooLong);
@@ -275,7 +283,15 @@ impl Layer<'_, '_, '_> {
     ) -> Result<Place, NoTrack> {
         let place = section.point(along);
         let contact = normal.and_then(|normal| Contact::new(place, normal, section.plane.heading()));
-        let contact = contact.ok_or(NoTrack::Contact { place })?;
+        let mut contact = contact.ok_or(NoTrack::Contact { place })?;
+        let (from, to) = section.profile.span();
+        let past = along - along.max(from).min(to);
+        if past != 0.0 {
+            let feed = contact.feed();
+            let far = past / libm::hypot(feed[0], feed[1]);
+            let from = place.to_array();
+            contact.place = core::array::from_fn(|i| from[i] + far * feed[i]).into();
+        }
         let wish = Wish {
             radius: self.disc.radius(),
             side: demand.side,

@@ -28,6 +28,7 @@ fn demand() -> Demand {
         gouge: Length::mm(0.02),
         widest: Length::mm(8.0),
         finest: Length::mm(0.05),
+        beyond: Length::ZERO,
     }
 }
 
