@@ -1,8 +1,10 @@
-//! Leaning discs on a surface of a million triangles; the throughput shown is drops per second.
+//! Leaning discs on surfaces, and bounds of their moves; the throughput shown is drops, and moves, per second.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
+use vcutc::surface::disc::Disc;
+use vcutc::surface::gouge::Moves;
 use vcutc_benches::{drop, surface};
 
 fn all(criterion: &mut Criterion) {
@@ -16,8 +18,18 @@ fn all(criterion: &mut Criterion) {
         group.bench_function(format!("face on {count} triangles"), |bench| {
             bench.iter(|| drop::faces(black_box(&dropper)));
         });
-        group.bench_function(format!("disc with hub and holder on {count} triangles"), |bench| {
-            bench.iter(|| drop::discs(black_box(&dropper)));
+        group.bench_function(
+            format!("disc with hub and holder on {count} triangles"),
+            |bench| {
+                bench.iter(|| drop::discs(black_box(&dropper)));
+            },
+        );
+        let moves = Moves::new(&dropper).expect("it is a sheet");
+        let face = Disc::new(drop::disc().radius(), Vec::new()).expect("it is a disc");
+        let track = drop::track(&moves, &face);
+        group.throughput(Throughput::Elements(drop::POSES - 1));
+        group.bench_function(format!("moves of 5 mm on {count} triangles"), |bench| {
+            bench.iter(|| drop::deepest(black_box(&moves), &face, &track));
         });
     }
     group.finish();

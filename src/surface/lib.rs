@@ -7,8 +7,16 @@
 //! 3. [`coverage`] says whether each place of the plan lies under a triangle, and what is odd about them.
 //! 4. A surface has a shadow along y, sections, a height at each place ([`shadow`]), a highest and a lowest place.
 //! 5. [`residual`] says what straight cuts leave over it.
-//! 6. A [`drop`] says how far a leaning disc comes down on it.
-//! 7. A [`map`] has the highest place of each of its cells, of the surface or of what is left over it.
+//! 6. A [`map`] has the highest place of each of its cells, of the surface or of what is left over it.
+//!
+//! For discs that finish surfaces, which no operation asks for yet:
+//!
+//! 1. A [`disc`] with its hub and holder comes down on a surface exactly, however it leans ([`mod@drop`]).
+//! 2. A [`posture`] says how it stands at a contact; [`curvature`] bounds the least [`tilt`] from below, and the drop says the least
+//!    [`lead`].
+//! 3. Between two poses the depth to which it may enter the surface is bounded ([`gouge`]).
+//! 4. A [`section`] in any direction, with [`normals`], carries a [`track`] of poses, as close as that bound asks for.
+//! 5. [`scallop`] and [`swath`] say what tracks leave, [`strip`] what comes free.
 
 pub mod coverage;
 pub mod curvature;
@@ -33,6 +41,7 @@ pub mod residual;
 pub mod scallop;
 pub mod section;
 pub mod shadow;
+pub mod strip;
 pub mod surface;
 pub mod swath;
 #[cfg(test)]

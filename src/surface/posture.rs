@@ -1,7 +1,7 @@
 //! How a disc stands on a surface: axis, contact and centre.
 //!
 //! At the contact Q the surface has a normal n and the disc a feed f along the surface. The axis leans along the feed by `lead`
-//! and then about the feed by `side` ([Yang], figure 5: first the forward angle, then the roll angle):
+//! and then about the feed by `side` ([Yang fig. 5]: first the forward angle, then the roll angle):
 //!
 //! ```text
 //! b = n x f

@@ -1,7 +1,7 @@
 //! Sections of a surface by upright planes in any direction.
 //!
 //! A plane is given by its heading, an angle from x in plan, and its offset to the left of the origin seen along the heading.
-//! In it, s counts along the heading from the foot of the origin. Tracks of section planes ([Yang], figure 4) follow them.
+//! In it, s counts along the heading from the foot of the origin. Tracks of section planes ([Yang fig. 4]) follow them.
 
 use crate::envelope::Envelope;
 use crate::shadow::Uncovered;

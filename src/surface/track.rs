@@ -1,6 +1,6 @@
 //! Tracks of a disc along a section of a surface.
 //!
-//! 1. Along a section the disc is to touch at places no farther apart than wished ([Yang], figure 4).
+//! 1. Along a section the disc is to touch at places no farther apart than wished ([Yang fig. 4]).
 //! 2. At each it gets the least lead at which it comes down to its contact ([`crate::lead`]); along the track leads are raised so
 //!    that they change no faster than a rate.
 //! 3. There it comes down on the surface, with its body. So no pose enters the part.
