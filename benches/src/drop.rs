@@ -6,7 +6,7 @@ use vcutc::surface::drop::Dropper;
 use vcutc::surface::gouge::{Moves, Placed};
 use vcutc::surface::surface::Surface;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::units::Length;
+use vcutc_backend_api::units::{Angle, Length};
 
 /// Places at which a disc comes down.
 pub const PLACES: u64 = 10_000;
@@ -87,6 +87,6 @@ pub fn track(moves: &Moves<'_, '_>, disc: &Disc) -> Vec<Placed> {
 pub fn deepest(moves: &Moves<'_, '_>, disc: &Disc, track: &[Placed]) -> f64 {
     let bounds = track
         .windows(2)
-        .map(|pair| moves.between(disc, &pair[0], &pair[1], Length::ZERO));
+        .map(|pair| moves.between(disc, [&pair[0], &pair[1]], Angle::ZERO, Length::ZERO));
     bounds.map(|entry| entry.depth.to_mm()).fold(0.0, f64::max)
 }

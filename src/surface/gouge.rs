@@ -1,7 +1,8 @@
 //! How deep a disc may enter a surface on its way from one pose to the next.
 //!
-//! On the way the centre moves on a straight line, evenly, and the axis turns evenly by an angle phi, about one fixed axis. Let f be
-//! how far a point of the disc lies below the surface p, along z. It is bounded by what is known at both ends.
+//! On the way the centre moves on a straight line, evenly, and the tool turns evenly by an angle phi, about one fixed axis. It may turn
+//! about its own axis too, as its frame asks for: that moves no disc, but then its axis leaves the shortest way. Let f be how far a
+//! point of the disc lies below the surface p, along z. It is bounded by what is known at both ends.
 //!
 //! 1. The way X(t) of a point at a distance Rb from the centre stays within `Rb phi^2/8` of its chord, and is no longer than
 //!    `l = |dC| + Rb phi` in plan. Where p is continuous along the way, f is the integral of its slope along the chord, plus what
@@ -29,7 +30,7 @@ use crate::surface::Cell;
 use jumps::Outline;
 use member::{Member, Turn};
 use slopes::{Box2, Slopes};
-use vcutc_backend_api::units::Length;
+use vcutc_backend_api::units::{Angle, Length};
 
 /// A surface over which discs move.
 #[derive(Clone, Debug)]
@@ -110,9 +111,10 @@ impl<'d, 's> Moves<'d, 's> {
         })
     }
 
-    /// The deepest that a disc may come on its way between two poses, ends included. A bound below `enough` is not made better.
+    /// The deepest that a disc may come on its way between two poses, ends included, while it turns by an angle; by that between its
+    /// axes if that is larger. A bound below `enough` is not made better.
     #[must_use]
-    pub fn between(&self, disc: &Disc, from: &Placed, to: &Placed, enough: Length) -> Entry {
+    pub fn between(&self, disc: &Disc, [from, to]: [&Placed; 2], angle: Angle, enough: Length) -> Entry {
         let mut entry = Entry {
             depth: Length::ZERO,
             part: Part::Face,
@@ -122,7 +124,7 @@ impl<'d, 's> Moves<'d, 's> {
         let stages = disc.stages().iter().enumerate();
         let members = members.chain(stages.map(|(index, stage)| (Part::Stage(index), Member::stage(stage))));
         for ((part, member), depths) in members.zip(from.depths.iter().zip(&to.depths)) {
-            let turn = Turn::new(member, [from.pose, to.pose]);
+            let turn = Turn::new(member, [from.pose, to.pose], angle);
             let (depth, slope) = self.deepest(&turn, [*depths.0, *depths.1], enough.to_mm());
             if depth > entry.depth.to_mm() {
                 entry = Entry {

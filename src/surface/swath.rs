@@ -5,7 +5,7 @@
 //! not turn is an ellipse. What lies above the curves of all tracks is cut away. Each curve is drawn through points at even steps
 //! psi of the rim, `u.C + R |v| cos(psi) = s`, each solved for the time at which it passes. The curves are hollow from above, so that
 //! chords lie above them, by at most `R (steps of psi)^2/8` times the sine of the lead: below 1e-4 mm for leads to 10 degrees and
-//! radii to 50 mm. Of a disc that turns on the way this is not proven, only tested.
+//! radii to 50 mm. Of a disc that turns on the way this is not proven, only tested; its axis counts as turning the shortest way.
 //!
 //! Sections say nothing about places between them.
 

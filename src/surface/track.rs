@@ -16,7 +16,7 @@ use crate::normals::Normals;
 use crate::posture::{Contact, Lean};
 use crate::section::Section;
 use core::fmt;
-use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::units::{Angle, Length};
 
 /// The most poses of a track.
@@ -66,6 +66,8 @@ pub struct Stop {
     pub lift: Length,
     /// Where it is.
     pub placed: Placed,
+    /// The frame of the tool there, with x to the contact: what turns from one pose to the next.
+    pub frame: Frame,
 }
 
 /// A track along a section.
@@ -236,8 +238,9 @@ impl Layer<'_, '_, '_> {
             if let [from, to] = &mut stops[place - 1..=place]
                 && from.next.is_none()
             {
-                let [a, b] = [&from.stop.placed, &to.stop.placed];
-                from.next = Some(self.moves.between(self.disc, a, b, demand.gouge));
+                let angle = from.stop.frame.orientation.angle_to(to.stop.frame.orientation);
+                let ends = [&from.stop.placed, &to.stop.placed];
+                from.next = Some(self.moves.between(self.disc, ends, angle, demand.gouge));
             }
         }
     }
@@ -358,6 +361,7 @@ impl Layer<'_, '_, '_> {
             contact,
             lean,
             lift: Length::mm(pose.centre.z - wanted),
+            frame: place.contact.frame(&pose).ok_or(refused)?,
             placed: self.moves.place(self.disc, pose).ok_or(refused)?,
         })
     }

@@ -3,9 +3,13 @@
 use super::slopes::Box2;
 use crate::disc::{Disc, Pose, Stage};
 use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::units::Angle;
 
 /// Added to boxes in mm, for the rounding of places.
 const ROUNDING: f64 = 1e-9;
+
+/// The least height of the tip of an axis on its way. Below it the bound is as good as none.
+const LEAST_RISE: f64 = 1e-3;
 
 /// A cylinder about the axis of a disc, or its face, which has no height. In mm.
 #[derive(Clone, Copy, Debug)]
@@ -48,9 +52,9 @@ pub(super) struct Turn {
 }
 
 impl Turn {
-    pub(super) fn new(member: Member, ends: [Pose; 2]) -> Self {
+    pub(super) fn new(member: Member, ends: [Pose; 2], turn: Angle) -> Self {
         let [a, b] = ends;
-        let angle = a.axis.angle_to(b.axis).to_rad();
+        let angle = a.axis.angle_to(b.axis).max(turn).to_rad();
         let away = libm::hypot(member.radius, member.to);
         Self {
             member,
@@ -117,17 +121,19 @@ impl Turn {
     /// How far the height of the plane over a fixed place under the part comes below its chord at most.
     pub(super) fn bend(&self) -> f64 {
         let [a, b] = self.ends.map(|pose| pose.axis.to_array()[2]);
-        // The axis leans most at an end: its height is a concave function of the turn.
-        let rise = a.min(b);
+        // The axis of length 1 has no second derivative above angle^2, so that its height stays above its chord less an eighth.
+        let square_of_angle = self.angle * self.angle;
+        let rise = (a.min(b) - square_of_angle / 8.0).max(LEAST_RISE);
         let square = rise * rise;
         let tangent = (1.0 - square).max(0.0).sqrt() / rise;
         let length = libm::hypot(self.moves[0], self.moves[1]);
-        // The part lies within its own size of the centre. Slopes are the axis seen on the plane z = 1, which moves no faster than
-        // the angle by the square of the cosine; its second derivative is largest along the lean.
+        // The slope of the plane is the axis seen on the plane z = 1. It changes by no more than the angle by the square of the
+        // cosine. Its second derivative is at most `2 tan/cos^2` along great circles, and another `1/cos^2` for leaving them; that of
+        // one by the cosine `2/cos^3`, and another `tan/cos`. The part lies within its own size of the centre.
         let size = self.member.radius + self.member.to + length;
-        let second = 2.0 * self.angle * self.angle * tangent / square * size
+        let second = square_of_angle * (2.0 * tangent + 1.0) / square * size
             + 2.0 * self.angle / square * length
-            + 2.0 * self.angle * self.angle / (square * rise) * self.member.from;
+            + square_of_angle * (2.0 / square + tangent) / rise * self.member.from;
         second / 8.0
     }
 
