@@ -76,7 +76,7 @@ impl<'s> Dropper<'s> {
     /// The place may lie beyond the plan. None where the face lies over nothing.
     #[must_use]
     pub fn face(&self, radius: Length, place: [f64; 2], axis: Axis) -> Option<Rest> {
-        let mut search = Search::default();
+        let mut search = Search::new();
         self.bring(&Plate::face(radius.to_mm(), place, axis), Part::Face, &mut search);
         search.rest
     }
@@ -85,7 +85,7 @@ impl<'s> Dropper<'s> {
     /// The place may lie beyond the plan. None where it lies over nothing.
     #[must_use]
     pub fn disc(&self, disc: &Disc, place: [f64; 2], axis: Axis) -> Option<Rest> {
-        let mut search = Search::default();
+        let mut search = Search::new();
         self.bring(
             &Plate::face(disc.radius().to_mm(), place, axis),
             Part::Face,
@@ -101,9 +101,19 @@ impl<'s> Dropper<'s> {
         search.rest
     }
 
-    /// The lowest height of the centre of a disc at which one of its stages clears the surface.
-    pub(crate) fn stage(&self, stage: Stage, index: usize, place: [f64; 2], axis: Axis) -> Option<Rest> {
-        let mut search = Search::default();
+    /// The lowest height of the centre of a disc at which one of its stages clears the surface, if it is above a height.
+    pub(crate) fn stage(
+        &self,
+        stage: Stage,
+        index: usize,
+        place: [f64; 2],
+        axis: Axis,
+        above: f64,
+    ) -> Option<Rest> {
+        let mut search = Search {
+            rest: None,
+            floor: above,
+        };
         self.bring_stage(
             &Cylinder::new(stage, place, axis),
             Part::Stage(index),
@@ -139,10 +149,10 @@ impl<'s> Dropper<'s> {
                 }
             }
         }
-        let Some((best, most)) = best else { return };
-        if most > search.height() {
-            self.look(best, body, part, search);
-        }
+        let Some((best, _)) = best.filter(|(_, most)| *most > search.height()) else {
+            return;
+        };
+        self.look(best, body, part, search);
         for row in first.row..=last.row {
             for column in first.column..=last.column {
                 let cell = Cell { column, row };
@@ -172,14 +182,23 @@ impl<'s> Dropper<'s> {
 }
 
 /// The highest that was asked for so far.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Search {
     rest: Option<Rest>,
+    /// What is not above this does not matter, in mm.
+    floor: f64,
 }
 
 impl Search {
+    const fn new() -> Self {
+        Self {
+            rest: None,
+            floor: f64::NEG_INFINITY,
+        }
+    }
+
     fn height(&self) -> f64 {
-        self.rest.map_or(f64::NEG_INFINITY, |rest| rest.height.to_mm())
+        self.rest.map_or(self.floor, |rest| rest.height.to_mm())
     }
 }
 

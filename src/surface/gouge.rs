@@ -25,12 +25,15 @@ mod slopes;
 
 use crate::coverage::Tangled;
 use crate::disc::{Disc, Pose};
-use crate::drop::{Dropper, Part, Rest};
+use crate::drop::{Dropper, Part};
 use crate::surface::Cell;
 use jumps::Outline;
 use member::{Member, Turn};
 use slopes::{Box2, Slopes};
 use vcutc_backend_api::units::{Angle, Length};
+
+/// Stages that are clear by this, in mm, are not brought any nearer.
+const CLEAR: f64 = 1.0;
 
 /// A surface over which discs move.
 #[derive(Clone, Debug)]
@@ -44,7 +47,7 @@ pub struct Moves<'d, 's> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed {
     pose: Pose,
-    /// Of the face, then of each stage, in mm; below 0 what it is clear by. None of one over nothing.
+    /// Of the face, then of each stage, in mm; below 0 what it is clear by: of stages up to 1 mm. None of a face over nothing.
     depths: Vec<Option<f64>>,
 }
 
@@ -55,7 +58,7 @@ impl Placed {
         self.pose
     }
 
-    /// How far the disc enters the surface, along z; below 0 what it is clear by. None over nothing.
+    /// How far the disc enters the surface, along z; below 0 what it is clear by. None of a disc without stages over nothing.
     #[must_use]
     pub fn depth(&self) -> Option<Length> {
         let deepest = self.depths.iter().copied().flatten().reduce(f64::max);
@@ -70,7 +73,7 @@ pub struct Entry {
     pub depth: Length,
     /// The part of the disc that this is of.
     pub part: Part,
-    /// The steepest slope below the move, without what counts as steep: height for length.
+    /// The steepest slope below the face, and below stages that may come near, without what counts as steep: height for length.
     pub slope: f64,
 }
 
@@ -100,14 +103,17 @@ impl<'d, 's> Moves<'d, 's> {
         if !centre.is_finite() {
             return None;
         }
-        let depth = |rest: Option<Rest>| rest.map(|rest| rest.height.to_mm() - centre.z);
         let place = [centre.x, centre.y];
         let face = self.dropper.face(disc.radius(), place, pose.axis);
-        let stages = disc.stages().iter().enumerate();
-        let stages = stages.map(|(index, stage)| self.dropper.stage(*stage, index, place, pose.axis));
+        let face = face.map(|rest| rest.height.to_mm() - centre.z);
+        let floor = centre.z - CLEAR;
+        let stages = disc.stages().iter().enumerate().map(|(index, stage)| {
+            let rest = self.dropper.stage(*stage, index, place, pose.axis, floor);
+            Some(rest.map_or(-CLEAR, |rest| rest.height.to_mm() - centre.z))
+        });
         Some(Placed {
             pose,
-            depths: core::iter::once(face).chain(stages).map(depth).collect(),
+            depths: core::iter::once(face).chain(stages).collect(),
         })
     }
 
@@ -125,6 +131,9 @@ impl<'d, 's> Moves<'d, 's> {
         let members = members.chain(stages.map(|(index, stage)| (Part::Stage(index), Member::stage(stage))));
         for ((part, member), depths) in members.zip(from.depths.iter().zip(&to.depths)) {
             let turn = Turn::new(member, [from.pose, to.pose], angle);
+            if part != Part::Face && self.is_far(&turn, [*depths.0, *depths.1]) {
+                continue;
+            }
             let (depth, slope) = self.deepest(&turn, [*depths.0, *depths.1], enough.to_mm());
             if depth > entry.depth.to_mm() {
                 entry = Entry {
@@ -136,6 +145,20 @@ impl<'d, 's> Moves<'d, 's> {
             entry.slope = entry.slope.max(slope);
         }
         entry
+    }
+
+    /// Whether a part is so far from the surface at both ends that it cannot enter it, by all slopes of the surface and where it does
+    /// not jump.
+    fn is_far(&self, turn: &Turn, depths: [Option<f64>; 2]) -> bool {
+        let nearest = depths.into_iter().flatten().reduce(f64::max);
+        let sag = turn.sag(self.slopes.all());
+        nearest.is_none_or(|nearest| nearest + sag <= 0.0)
+            && self
+                .dropper
+                .surface()
+                .bins()
+                .cells(turn.bounds())
+                .all(|cell| !self.slopes.jumps(cell))
     }
 
     /// The bound for a part of a disc, and the steepest slope below it.

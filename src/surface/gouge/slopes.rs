@@ -102,6 +102,8 @@ impl Lists {
 pub(super) struct Slopes {
     columns: usize,
     boxes: Vec<Option<Box2>>,
+    /// Of all bins.
+    all: Box2,
     edges: Vec<[Point3; 2]>,
     borders: Lists,
     steep: Lists,
@@ -160,6 +162,12 @@ impl Slopes {
         }
         Ok(Self {
             columns: bins.columns(),
+            all: boxes
+                .iter()
+                .copied()
+                .flatten()
+                .reduce(Box2::and)
+                .unwrap_or(Box2::LEVEL),
             boxes,
             edges,
             borders,
@@ -169,6 +177,16 @@ impl Slopes {
 
     const fn place(&self, cell: Cell) -> usize {
         cell.row * self.columns + cell.column
+    }
+
+    /// The slopes in all bins.
+    pub(super) const fn all(&self) -> Box2 {
+        self.all
+    }
+
+    /// Whether the surface may jump in a bin.
+    pub(super) fn jumps(&self, cell: Cell) -> bool {
+        !(self.borders(cell).is_empty() && self.steep(cell).is_empty())
     }
 
     /// The slopes in a bin; none without a triangle that is not steep.
