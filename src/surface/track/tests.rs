@@ -3,6 +3,7 @@
 use super::*;
 use crate::disc::Stage;
 use crate::drop::Dropper;
+use crate::mesh::Mesh;
 use crate::section::Upright;
 use crate::surface::Surface;
 use crate::testkit::{FIXED, sampled, surface_over, with_needle};
@@ -122,6 +123,20 @@ fn a_track_over_a_dome_stays_on_it() {
     );
     assert!(track.stops.iter().all(|stop| stop.lift.to_mm() <= 0.01));
     assert!(track.stops.len() < 150, "{}", track.stops.len());
+}
+
+#[test]
+fn triangles_in_another_order_give_the_same_track() {
+    let height = |x: f64, y: f64| 3.0 * libm::sin(x / 25.0 + 0.3) * libm::cos(y / 30.0);
+    let mesh = sampled(SIZE, SIZE, [50, 50], &height);
+    let plane = Upright::new(Angle::deg(20.0), Length::mm(30.0));
+    let track = |mesh: &Mesh| laid(&surface_over(mesh, FIXED, SIZE, SIZE), plane, &demand()).unwrap();
+    let straight = track(&mesh);
+    let mut triangles = mesh.triangles().to_vec();
+    triangles.reverse();
+    triangles.rotate_left(777);
+    let shuffled = Mesh::new(mesh.corners().to_vec(), triangles).unwrap();
+    assert_eq!(track(&shuffled), straight);
 }
 
 #[test]
