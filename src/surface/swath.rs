@@ -359,6 +359,31 @@ mod tests {
     }
 
     #[test]
+    fn the_widest_step_on_a_dome_leaves_what_is_allowed_and_hardly_less() {
+        let (r, limit) = (3000.0, 0.1);
+        let step = crate::scallop::widest_step(R, Angle::deg(5.0), -1.0 / r, Length::mm(limit)).unwrap();
+        // Steps count in whole micrometres.
+        let size = 6.0 * step.to_mm() - 0.01;
+        let height = |x: f64, y: f64| {
+            let (x, y) = (x - size / 2.0, y - size / 2.0);
+            libm::sqrt(r * r - x * x - y * y) - r
+        };
+        let surface = surface_over(&sampled(size, size, [60, 60], &height), FIXED, size, size);
+        let tracks = tracks(&surface, Angle::deg(90.0), step.to_mm(), &demand(5.0));
+        assert_eq!(tracks.len(), 6);
+        for offset in [0.6 * size, 0.97 * size] {
+            let section = surface
+                .section_by(Upright::new(Angle::ZERO, Length::mm(offset)))
+                .unwrap()
+                .unwrap();
+            let remains = remains(&section, &tracks, R).unwrap();
+            let found = remains.highest.to_mm();
+            assert!(found < limit + 0.005 && found > limit - 0.005, "{remains:?}");
+            assert!(remains.lowest.to_mm() > -0.02, "{remains:?}");
+        }
+    }
+
+    #[test]
     fn what_no_track_comes_over_is_told() {
         let surface = surface_over(&sampled(60.0, 60.0, [1, 1], &|_, _| 0.0), FIXED, 60.0, 60.0);
         let section = surface
