@@ -194,6 +194,30 @@ proptest! {
 }
 
 proptest! {
+    /// Nothing that matters is passed over.
+    #[test]
+    fn bins_change_nothing(
+        heights in prop::collection::vec(-25.0..25.0f64, 26 * 16), axis in axes(), radius in 2.0..20.0f64,
+        x in -5.0..105.0f64, y in -5.0..65.0f64,
+    ) {
+        let height = |x: f64, y: f64| heights[(x / 4.0).round() as usize * 16 + (y / 4.0).round() as usize];
+        let surface = surface_over(&sampled(PLAN[0], PLAN[1], [25, 15], &height), FIXED, PLAN[0], PLAN[1]);
+        let disc = disc(radius);
+        let plate = Plate::face(radius, [x, y], axis);
+        let stages: Vec<Cylinder> = disc.stages().iter().map(|&stage| Cylinder::new(stage, [x, y], axis)).collect();
+        let mut most: Option<f64> = None;
+        for face in surface.mesh().faces() {
+            let above = f64::NEG_INFINITY;
+            let asked = stages.iter().map(|stage| stage.clear(face, above)).chain([plate.clear(face, above)]);
+            most = asked.flatten().map(|(height, _)| height).chain(most).reduce(f64::max);
+        }
+        let rest = Dropper::new(&surface).disc(&disc, [x, y], axis).map(|rest| rest.height.to_mm());
+        match (rest, most) {
+            (Some(rest), Some(most)) => prop_assert!((rest - most).abs() < 1e-9, "{rest} {most}"),
+            (rest, most) => prop_assert_eq!(rest, most),
+        }
+    }
+
     /// A body of revolution reaches as far towards a plane as the nearer of the ends of a stage, and its radius there.
     #[test]
     fn bodies_stand_on_planes_as_their_support_says(

@@ -25,13 +25,21 @@ fn surfaces() -> impl Strategy<Value = Surface> {
     let needle = (5.0..95.0, 5.0..55.0, 0.0..25.0);
     let rough = prop::collection::vec(-2.0..2.0f64, 21 * 13);
     prop_oneof![
-        (0..4usize, 10..60u32).prop_map(|(kind, cells)| {
+        (0..5usize, 10..60u32).prop_map(|(kind, cells)| {
             let height = |x: f64, y: f64| {
                 let (x, y) = (x - 50.0, y - 30.0);
                 match kind {
                     0 => -(x * x + y * y) / 400.0,
                     1 => (x * x - y * y) / 600.0,
                     2 => (x * x + y * y) / 1000.0,
+                    // A cliff without a border.
+                    3 => {
+                        if x + y / 3.0 < 0.0 {
+                            0.0
+                        } else {
+                            12.0
+                        }
+                    }
                     _ => 3.0 * libm::sin(x / 15.0) * libm::cos(y / 20.0),
                 }
             };
