@@ -218,6 +218,39 @@ proptest! {
         }
     }
 
+    /// What lies under a level ceiling asks for no more than the ceiling does.
+    #[test]
+    fn ceilings_ask_for_most(
+        corners in prop::array::uniform3((-30.0..30.0f64, -30.0..30.0f64, 0.0..1.0f64)), size in 0.01..1.0f64,
+        axis in axes(), radius in 2.0..20.0f64, x in -30.0..30.0f64, y in -30.0..30.0f64,
+    ) {
+        let face = corners.map(|(u, v, z)| Point3::new(50.0 + size * u, 30.0 + size * v, z));
+        let range = |part: fn(Point3) -> f64| {
+            let [a, b, c] = face.map(part);
+            [a.min(b).min(c), a.max(b).max(c)]
+        };
+        let [x_range, y_range, z_range] = [range(|p| p.x), range(|p| p.y), range(|p| p.z)];
+        let ceiling = Roofed {
+            middle: [x_range, y_range].map(|[low, high]| f64::midpoint(low, high)),
+            half: [x_range, y_range].map(|[low, high]| (high - low) / 2.0),
+            height: z_range[1],
+            slope: [0.0; 2],
+        };
+        let place = [50.0 + x, 30.0 + y];
+        let disc = disc(radius);
+        let check = |asked: Option<(f64, Point3)>, most: Option<f64>| {
+            let is_less = asked.is_none_or(|(asked, _)| most.is_some_and(|most| asked <= most + 1e-9));
+            prop_assert!(is_less, "{asked:?} above {most:?}");
+            Ok(())
+        };
+        let plate = Plate::face(radius, place, axis);
+        check(plate.clear(face, f64::NEG_INFINITY), plate.most(ceiling))?;
+        for &stage in disc.stages() {
+            let cylinder = Cylinder::new(stage, place, axis);
+            check(cylinder.clear(face, f64::NEG_INFINITY), cylinder.most(ceiling))?;
+        }
+    }
+
     /// A body of revolution reaches as far towards a plane as the nearer of the ends of a stage, and its radius there.
     #[test]
     fn bodies_stand_on_planes_as_their_support_says(
