@@ -48,8 +48,8 @@ impl Lean {
         libm::hypot(self.lead.sin(), self.lead.cos() * self.side.sin())
     }
 
-    /// The radius at the contact of what the disc sweeps, seen along the feed. Infinite of a disc without lead, which sweeps a
-    /// plane, and 0 of one without lead that leans to a side.
+    /// The radius at the contact of what the disc sweeps, seen along the feed: 0 of a disc that leans to a side only. None of one that
+    /// lies on the tangent plane.
     #[must_use]
     pub fn swept_radius(self, radius: Length) -> Option<Length> {
         // An ellipse of half axes R and R sin(lead), rolled by the side: R cos^2(azimuth)/sin T.

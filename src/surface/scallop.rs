@@ -35,7 +35,8 @@ pub fn scallop(radius: Length, lead: Angle, curvature: f64, step: Length) -> Opt
     }
     // The line through the middle at `m = part + h`: `(m sine)^2 + ((m cosine - part)/rise - R)^2 = R^2`, for h, so that
     // nothing cancels: a h^2 + 2 b h + c = 0.
-    let low = part * (cosine - 1.0) / rise;
+    let sine_of_half = libm::sin(step / (4.0 * part));
+    let low = -2.0 * part * sine_of_half * sine_of_half / rise;
     let a = sine * sine + cosine * cosine / (rise * rise);
     let b = part * sine * sine + cosine / rise * (low - r);
     let c = part * part * sine * sine + low * (low - 2.0 * r);
@@ -164,6 +165,23 @@ mod tests {
             side: Angle::deg(2.035999),
         };
         assert_near(second_order(R, lean, 0.0, Length::mm(10.0)), 0.046142, 1e-6);
+    }
+
+    #[test]
+    fn parts_that_are_nearly_flat_are_like_flat_ones() {
+        let at = |curvature| {
+            scallop(R, Angle::deg(5.0), curvature, Length::mm(10.0))
+                .unwrap()
+                .to_mm()
+        };
+        for power in 6..12 {
+            let curvature = libm::pow(10.0, -f64::from(power));
+            let expected = at(0.0) - curvature * 12.5;
+            assert!(
+                (at(curvature) - expected).abs() < 0.01 * curvature + 1e-13,
+                "{curvature}"
+            );
+        }
     }
 
     #[test]

@@ -384,7 +384,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_track_comes_over_is_told() {
+    fn what_no_track_comes_over_is_an_error() {
         let surface = surface_over(&sampled(60.0, 60.0, [1, 1], &|_, _| 0.0), FIXED, 60.0, 60.0);
         let section = surface
             .section_by(Upright::new(Angle::ZERO, Length::mm(30.0)))
