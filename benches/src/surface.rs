@@ -9,7 +9,7 @@ use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::units::Length;
 
 /// Width and depth of the stock, in mm.
-const PLAN: [f64; 2] = [1500.0, 3000.0];
+pub(crate) const PLAN: [f64; 2] = [1500.0, 3000.0];
 
 /// The corners of about so many triangles, three by three.
 #[must_use]

@@ -9,23 +9,45 @@
 //! 5. [`residual`] says what straight cuts leave over it.
 //! 6. A [`deviation`] is the part's upper side as a file, with what is left above each corner.
 //! 7. A [`map`] has the highest place of each of its cells, of the surface or of what is left over it.
+//!
+//! For discs that finish surfaces, which no operation asks for yet:
+//!
+//! 1. A [`disc`] with its hub and holder comes down on a surface exactly, however it leans ([`mod@drop`]).
+//! 2. A [`posture`] says how it stands at a contact; [`curvature`] bounds the least [`tilt`] from below, and the drop says the least
+//!    [`lead`].
+//! 3. Between two poses the depth to which it may enter the surface is bounded ([`gouge`]).
+//! 4. A [`section`] in any direction, with [`normals`], carries a [`track`] of poses, as close as that bound asks for.
+//! 5. [`scallop`] and [`swath`] say what tracks leave, [`strip`] what comes free.
 
 pub mod coverage;
+pub mod curvature;
 pub mod deviation;
+pub mod disc;
+pub mod drop;
 mod envelope;
 mod extremes;
 pub mod formula;
+pub mod gouge;
 pub mod grid;
 pub mod import;
+pub mod lead;
 pub mod loft;
 pub mod map;
 pub mod mesh;
 mod nearest;
+pub mod normals;
 pub mod patch;
+pub mod posture;
 mod region;
 pub mod residual;
+pub mod scallop;
+pub mod section;
 pub mod shadow;
+pub mod strip;
 pub mod surface;
+pub mod swath;
 #[cfg(test)]
 mod testkit;
+pub mod tilt;
+pub mod track;
 mod visible;

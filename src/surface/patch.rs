@@ -12,6 +12,7 @@
 
 mod blossom;
 mod bound;
+mod derivatives;
 
 use crate::mesh::{MOST_TRIANGLES, Mesh, is_in_range};
 use bound::divisions;

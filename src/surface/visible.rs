@@ -48,6 +48,11 @@ impl Plane {
         height.clamp(self.range[0], self.range[1])
     }
 
+    /// How it rises along x and along y.
+    pub(crate) const fn slope(self) -> [f64; 2] {
+        self.slope
+    }
+
     /// Where it is higher than another one over the same place of reference.
     fn above(self, other: Self) -> Above {
         let slope = [self.slope[0] - other.slope[0], self.slope[1] - other.slope[1]];

@@ -103,7 +103,7 @@ impl Bins {
     }
 
     /// The first and the last bin of those that a box (least x and y, greatest x and y) touches.
-    fn touched(&self, [a, b, c, d]: [f64; 4]) -> [Cell; 2] {
+    pub(crate) fn touched(&self, [a, b, c, d]: [f64; 4]) -> [Cell; 2] {
         [self.at(a, b), self.at(c, d)]
     }
 
