@@ -28,6 +28,9 @@ pub const MOST_DEGREE: usize = 24;
 /// The most control points.
 pub const MOST_CONTROL: usize = 1_000_000;
 
+/// The most control points of all Bezier patches that a surface is divided into.
+const MOST_BEZIER: usize = 8_000_000;
+
 /// Largest ratio of two weights. Beyond it a surface bends at single points only.
 const WIDEST_WEIGHTS: f64 = 1e6;
 
@@ -64,6 +67,8 @@ pub enum PatchError {
     Knots,
     /// All knots that count are equal, or there is no patch.
     NoExtent,
+    /// The patches have more control points in all than are worked with: many patches of a high degree.
+    TooMany,
     /// A control point is out of range.
     OutOfRange {
         /// The control point, from 0.
@@ -81,6 +86,7 @@ impl fmt::Display for PatchError {
             Self::Degree => write!(f, "degrees of surfaces go from 1 to {MOST_DEGREE}"),
             Self::ControlCount => write!(f, "the number of control points does not fit degrees and knots"),
             Self::Knots => write!(f, "the knots do not ascend, or repeat too often"),
+            Self::TooMany => write!(f, "there are too many patches of this degree"),
             Self::NoExtent => write!(f, "the surface has no extent"),
             Self::OutOfRange { index } => write!(f, "control point {index} is out of range"),
             Self::Weights => write!(f, "the weights are not above 0, or differ too much"),
@@ -242,7 +248,14 @@ fn check(surface: &Nurbs) -> Result<[usize; 2], PatchError> {
         return Err(PatchError::ControlCount);
     }
     check_weights(&surface.weights, surface.control.len())?;
-    Ok(counts)
+    let of_pieces = |axis: usize| {
+        let degree = surface.degrees[axis];
+        blossom::spans(&surface.knots[axis], degree, counts[axis]).len() * (degree + 1)
+    };
+    match of_pieces(0).checked_mul(of_pieces(1)) {
+        Some(all) if all <= MOST_BEZIER => Ok(counts),
+        Some(_) | None => Err(PatchError::TooMany),
+    }
 }
 
 /// The number of control points that knots ask for.

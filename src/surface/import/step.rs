@@ -69,8 +69,10 @@ struct Sorted {
     faces: Vec<Entity>,
     surfaces: Vec<Entity>,
     contexts: Vec<Entity>,
-    /// Surfaces that are not read, or parts of some that are.
-    others: Vec<(Entity, String)>,
+    /// The first surface that is not read, or part of one that is.
+    other: Option<(Entity, String)>,
+    /// Facets, which are passed over.
+    remarks: Remarks,
     /// What moves geometry to where it is used.
     moving: Option<Entity>,
 }
@@ -81,10 +83,14 @@ struct Reading<'a> {
     /// Of the file, in mm.
     unit: f64,
     cells_left: usize,
+    points_left: usize,
 }
 
 /// Cells that edges and borders are compared in, of all faces.
 const MOST_CELLS: usize = 50_000_000;
+
+/// Points of polylines along edges and borders, of all faces.
+const MOST_POINTS: usize = 5_000_000;
 
 impl<'a> Step<'a> {
     /// Finds the entities of a file.
@@ -120,8 +126,9 @@ impl<'a> Step<'a> {
             file,
             unit: unit.to_mm(),
             cells_left: MOST_CELLS,
+            points_left: MOST_POINTS,
         };
-        let mut remarks = Remarks::default();
+        let mut remarks = sorted.remarks;
         let mut surfaces = Vec::new();
         let mut control = 0;
         let mut add = |surface: Nurbs, range: Range<usize>| {
@@ -140,7 +147,7 @@ impl<'a> Step<'a> {
             used.insert(id);
         }
         if sorted.faces.is_empty() {
-            if let Some((other, kind)) = sorted.others.first() {
+            if let Some((other, kind)) = &sorted.other {
                 let message = format!("this is {}, which is not read", with_article(kind));
                 return Err(refused(other.range(), message, Advice::OnlySplines));
             }
@@ -151,13 +158,6 @@ impl<'a> Step<'a> {
                 }
             }
         } else {
-            for (_, kind) in sorted
-                .others
-                .iter()
-                .filter(|(_, kind)| TESSELLATED.contains(&kind.as_str()))
-            {
-                remarks.pass_over(kind, 1);
-            }
             let without_a_face = sorted
                 .surfaces
                 .iter()
@@ -229,8 +229,11 @@ impl Sorted {
             self.contexts.push(entity);
         } else if is_one_of(&MOVING) {
             self.moving.get_or_insert(entity);
-        } else if is_one_of(&OTHERS) || is_one_of(&TESSELLATED) {
-            self.others.push((entity, shown(keyword)));
+        } else if is_one_of(&TESSELLATED) {
+            self.remarks.pass_over(&shown(keyword), 1);
+            self.other.get_or_insert_with(|| (entity, shown(keyword)));
+        } else if is_one_of(&OTHERS) {
+            self.other.get_or_insert_with(|| (entity, shown(keyword)));
         }
     }
 }

@@ -141,6 +141,7 @@ pub(super) fn impossible(error: PatchError, span: Span) -> Diagnostic {
         | PatchError::ControlCount
         | PatchError::Knots
         | PatchError::NoExtent
+        | PatchError::TooMany
         | PatchError::OutOfRange { .. }
         | PatchError::Weights => Diagnostic::new(
             Code::ImpossibleSurface,
@@ -384,7 +385,7 @@ fn knots(
                 format!("a knot of `{name}` repeats too often"),
                 at(index),
                 format!(
-                    "at degree {degree} a knot stands {degree} times at most, at either end {} times",
+                    "at degree {degree} at most {} knots are equal at either end, and {degree} in between",
                     degree + 1
                 ),
             );

@@ -66,6 +66,7 @@ impl<'a> Reading<'a> {
                 )
                 .into());
             }
+            self.take_points(edge.points.len(), bound)?;
             edges.push(edge);
         }
         Ok(edges)

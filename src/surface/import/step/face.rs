@@ -4,7 +4,8 @@
 //! around: both, followed by polylines, can then be walked within [`TRIMMED`] of each other (their Fréchet distance is no
 //! larger), which bends one into the other without ever leaving that distance from the border. So both wind equally often
 //! around each place farther from the border than that, and the face has all of these places. How edges are divided and
-//! parametrised does not matter, nor where they begin or which way they turn.
+//! parametrised does not matter, nor where they begin or which way they turn. That is so in plan, where a part is a height;
+//! a surface that folds back to within that distance of its own border is none.
 
 use super::super::{DataError, fault};
 use super::edge::{Edge, FLATNESS};
@@ -47,6 +48,7 @@ impl<'a> Reading<'a> {
             }
         };
         let border = patch::border(&nurbs, FLATNESS).map_err(|error| impossible(error, &surface))?;
+        self.take_points(border.len(), &bound)?;
         let edges = self.edges(&bound)?;
         self.compare(&edges, &border, &bound, face.id)?;
         Ok((nurbs, on.id))
@@ -123,6 +125,13 @@ impl<'a> Reading<'a> {
             }
         }
         Ok(farthest)
+    }
+
+    /// Counts points of polylines.
+    pub(super) fn take_points(&mut self, points: usize, bound: &Reference) -> Result<(), StepError> {
+        let left = self.points_left.checked_sub(points);
+        self.points_left = left.ok_or_else(|| self.too_much(bound))?;
+        Ok(())
     }
 
     fn too_much(&self, bound: &Reference) -> StepError {

@@ -26,7 +26,7 @@ const MOST_SHOWN: usize = 60;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entity {
     pub(super) id: u64,
-    /// From after its equals sign to before its semicolon.
+    /// From its first token to before its semicolon.
     start: u32,
     end: u32,
 }
@@ -221,6 +221,7 @@ fn data(tokens: &mut Tokens<'_>, entities: &mut Vec<Entity>) -> Result<(), DataE
             _ => return Err(unexpected(first, "an entity such as `#12 = ...;`")),
         };
         punctuation(tokens, Kind::Equals, "`=`")?;
+        tokens.skip_blanks()?;
         let start = tokens.at();
         let end = statement(tokens)?;
         // The length of the file was seen to fit.

@@ -281,7 +281,7 @@ fn scaled(surface: &Nurbs, factor: f64) -> Nurbs {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig::with_cases(24))]
     #[test]
     fn what_is_written_is_read(
         surface in surfaces(), turns in 0..4usize, reversed in any::<bool>(),
@@ -306,6 +306,34 @@ proptest! {
     }
 
     #[test]
+    fn edges_off_the_border_are_trims(surface in surfaces(), side in 0..4usize, by in 0.0..0.1f64) {
+        // A point of control of one side moved, without its ends: the curve moves by up to as much.
+        let mut edges = sides(&surface);
+        let control = &mut edges[side].curve.control;
+        prop_assume!(control.len() > 2);
+        let middle = control.len() / 2;
+        control[middle].z += by;
+        let mut writer = Writer::new(Manner::Complex);
+        let id = writer.surface(&surface);
+        writer.face(id, &edges);
+        let fine = Length::mm(1e-3);
+        let curve = crate::patch::polyline(&edges[side].curve, fine).unwrap();
+        let border = crate::patch::border(&surface, fine).unwrap();
+        let off = |point: &Point3| crate::polyline::nearest(&border, *point).unwrap().1;
+        let most = curve.iter().step_by(curve.len() / 50 + 1).map(off).fold(0.0, f64::max);
+        match read(&writer.end()) {
+            Ok(_) => prop_assert!(most <= face::TRIMMED + 0.002, "{most}"),
+            Err(error) => {
+                prop_assert!(by >= 0.005, "{by}: {}", error.place.message);
+                prop_assert_eq!(error.advice, Advice::Untrim);
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #[test]
     fn damaged_files_are_refused_or_read(
         surface in surfaces(), places in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..5u8), 1..4),
     ) {
@@ -328,31 +356,6 @@ proptest! {
                 let DataError { start, end, message } = error.place;
                 prop_assert!(start <= end && end as usize <= bytes.len(), "{start}..{end}: {message}");
                 prop_assert!(!message.is_empty());
-            }
-        }
-    }
-
-    #[test]
-    fn edges_off_the_border_are_trims(surface in surfaces(), side in 0..4usize, by in 0.0..0.1f64) {
-        // A point of control of one side moved, without its ends: the curve moves by up to as much.
-        let mut edges = sides(&surface);
-        let control = &mut edges[side].curve.control;
-        prop_assume!(control.len() > 2);
-        let middle = control.len() / 2;
-        control[middle].z += by;
-        let mut writer = Writer::new(Manner::Complex);
-        let id = writer.surface(&surface);
-        writer.face(id, &edges);
-        let fine = Length::mm(1e-3);
-        let curve = crate::patch::polyline(&edges[side].curve, fine).unwrap();
-        let border = crate::patch::border(&surface, fine).unwrap();
-        let off = |point: &Point3| crate::polyline::nearest(&border, *point).unwrap().1;
-        let most = curve.iter().step_by(curve.len() / 50 + 1).map(off).fold(0.0, f64::max);
-        match read(&writer.end()) {
-            Ok(_) => prop_assert!(most <= face::TRIMMED + 0.002, "{most}"),
-            Err(error) => {
-                prop_assert!(by >= 0.005, "{by}: {}", error.place.message);
-                prop_assert_eq!(error.advice, Advice::Untrim);
             }
         }
     }

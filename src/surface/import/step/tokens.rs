@@ -118,7 +118,7 @@ impl<'a> Tokens<'a> {
     }
 
     /// Passes over blanks, comments, and print directives such as `\N\`.
-    fn skip_blanks(&mut self) -> Result<(), DataError> {
+    pub(super) fn skip_blanks(&mut self) -> Result<(), DataError> {
         loop {
             let rest = self.bytes.get(self.at..).unwrap_or_default();
             let blanks = rest
