@@ -43,6 +43,7 @@ pub(super) fn completion(
         Wanted::Head(words) => head(words, desk.operations()),
         Wanted::Joint { piece, given } => joints(piece, given),
         Wanted::Point => vec![point()],
+        Wanted::ControlPoint => vec![control_point()],
         Wanted::File => vec![file()],
         Wanted::Value(slot) => desk.place(slot).values(),
         Wanted::Unit(slot) => desk.place(slot).units(),
@@ -421,6 +422,14 @@ fn point() -> Offer {
         snippet: "(${1:10 mm}, ${2:10 mm})".to_owned(),
         detail: "a point: along x, height".to_owned(),
         ..offer("(x, z)", CompletionItemKind::SNIPPET, Rank::Fitting)
+    }
+}
+
+fn control_point() -> Offer {
+    Offer {
+        snippet: "(${1:10 mm}, ${2:10 mm}, ${3:10 mm})".to_owned(),
+        detail: "a control point: along x, along y, height".to_owned(),
+        ..offer("(x, y, z)", CompletionItemKind::SNIPPET, Rank::Fitting)
     }
 }
 
