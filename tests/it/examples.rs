@@ -80,7 +80,7 @@ fn examples_compile_for_every_dialect_of_g_code() {
             }
         }
     }
-    assert_eq!(programs, DIALECTS.len() * 24);
+    assert_eq!(programs, DIALECTS.len() * 26);
 }
 
 #[test]
