@@ -3,6 +3,8 @@
 //! A row holds the points along v for one place in u; weights stand beside their points. Knots that are not given are
 //! uniform and clamped. Counts, orders and ranges are checked here, where each fault has its place in the text.
 
+mod knots;
+
 use super::Drawn;
 use crate::sema::eval::Scope;
 use crate::sema::field_ranges::COORDINATE;
@@ -16,7 +18,7 @@ use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::Stock;
 use vcutc_diagnostics::schema::dimension::Dimension;
 use vcutc_diagnostics::schema::range::Range;
-use vcutc_diagnostics::source::{SourceMap, Span, Spanned};
+use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_surface::patch::{self, MOST_CONTROL, MOST_DEGREE, Nurbs, PatchError};
 use vcutc_syntax::ast::{Block, Expr};
@@ -32,7 +34,6 @@ pub(crate) const SPEC: BlockSpec = BlockSpec {
 };
 
 const DEGREE: Range = Range::closed(Dimension::PURE, 1.0, MOST_DEGREE as f64);
-const KNOT: Range = Range::closed(Dimension::PURE, -1e9, 1e9);
 /// The ratio of the ends is the largest that patches take.
 const WEIGHT: Range = Range::closed(Dimension::PURE, 1e-3, 1e3);
 
@@ -96,7 +97,7 @@ pub(super) fn drawn(
     let degrees = degrees(&fields, counts, &mut reader);
     let (counts, degrees) = (counts?, degrees?);
     let mut knots = |direction: Direction, degree: usize, count: usize| {
-        knots(&fields, direction, degree, count, session.sources, &mut reader)
+        knots::read(&fields, direction, [degree, count], session.sources, &mut reader)
     };
     let knots = [
         knots(Direction::U, degrees[0], counts[0]),
@@ -317,129 +318,4 @@ fn degrees(fields: &Fields<'_>, counts: Checked<[usize; 2]>, reader: &mut Reader
     let u = degree(u, Direction::U, counts.map(|[rows, _]| rows));
     let v = degree(v, Direction::V, counts.map(|[_, columns]| columns));
     Ok([u?, v?])
-}
-
-/// The knots in a direction: those that are given, or uniform ones.
-fn knots(
-    fields: &Fields<'_>,
-    direction: Direction,
-    degree: usize,
-    count: usize,
-    sources: &SourceMap,
-    reader: &mut Reader<'_>,
-) -> Checked<Vec<f64>> {
-    let name = direction.knots();
-    let uniform = uniform(degree, count);
-    let Some(expr) = fields.value(name)? else {
-        return Ok(uniform);
-    };
-    let offer = |diagnostic: Diagnostic| {
-        let text: Vec<String> = uniform.iter().map(|knot| number(*knot)).collect();
-        diagnostic.fix("take uniform knots", expr.span, format!("({})", text.join(", ")))
-    };
-    let Expr::Tuple(parts) = &expr.node else {
-        let diagnostic = Diagnostic::new(
-            Code::WrongKind,
-            format!("`{name}` takes a list of knots, not {}", looks_like(&expr.node)),
-            expr.span,
-            "expected numbers in round brackets here",
-        );
-        return Err(reader.reports.push(offer(diagnostic)));
-    };
-    let taker = format!("a knot of `{name}`");
-    let read: Vec<Checked<f64>> = parts
-        .iter()
-        .map(|part| reader.within(part, KNOT, &taker, None))
-        .collect();
-    let knots: Vec<f64> = read.into_iter().collect::<Checked<_>>()?;
-    let expected = count + degree + 1;
-    let at = |index: usize| parts.get(index).map_or(expr.span, |part| part.span);
-    let fault = if let Some(index) = knots.windows(2).position(|pair| pair[0] > pair[1]) {
-        let diagnostic = Diagnostic::new(
-            Code::ImpossibleSurface,
-            format!("the knots of `{name}` do not ascend"),
-            at(index + 1),
-            "less than the one before",
-        )
-        .and(at(index), "the one before");
-        Some(diagnostic.fix(
-            "put the knots in order",
-            expr.span,
-            in_order(parts, &knots, sources),
-        ))
-    } else if knots.len() != expected {
-        let diagnostic = Diagnostic::new(
-            Code::ImpossibleSurface,
-            format!("`{name}` has {} knots, where {expected} are needed", knots.len()),
-            expr.span,
-            format!(
-                "{} and degree {degree} take {expected} knots",
-                direction.counted(count)
-            ),
-        );
-        Some(offer(diagnostic))
-    } else {
-        repeated(&knots, degree).map(|index| {
-            let diagnostic = Diagnostic::new(
-                Code::ImpossibleSurface,
-                format!("a knot of `{name}` repeats too often"),
-                at(index),
-                format!(
-                    "at degree {degree} at most {} knots are equal at either end, and {degree} in between",
-                    degree + 1
-                ),
-            );
-            offer(diagnostic)
-        })
-    };
-    match fault {
-        Some(fault) => Err(reader.reports.push(fault)),
-        None => Ok(knots),
-    }
-}
-
-/// Knots at equal distances, so often at the ends that the surface reaches its outer control points.
-fn uniform(degree: usize, count: usize) -> Vec<f64> {
-    let end = count.saturating_sub(degree);
-    let knot = |index: usize| index.saturating_sub(degree).min(end) as f64;
-    (0..count + degree + 1).map(knot).collect()
-}
-
-/// The first knot that repeats so often that the surface falls apart there, or has no extent.
-fn repeated(knots: &[f64], degree: usize) -> Option<usize> {
-    let inner = knots.get(1..knots.len().saturating_sub(1))?;
-    let start = inner
-        .windows(degree + 1)
-        .position(|window| window.first() == window.last())?;
-    Some(start + degree + 1)
-}
-
-/// The knots as they are written, in the order of their values.
-fn in_order(parts: &[Spanned<Expr>], knots: &[f64], sources: &SourceMap) -> String {
-    let mut texts: Vec<(f64, &str)> = knots
-        .iter()
-        .zip(parts)
-        .map(|(knot, part)| (*knot, sources.slice(part.span)))
-        .collect();
-    texts.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let texts: Vec<&str> = texts.into_iter().map(|(_, text)| text).collect();
-    format!("({})", texts.join(", "))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn uniform_knots_are_clamped() {
-        assert_eq!(uniform(1, 2), [0.0, 0.0, 1.0, 1.0]);
-        assert_eq!(uniform(2, 5), [0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 3.0, 3.0]);
-        for degree in 1..6 {
-            for count in degree + 1..degree + 5 {
-                assert_eq!(repeated(&uniform(degree, count), degree), None);
-            }
-        }
-        assert_eq!(repeated(&[0.0, 0.0, 0.0, 1.0], 1), Some(2));
-        assert_eq!(repeated(&[0.0, 0.0, 1.0, 1.0, 2.0, 2.0], 1), Some(3));
-    }
 }
