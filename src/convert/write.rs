@@ -147,6 +147,7 @@ fn origins(file: FileId, text: &str, passes: &[Pass]) -> Vec<Origin> {
             | Entry::Limit { .. }
             | Entry::Formula { .. }
             | Entry::Curve { .. }
+            | Entry::ControlRow { .. }
             | Entry::SurfaceFile { .. }
             | Entry::Station { .. }
             | Entry::Block(_) => None,

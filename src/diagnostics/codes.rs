@@ -134,9 +134,9 @@ codes! {
     /// A surface that overhangs.
     Undercut = "VC0241", Warning, "surface with undercuts";
     /// A mesh whose numbers have no unit.
-    MeshWithoutUnit = "VC0242", Error, "mesh without a unit";
+    MeshWithoutUnit = "VC0242", Error, "file of a surface without a unit, or with another one";
     /// A file of triangles that cannot be read.
-    BadMesh = "VC0243", Error, "invalid mesh file";
+    BadMesh = "VC0243", Error, "invalid mesh or STEP file";
     /// Two descriptions of the part.
     SurfaceAndProfile = "VC0244", Error, "surface beside a profile";
     /// A surface that leaves the stock.
@@ -144,7 +144,7 @@ codes! {
     /// A surface that cannot be made.
     ImpossibleSurface = "VC0246", Error, "impossible surface";
     /// Things in a file of triangles that are left out, or decided on.
-    MeshPartlyRead = "VC0247", Warning, "mesh read only in part";
+    MeshPartlyRead = "VC0247", Warning, "mesh or STEP file read only in part";
 
     /// A job that leaves nothing to cut.
     NothingToCut = "VC0301", Error, "nothing to cut";

@@ -43,6 +43,7 @@ pub(super) fn completion(
         Wanted::Head(words) => head(words, desk.operations()),
         Wanted::Joint { piece, given } => joints(piece, given),
         Wanted::Point => vec![point()],
+        Wanted::ControlPoint => vec![control_point()],
         Wanted::File => vec![file()],
         Wanted::Value(slot) => desk.place(slot).values(),
         Wanted::Unit(slot) => desk.place(slot).units(),
@@ -88,7 +89,7 @@ impl Desk<'_> {
         match shape(around)? {
             Around::Profile => vocabulary::data_file(inner.name()),
             Around::Surface => vocabulary::surface_file(inner.name()),
-            Around::Loft => None,
+            Around::Loft | Around::Nurbs => None,
         }
     }
 
@@ -140,6 +141,11 @@ impl Desk<'_> {
             Some(Around::Profile) => return curves(),
             Some(Around::Surface) => return surfaces(),
             Some(Around::Loft) => return vec![station()],
+            Some(Around::Nurbs) => {
+                let mut offers = self.fields(vocabulary::nurbs(), innermost);
+                offers.push(control_row());
+                return offers;
+            }
             None => {}
         }
         let Some(spec) = self.data_spec().or_else(|| self.spec()) else {
@@ -212,7 +218,8 @@ impl Desk<'_> {
 
     /// What a field of the innermost block is said to take.
     fn takes(&self, field: &str) -> Option<&'static FieldSpec> {
-        let spec = self.data_spec().or_else(|| self.spec())?;
+        let nurbs = matches!(shape(&self.context.blocks), Some(Around::Nurbs)).then(vocabulary::nurbs);
+        let spec = nurbs.or_else(|| self.data_spec()).or_else(|| self.spec())?;
         spec.field(field)
     }
 
@@ -319,6 +326,7 @@ enum Around {
     Profile,
     Surface,
     Loft,
+    Nurbs,
 }
 
 /// What the innermost of some blocks describes of a part; none if it is about something else.
@@ -328,6 +336,7 @@ fn shape(blocks: &[BlockAround]) -> Option<Around> {
         ("profile", []) => Some(Around::Profile),
         ("surface", []) => Some(Around::Surface),
         ("surface", [loft]) if loft.name() == "loft" => Some(Around::Loft),
+        ("surface", [nurbs]) if nurbs.name() == "nurbs" => Some(Around::Nurbs),
         ("surface", [loft, _]) if loft.name() == "loft" => Some(Around::Profile),
         _ => None,
     }
@@ -349,6 +358,16 @@ fn surfaces() -> Vec<Offer> {
         ..offer("z(x, y)", CompletionItemKind::FUNCTION, Rank::Possible)
     };
     sources.chain([formula]).collect()
+}
+
+fn control_row() -> Offer {
+    let (word, form) = vocabulary::CONTROL_ROW;
+    Offer {
+        snippet: verbatim(form),
+        detail: form.to_owned(),
+        documentation: manual::row(Table::Fields("nurbs"), word).map(manual::Row::text),
+        ..offer(word, CompletionItemKind::KEYWORD, Rank::Fitting)
+    }
 }
 
 fn station() -> Offer {
@@ -403,6 +422,14 @@ fn point() -> Offer {
         snippet: "(${1:10 mm}, ${2:10 mm})".to_owned(),
         detail: "a point: along x, height".to_owned(),
         ..offer("(x, z)", CompletionItemKind::SNIPPET, Rank::Fitting)
+    }
+}
+
+fn control_point() -> Offer {
+    Offer {
+        snippet: "(${1:10 mm}, ${2:10 mm}, ${3:10 mm})".to_owned(),
+        detail: "a control point: along x, along y, height".to_owned(),
+        ..offer("(x, y, z)", CompletionItemKind::SNIPPET, Rank::Fitting)
     }
 }
 

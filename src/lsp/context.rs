@@ -36,6 +36,8 @@ pub(super) enum Wanted {
     },
     /// A point of a piece, or the path of its file.
     Point,
+    /// A point in space.
+    ControlPoint,
     /// The path of a file, with quotes.
     File,
     Value(Slot),
@@ -176,6 +178,7 @@ fn in_piece(around: &Surroundings<'_>, before: usize, depth: usize) -> Option<Wa
     match last {
         "radius" => return Some(Wanted::Value(Slot::at(around, before))),
         "to" | "center" | "through" | "start" => return Some(Wanted::Point),
+        word if Row::named(word) == Some(Row::Control) => return Some(Wanted::ControlPoint),
         word if Row::named(word).is_some() => return Some(Wanted::Point),
         word if is_file && word == piece => return Some(Wanted::File),
         _ => {}

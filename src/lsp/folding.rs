@@ -35,7 +35,9 @@ fn of_entries(entries: &[Entry], text: &Text, found: &mut Vec<FoldingRange>) {
     for entry in entries {
         match entry {
             Entry::Block(inner) => of_block(inner, text, found),
-            Entry::Row { span, .. } | Entry::SurfaceFile { span, .. } => found.extend(of_span(*span, text)),
+            Entry::Row { span, .. } | Entry::ControlRow { span, .. } | Entry::SurfaceFile { span, .. } => {
+                found.extend(of_span(*span, text))
+            }
             Entry::Station { entries, span, .. } => {
                 found.extend(of_span(*span, text));
                 of_entries(entries, text, found);

@@ -66,7 +66,7 @@ pub(super) fn hover(
     })
 }
 
-/// A word of the language that is not a site of the tree: `let`, `use`, `job`, `tips`, `body`, and what pieces of a profile are made of.
+/// A word of the language that is not a site of the tree: `let`, `use`, `job`, `tips`, `body`, `row`, and what pieces of a profile are made of.
 fn keyword(analysis: &Analysis, path: &str, offset: usize) -> Option<Reported> {
     let (file, ast) = analysis.file(path)?;
     let text = analysis.sources.get(file)?.text.as_str();
@@ -89,6 +89,7 @@ fn keyword_explained(word: &str) -> Option<String> {
         "job" | "use" | "let" => return manual::about(word),
         "tips" => manual::row(Table::Fields("rough vcut"), word),
         "body" => manual::row(Table::Fields("blade"), word),
+        "row" => manual::row(Table::Fields("nurbs"), word),
         _ => manual::row(Table::Pieces, word)
             .or_else(|| manual::row(Table::Joints, word))
             .or_else(|| manual::row(Table::Sources, word))
@@ -282,7 +283,7 @@ fn field_value(analysis: &Analysis, name: Span) -> Option<&Spanned<Expr>> {
             Entry::Station { entries, .. } | Entry::SurfaceFile { options: entries, .. } => {
                 open.extend(entries);
             }
-            Entry::Formula { .. } | Entry::Curve { .. } | Entry::Row { .. } => {}
+            Entry::Formula { .. } | Entry::Curve { .. } | Entry::Row { .. } | Entry::ControlRow { .. } => {}
         }
     }
     None

@@ -127,6 +127,8 @@ fn fields_table(block: &str) -> Option<usize> {
         "dxf" | "svg" => headed("| Field of `dxf` and `svg` |"),
         "mesh" => headed("| Field of `mesh` |"),
         "grid" => headed("| Field of `grid` |"),
+        "step" => headed("| Field of `step` |"),
+        "nurbs" => headed("| Field of `nurbs` |"),
         "disc" => headed("| Field of `disc` |"),
         "crusher" => headed("| Field of `crusher` |"),
         _ => behind(&format!("\n### `{}`\n", section(block)), "| Field |"),
@@ -243,6 +245,7 @@ mod tests {
         for word in SurfaceFile::ALL.map(SurfaceFile::word) {
             all.push((word, vocabulary::surface_file(word).unwrap()));
         }
+        all.push(("nurbs", vocabulary::nurbs()));
         let inner: Vec<_> = all
             .iter()
             .flat_map(|(_, spec)| spec.fields)

@@ -13,6 +13,7 @@ pub(super) enum Named {
     Dxf,
     Svg,
     Mesh,
+    Step,
     /// A machine's sheet or description, or a profile of its habits.
     Machine,
 }
@@ -27,6 +28,7 @@ impl Named {
             Self::Dxf => &["dxf"],
             Self::Svg => &["svg"],
             Self::Mesh => &["stl", "obj", "ply"],
+            Self::Step => &["stp", "step", "p21"],
             Self::Machine => &["toml", "urdf"],
         }
     }
@@ -48,6 +50,7 @@ pub(super) fn named_by(words: &[String], around: Option<&str>) -> Option<Named> 
         "use" => Some(Named::Job),
         "points" | "grid" => Some(Named::Points),
         "mesh" => Some(Named::Mesh),
+        "step" => Some(Named::Step),
         "airfoil" => Some(Named::Airfoil),
         "dxf" => Some(Named::Dxf),
         "svg" => Some(Named::Svg),

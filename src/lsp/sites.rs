@@ -211,6 +211,7 @@ impl<'a> Row<'a> {
                 | Entry::SurfaceFile { .. }
                 | Entry::Station { .. } => self.profile_entry(entry, place),
                 Entry::Row { points, .. } => self.points(points, place),
+                Entry::ControlRow { points, .. } => self.control_points(points, place),
                 Entry::Block(inner) => self.inner_block(inner, spec, place),
             }
         }
@@ -299,7 +300,29 @@ impl<'a> Row<'a> {
                 self.value(value, place, &[]);
             }
             Entry::Row { points, .. } => self.points(points, place),
-            Entry::Block(inner) => self.inner_block(inner, None, place),
+            Entry::ControlRow { points, .. } => self.control_points(points, place),
+            Entry::Block(inner) => match inner.head.as_slice() {
+                [head] if head.node == HeadPart::Word("nurbs".to_owned()) => {
+                    self.nurbs(inner, head.span, place)
+                }
+                _ => self.inner_block(inner, None, place),
+            },
+        }
+    }
+
+    /// A surface by its control points.
+    fn nurbs(&mut self, block: &'a Block, head: Span, place: Place<'a>) {
+        let place = Place {
+            block: "nurbs",
+            ..place
+        };
+        self.push(head, Kind::Block, place);
+        self.entries(&block.entries, Some(vocabulary::nurbs()), place);
+    }
+
+    fn control_points(&mut self, points: &'a [Spanned<Expr>], place: Place<'a>) {
+        for point in points {
+            self.value(point, place, &[]);
         }
     }
 

@@ -94,7 +94,9 @@ fn of_entry(entry: &Entry, text: &Text) -> Option<DocumentSymbol> {
             station.children = Some(children.collect());
             Some(station)
         }
-        Entry::Curve { .. } | Entry::Row { .. } | Entry::SurfaceFile { .. } => None,
+        Entry::Curve { .. } | Entry::Row { .. } | Entry::ControlRow { .. } | Entry::SurfaceFile { .. } => {
+            None
+        }
     }
 }
 

@@ -75,7 +75,7 @@ fn heads() -> Vec<(&'static str, &'static BlockSpec)> {
 }
 
 const FILES: [&str; 4] = ["points", "airfoil", "dxf", "svg"];
-const SURFACE_FILES: [&str; 2] = ["mesh", "grid"];
+const SURFACE_FILES: [&str; 3] = ["mesh", "grid", "step"];
 
 /// Everything that can be written of a field, each with the words in it that are to be explained.
 fn of_field(field: &FieldSpec) -> Vec<(String, Vec<String>)> {
@@ -141,6 +141,7 @@ fn spots_of_fields() -> Vec<Spot> {
         let spec = vocabulary::surface_file(file).unwrap();
         add(&format!("surface {{ {file} \"f\" {{ "), spec, " } }\n");
     }
+    add("surface { nurbs { ", vocabulary::nurbs(), " } }\n");
     spots
 }
 
@@ -157,6 +158,9 @@ fn other_spots() -> Vec<Spot> {
     }
     let (word, form) = vocabulary::STATION;
     let text = format!("surface {{ loft {{ {form} }} }}\n");
+    spots.push(spot(&text, word, word));
+    let (word, form) = vocabulary::CONTROL_ROW;
+    let text = format!("surface {{ nurbs {{ {form} }} }}\n");
     spots.push(spot(&text, word, word));
     let text = "surface { z(x, y) = 3 mm + x }\n";
     spots.extend(["z", "x", "y"].map(|word| spot(text, word, word)));
@@ -325,7 +329,7 @@ fn set<'w>(words: impl IntoIterator<Item = &'w str>) -> BTreeSet<String> {
 fn fields() -> Vec<&'static FieldSpec> {
     let files = FILES.map(|file| vocabulary::data_file(file).unwrap());
     let surfaces = SURFACE_FILES.map(|file| vocabulary::surface_file(file).unwrap());
-    let files = files.into_iter().chain(surfaces);
+    let files = files.into_iter().chain(surfaces).chain([vocabulary::nurbs()]);
     let mut open: Vec<&BlockSpec> = heads().into_iter().map(|(_, spec)| spec).chain(files).collect();
     let mut all = Vec::new();
     while let Some(spec) = open.pop() {

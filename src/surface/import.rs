@@ -1,8 +1,8 @@
-//! Files of triangles, STL, OBJ and PLY, and of heights on a grid.
+//! Files of triangles, STL, OBJ and PLY, of heights on a grid, and of B-spline surfaces, STEP.
 //!
 //! All readers take the bytes of a file and never guess silently. What cannot be read is a [`DataError`] that says where
-//! and why; what was read but passed over is counted in [`Remarks`]. None of these files carries a unit: numbers are given
-//! as they stand.
+//! and why; what was read but passed over is counted in [`Remarks`]. None of these files but STEP carries a unit: numbers are
+//! given as they stand.
 //!
 //! Readers take time in proportion to the file (sorting included, up to a logarithm), and memory of about four times its
 //! length at most: counts in a file never make room before its data is seen to be there.
@@ -11,12 +11,14 @@ mod gather;
 mod heights;
 mod obj;
 mod ply;
+mod step;
 mod stl;
 mod words;
 
 pub use heights::heights;
 pub use obj::obj;
 pub use ply::ply;
+pub use step::{Advice, ReadStep, Step, StepError};
 pub use stl::stl;
 pub use vcutc_geometry::import::DataError;
 
@@ -54,6 +56,9 @@ impl Remarks {
 
     fn pass_over(&mut self, name: &str, times: usize) {
         const OTHERS: &str = "others";
+        if times == 0 {
+            return;
+        }
         let name = shortened(name);
         let known = self.passed_over.contains_key(&name) || self.passed_over.len() < Self::MOST_KINDS;
         *self

@@ -12,7 +12,10 @@
 
 mod blossom;
 mod bound;
+mod curve;
 mod derivatives;
+
+pub use curve::{Curve, MOST_POINTS, border, polyline};
 
 use crate::mesh::{MOST_TRIANGLES, Mesh, is_in_range};
 use bound::divisions;
@@ -25,6 +28,9 @@ pub const MOST_DEGREE: usize = 24;
 
 /// The most control points.
 pub const MOST_CONTROL: usize = 1_000_000;
+
+/// The most control points of all Bezier patches that a surface is divided into.
+const MOST_BEZIER: usize = 8_000_000;
 
 /// Largest ratio of two weights. Beyond it a surface bends at single points only.
 const WIDEST_WEIGHTS: f64 = 1e6;
@@ -62,6 +68,8 @@ pub enum PatchError {
     Knots,
     /// All knots that count are equal, or there is no patch.
     NoExtent,
+    /// The patches have more control points in all than are worked with: many patches of a high degree.
+    TooMany,
     /// A control point is out of range.
     OutOfRange {
         /// The control point, from 0.
@@ -79,6 +87,7 @@ impl fmt::Display for PatchError {
             Self::Degree => write!(f, "degrees of surfaces go from 1 to {MOST_DEGREE}"),
             Self::ControlCount => write!(f, "the number of control points does not fit degrees and knots"),
             Self::Knots => write!(f, "the knots do not ascend, or repeat too often"),
+            Self::TooMany => write!(f, "there are too many patches of this degree"),
             Self::NoExtent => write!(f, "the surface has no extent"),
             Self::OutOfRange { index } => write!(f, "control point {index} is out of range"),
             Self::Weights => write!(f, "the weights are not above 0, or differ too much"),
@@ -106,15 +115,7 @@ struct Piece {
 pub fn nurbs(surface: &Nurbs, tolerance: Length) -> Result<Mesh, PatchError> {
     let counts = check(surface)?;
     let tolerance = positive(tolerance)?;
-    let weighted: Vec<Weighted> = surface
-        .control
-        .iter()
-        .enumerate()
-        .map(|(index, p)| {
-            let weight = surface.weights.get(index).copied().unwrap_or(1.0);
-            [p.x * weight, p.y * weight, p.z * weight, weight]
-        })
-        .collect();
+    let weighted = weighted(&surface.control, &surface.weights);
     let (pieces, across) = blossom::pieces(surface, counts, &weighted);
     tessellated(&pieces, across, tolerance)
 }
@@ -146,9 +147,36 @@ pub fn patches(patches: &[Bezier], tolerance: Length) -> Result<Mesh, PatchError
         let [u, v] = divisions(piece, tolerance);
         divided = [divided[0].max(u), divided[1].max(v)];
     }
+    let meshes = pieces
+        .iter()
+        .map(|piece| grid_of(core::slice::from_ref(piece), 1, &[divided[0]], &[divided[1]]));
+    union(meshes)
+}
+
+/// The share of the tolerance that each of several surfaces gets: along a border that two of them share, both together
+/// stay within it.
+const SHARED: f64 = 0.4;
+
+/// The mesh of several B-spline surfaces, each within the tolerance of its triangles, in space. Where two share a border,
+/// what gapes between their triangles is narrower than the tolerance.
+///
+/// # Errors
+/// See [`PatchError`]. Which surface is wrong, [`nurbs`] tells.
+pub fn several(surfaces: &[Nurbs], tolerance: Length) -> Result<Mesh, PatchError> {
+    match surfaces {
+        [only] => nurbs(only, tolerance),
+        all => union(
+            all.iter()
+                .map(|surface| nurbs(surface, Length::mm(SHARED * tolerance.to_mm()))),
+        ),
+    }
+}
+
+/// All triangles of several meshes.
+fn union(meshes: impl Iterator<Item = Result<Mesh, PatchError>>) -> Result<Mesh, PatchError> {
     let (mut corners, mut triangles) = (Vec::new(), Vec::new());
-    for piece in &pieces {
-        let mesh = grid_of(core::slice::from_ref(piece), 1, &[divided[0]], &[divided[1]])?;
+    for mesh in meshes {
+        let mesh = mesh?;
         let first = corners.len();
         if triangles.len() + mesh.triangles().len() > MOST_TRIANGLES {
             return Err(PatchError::Tolerance);
@@ -175,8 +203,21 @@ fn positive(tolerance: Length) -> Result<f64, PatchError> {
     }
 }
 
+/// Control points times their weights, which are 1 where there are none.
+fn weighted(control: &[Point3], weights: &[f64]) -> Vec<Weighted> {
+    let weighted = |(index, p): (usize, &Point3)| {
+        let weight = weights.get(index).copied().unwrap_or(1.0);
+        [p.x * weight, p.y * weight, p.z * weight, weight]
+    };
+    control.iter().enumerate().map(weighted).collect()
+}
+
 fn check_degrees(degrees: [usize; 2]) -> Result<(), PatchError> {
-    if degrees.iter().all(|degree| (1..=MOST_DEGREE).contains(degree)) {
+    degrees.into_iter().try_for_each(check_degree)
+}
+
+fn check_degree(degree: usize) -> Result<(), PatchError> {
+    if (1..=MOST_DEGREE).contains(&degree) {
         Ok(())
     } else {
         Err(PatchError::Degree)
@@ -202,38 +243,56 @@ fn check(surface: &Nurbs) -> Result<[usize; 2], PatchError> {
     check_control(&surface.control, 0)?;
     let mut counts = [0; 2];
     for ((count, knots), degree) in counts.iter_mut().zip(&surface.knots).zip(surface.degrees) {
-        *count = knots
-            .len()
-            .checked_sub(degree + 1)
-            .ok_or(PatchError::ControlCount)?;
-        if *count <= degree {
-            return Err(PatchError::ControlCount);
-        }
-        // Refuses what is not a number too.
-        let ascends =
-            knots.windows(2).all(|pair| pair[0] <= pair[1]) && knots.iter().all(|knot| knot.is_finite());
-        let inner = knots.get(1..knots.len() - 1).unwrap_or_default();
-        let falls_apart = inner
-            .windows(degree + 1)
-            .any(|window| window.first() == window.last());
-        if !ascends || falls_apart {
-            return Err(PatchError::Knots);
-        }
-        let spans = knots.get(degree..=*count).unwrap_or_default();
-        if spans.first() == spans.last() {
-            return Err(PatchError::NoExtent);
-        }
+        *count = check_knots(degree, knots)?;
     }
     if counts[0].checked_mul(counts[1]) != Some(surface.control.len()) {
         return Err(PatchError::ControlCount);
     }
-    let weights = &surface.weights;
+    check_weights(&surface.weights, surface.control.len())?;
+    let of_pieces = |axis: usize| {
+        let degree = surface.degrees[axis];
+        blossom::spans(&surface.knots[axis], degree, counts[axis]).len() * (degree + 1)
+    };
+    match of_pieces(0).checked_mul(of_pieces(1)) {
+        Some(all) if all <= MOST_BEZIER => Ok(counts),
+        Some(_) | None => Err(PatchError::TooMany),
+    }
+}
+
+/// The number of control points that knots ask for.
+fn check_knots(degree: usize, knots: &[f64]) -> Result<usize, PatchError> {
+    let count = knots
+        .len()
+        .checked_sub(degree + 1)
+        .ok_or(PatchError::ControlCount)?;
+    if count <= degree {
+        return Err(PatchError::ControlCount);
+    }
+    // Refuses what is not a number too.
+    let ascends =
+        knots.windows(2).all(|pair| pair[0] <= pair[1]) && knots.iter().all(|knot| knot.is_finite());
+    let inner = knots.get(1..knots.len() - 1).unwrap_or_default();
+    let falls_apart = inner
+        .windows(degree + 1)
+        .any(|window| window.first() == window.last());
+    if !ascends || falls_apart {
+        return Err(PatchError::Knots);
+    }
+    let spans = knots.get(degree..=count).unwrap_or_default();
+    if spans.first() == spans.last() {
+        return Err(PatchError::NoExtent);
+    }
+    Ok(count)
+}
+
+/// Looks at the weights of so many control points.
+fn check_weights(weights: &[f64], count: usize) -> Result<(), PatchError> {
     let largest = weights.iter().copied().fold(0.0, f64::max);
     let is_good = |weight: &f64| *weight > 0.0 && weight.is_finite() && largest / weight <= WIDEST_WEIGHTS;
-    if !weights.is_empty() && (weights.len() != surface.control.len() || !weights.iter().all(is_good)) {
+    if !weights.is_empty() && (weights.len() != count || !weights.iter().all(is_good)) {
         return Err(PatchError::Weights);
     }
-    Ok(counts)
+    Ok(())
 }
 
 /// The mesh of a grid of pieces, so many of them in v, each row and column divided as often as its most curved piece asks.

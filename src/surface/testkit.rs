@@ -126,3 +126,12 @@ pub(crate) fn sheets() -> impl Strategy<Value = Sheets> {
     let corner = (-20.0..120.0, -20.0..80.0, -10.0..20.0).prop_map(|(x, y, z)| [x, y, z]);
     prop::collection::vec(prop::array::uniform3(corner), 0..12).prop_map(Sheets)
 }
+
+/// The distance of a point from a segment.
+pub(crate) fn segment_distance(point: Point3, [a, b]: [Point3; 2]) -> f64 {
+    let [along, to] = [[b, a], [point, a]].map(|[p, q]| [p.x - q.x, p.y - q.y, p.z - q.z]);
+    let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+    let share = (dot(along, to) / dot(along, along).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    let at = |i: usize| to[i] - share * along[i];
+    libm::hypot(libm::hypot(at(0), at(1)), at(2))
+}

@@ -104,7 +104,15 @@ pub enum Entry {
         points: Vec<Point>,
         span: Span,
     },
-    /// `mesh "file.stl"`, `grid "file.csv"`, optionally with `{ fields }`.
+    /// `row (x, y, z) (x, y, z, weight) ...`: control points of a surface.
+    ControlRow {
+        /// The word that it begins with.
+        word: Span,
+        /// What is in each pair of brackets, at least one.
+        points: Vec<Spanned<Expr>>,
+        span: Span,
+    },
+    /// `mesh "file.stl"`, `grid "file.csv"`, `step "file.stp"`, optionally with `{ fields }`.
     SurfaceFile {
         /// What the file holds.
         kind: Spanned<SurfaceFile>,
@@ -144,11 +152,13 @@ pub enum Row {
     Tips,
     /// `body (height, radius) ...`: how thick a blade is above its edge.
     Body,
+    /// `row (x, y, z) ...`: control points of a surface. Its entry is [`Entry::ControlRow`].
+    Control,
 }
 
 impl Row {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Tips, Self::Body];
+    pub const ALL: [Self; 3] = [Self::Tips, Self::Body, Self::Control];
 
     /// The word that it begins with.
     #[must_use]
@@ -156,6 +166,7 @@ impl Row {
         match self {
             Self::Tips => "tips",
             Self::Body => "body",
+            Self::Control => "row",
         }
     }
 
@@ -173,11 +184,13 @@ pub enum SurfaceFile {
     Mesh,
     /// `grid`: heights over places.
     Grid,
+    /// `step`: B-spline surfaces.
+    Step,
 }
 
 impl SurfaceFile {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Mesh, Self::Grid];
+    pub const ALL: [Self; 3] = [Self::Mesh, Self::Grid, Self::Step];
 
     /// The word that it begins with.
     #[must_use]
@@ -185,6 +198,7 @@ impl SurfaceFile {
         match self {
             Self::Mesh => "mesh",
             Self::Grid => "grid",
+            Self::Step => "step",
         }
     }
 

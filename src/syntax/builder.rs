@@ -192,6 +192,7 @@ impl<'t> Builder<'t> {
             Rule::formula => self.formula(pair),
             Rule::inner_block => self.block(pair).map(Entry::Block),
             Rule::row => self.row(pair),
+            Rule::control_row => self.control_row(pair),
             Rule::surface_file => self.surface_file(pair),
             Rule::station => self.station(pair),
             Rule::bad_entry => {
@@ -317,6 +318,16 @@ impl<'t> Builder<'t> {
         let row = Spanned::new(Row::named(&word.node)?, word.span);
         let points = self.points(pair)?;
         Some(Entry::Row { row, points, span })
+    }
+
+    fn control_row(&mut self, pair: Pair<'_, Rule>) -> Option<Entry> {
+        let span = self.place.span_of(&pair);
+        let word = self.place.span_of(&find(pair.clone(), Rule::control_word)?);
+        let groups = pair.into_inner().filter(|part| part.as_rule() == Rule::group);
+        // All are read even if one is wrong, so that all are reported.
+        let points: Vec<Option<_>> = groups.map(|group| self.group_value(group)).collect();
+        let points = points.into_iter().collect::<Option<_>>()?;
+        Some(Entry::ControlRow { word, points, span })
     }
 
     /// The points of a row of them. All are read even if one is wrong, so that all are reported.

@@ -26,6 +26,24 @@ static PRECEDENCE: ConstPrattParser<Rule, 6> = ConstPrattParser::new_const([
 impl Builder<'_> {
     /// A whole value; `None` when it is too large, which has then been reported.
     pub(super) fn value(&mut self, pair: Pair<'_, Rule>) -> Option<Spanned<Expr>> {
+        if self.is_small(&pair) {
+            self.expression(pair)
+        } else {
+            None
+        }
+    }
+
+    /// What is in round brackets; `None` when it is too large, which has then been reported.
+    pub(super) fn group_value(&mut self, pair: Pair<'_, Rule>) -> Option<Spanned<Expr>> {
+        let span = self.place.span_of(&pair);
+        if !self.is_small(&pair) {
+            return None;
+        }
+        Some(Spanned::new(self.group(pair)?, span))
+    }
+
+    /// Whether a value has few enough operators, which is reported otherwise.
+    fn is_small(&mut self, pair: &Pair<'_, Rule>) -> bool {
         let operators = pair
             .clone()
             .into_inner()
@@ -37,14 +55,13 @@ impl Builder<'_> {
                 Diagnostic::new(
                     Code::NestedTooDeeply,
                     format!("a value of {operators} operators"),
-                    self.place.span_of(&pair),
+                    self.place.span_of(pair),
                     format!("one value can have at most {MOST_OPERATORS} operators"),
                 )
                 .help("name parts of it with `let`"),
             );
-            return None;
         }
-        self.expression(pair)
+        operators <= MOST_OPERATORS
     }
 
     fn expression(&mut self, pair: Pair<'_, Rule>) -> Option<Spanned<Expr>> {

@@ -121,7 +121,7 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
 }
 
 /// Words that points in brackets follow.
-const WITH_POINTS: [&str; 6] = ["start", "bezier", "spline", "polyline", "tips", "body"];
+const WITH_POINTS: [&str; 7] = ["start", "bezier", "spline", "polyline", "tips", "body", "row"];
 
 /// Whether the statement goes on where the one before it ended, with no comma or line end between.
 fn is_leftover(bad: &Bad<'_>) -> bool {
@@ -151,6 +151,7 @@ fn is_plain_name(word: &str) -> bool {
             | "svg"
             | "tips"
             | "body"
+            | "row"
             | "mesh"
             | "grid"
             | "at"

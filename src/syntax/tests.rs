@@ -335,6 +335,31 @@ fn surfaces_are_read() {
 }
 
 #[test]
+fn words_of_surfaces_are_names_elsewhere() {
+    let text = "let step = 3 mm let row = 2
+        surface { step \"a.stp\" nurbs { degree = (1, 1), row (0, 1, 2) (row, step, 3, 4) row (1, 2) u_knots = (0, 0) } }
+        rough vcut { step = step * row limits { step <= 4 mm } row = 5 mm step <= row }";
+    let (ast, found) = parsed(text);
+    assert_eq!(found, []);
+    let [_, _, Item::Block(surface), Item::Block(plain)] = &ast.items[..] else {
+        panic!("{ast:?}");
+    };
+    let [Entry::SurfaceFile { kind, .. }, Entry::Block(nurbs)] = &surface.entries[..] else {
+        panic!("{surface:?}");
+    };
+    assert_eq!(kind.node, SurfaceFile::Step);
+    let rows = nurbs.entries.iter().filter_map(|entry| match entry {
+        Entry::ControlRow { points, .. } => Some(points),
+        _ => None,
+    });
+    let rows: Vec<Vec<String>> = rows
+        .map(|points| points.iter().map(|point| shape_of(&point.node)).collect())
+        .collect();
+    assert_eq!(rows, [vec!["<0, 1, 2>", "<row, step, 3, 4>"], vec!["<1, 2>"]]);
+    assert_eq!((nurbs.entries.len(), plain.entries.len()), (4, 4));
+}
+
+#[test]
 fn arcs_and_splines_keep_their_points() {
     let (ast, _) = parsed("profile { bezier (1, 2) (3, 4) to (5, 6) arc to (7, 8) radius 9 mm }");
     let Some(Item::Block(block)) = ast.items.first() else {

@@ -172,10 +172,10 @@ fn a_token() -> impl Strategy<Value = String> {
     let words = [
         "job", "use", "let", "stock", "profile", "blade", "rough", "vcut", "machine", "robot", "start",
         "line", "to", "arc", "bezier", "spline", "polyline", "points", "airfoil", "radius", "center", "tips",
-        "surface", "mesh", "grid", "loft", "at", "y", ",", "through", "z", "x", "size", "feed", "limits",
-        "swing", "layer", "auto", "frame", "joints", "output", "number", "krl", "mm", "deg", "s", "(", ")",
-        "{", "}", "=", "<=", ",", "+", "-", "*", "/", "^", "\"", "//", "\n", "0", "1", "85", "1e308",
-        "\u{fffd}",
+        "surface", "mesh", "grid", "step", "loft", "nurbs", "row", "degree", "at", "y", ",", "through", "z",
+        "x", "size", "feed", "limits", "swing", "layer", "auto", "frame", "joints", "output", "number",
+        "krl", "mm", "deg", "s", "(", ")", "{", "}", "=", "<=", ",", "+", "-", "*", "/", "^", "\"", "//",
+        "\n", "0", "1", "85", "1e308", "\u{fffd}",
     ];
     prop::sample::select(words.to_vec()).prop_map(str::to_owned)
 }

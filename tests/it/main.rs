@@ -57,6 +57,8 @@ mod optimum_table;
 mod pace;
 mod pages;
 #[cfg(feature = "krl")]
+mod patches;
+#[cfg(feature = "krl")]
 mod pictures;
 #[cfg(feature = "krl")]
 mod pipeline;

@@ -24,7 +24,7 @@ machine left = robot \"kuka/kr210_r3100_ultra\" {
 }
 ";
 
-const VCUT: &str = "rough vcut {
+pub(crate) const VCUT: &str = "rough vcut {
   blade     = dagger
   lattice   = orthogonal
   rake      = 60 deg
@@ -60,7 +60,7 @@ fn hill(x: f64) -> f64 {
     20.0 + 14.0 * (x / 120.0 * std::f64::consts::PI).sin() + if x > 80.0 { (x - 80.0) * 0.1 } else { 0.0 }
 }
 
-fn job(part: &str, operation: &str) -> String {
+pub(crate) fn job(part: &str, operation: &str) -> String {
     format!("{REST}{part}\n{operation}")
 }
 
@@ -81,7 +81,7 @@ fn roughed(part: &str, operation: &str, files: Files) -> (String, String) {
 }
 
 /// The program without the line with the hash of its job: the jobs differ.
-fn program(outcome: &Outcome) -> String {
+pub(crate) fn program(outcome: &Outcome) -> String {
     assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
     let bundle = emit(outcome).unwrap();
     let texts = bundle

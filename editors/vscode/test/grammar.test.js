@@ -92,6 +92,14 @@ test("words are what they are", async () => {
       ["4", "constant.numeric"], ["mm", "keyword.other.unit"],
     ]],
     ["  tips", [["tips", "keyword.other.curve"]]],
+    ["  step \"wing.stp\"", [
+      ["step", "keyword.other.curve"], ["\"", "string.quoted.double"], ["wing.stp", "string.quoted.double"],
+      ["\"", "string.quoted.double"],
+    ]],
+    ["  row (1 mm, 2 mm, 3 mm)", [
+      ["row", "keyword.other.curve"], ["1", "constant.numeric"], ["mm", "keyword.other.unit"],
+      ["2", "constant.numeric"], ["mm", "keyword.other.unit"], ["3", "constant.numeric"], ["mm", "keyword.other.unit"],
+    ]],
     ["  body (40 mm, 8 mm)", [
       ["body", "keyword.other.curve"], ["40", "constant.numeric"], ["mm", "keyword.other.unit"],
       ["8", "constant.numeric"], ["mm", "keyword.other.unit"],

@@ -196,7 +196,7 @@ impl BlockSpec {
     pub fn block(&self, first: &str, second: Option<&str>) -> Option<&'static BlockSpec> {
         match (self.inner, second) {
             (Inner::Machine { named, spec }, Some(_)) if first == named => Some(spec),
-            (Inner::Machine { .. } | Inner::Refused, _) => self.field(first)?.inner(),
+            (Inner::Machine { .. } | Inner::Refused | Inner::Rows, _) => self.field(first)?.inner(),
         }
     }
 
@@ -211,6 +211,8 @@ impl BlockSpec {
 pub enum Inner {
     /// They are unknown.
     Refused,
+    /// They are unknown too, but the block has rows of control points beside its fields.
+    Rows,
     /// They are those of a machine: options for a target, or of what is named in their heads.
     Machine {
         /// The word before the name.
@@ -224,7 +226,7 @@ impl Inner {
     /// Whether they are options for a target.
     pub const fn takes_target_options(self) -> bool {
         match self {
-            Self::Refused => false,
+            Self::Refused | Self::Rows => false,
             Self::Machine { .. } => true,
         }
     }

@@ -70,6 +70,13 @@ pub struct NamedBlock<'a> {
     pub block: &'a Block,
 }
 
+/// A row of control points.
+#[derive(Clone, Copy)]
+pub struct ControlRow<'a> {
+    pub word: Span,
+    pub points: &'a [Spanned<Expr>],
+}
+
 /// The fields of one block.
 pub struct Fields<'a> {
     spec: &'static BlockSpec,
@@ -81,6 +88,8 @@ pub struct Fields<'a> {
     pub targets: Vec<&'a Block>,
     /// Inner blocks of what a second word names, such as `tool dagger { ... }`.
     pub named: Vec<NamedBlock<'a>>,
+    /// Rows of control points, if the block has such.
+    pub rows: Vec<ControlRow<'a>>,
     insertion: Insertion,
     damage: Option<Reported>,
     /// Fields that an unknown one perhaps is.
@@ -102,6 +111,7 @@ impl<'a> Fields<'a> {
             least: BTreeMap::new(),
             targets: Vec::new(),
             named: Vec::new(),
+            rows: Vec::new(),
             insertion: Insertion::before_end_of(place.whole, session.sources),
             damage: session.damage_at(place.whole),
             misspelt: BTreeMap::new(),
@@ -144,6 +154,12 @@ impl<'a> Fields<'a> {
             Entry::Station { span, .. } => {
                 reports.push(self.belongs_in_surface("at", *span));
             }
+            Entry::ControlRow { word, points, .. } => match self.spec.inner {
+                Inner::Rows => self.rows.push(ControlRow { word: *word, points }),
+                Inner::Refused | Inner::Machine { .. } => {
+                    reports.push(self.belongs_in_surface("row", *word));
+                }
+            },
         }
     }
 

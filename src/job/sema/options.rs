@@ -95,6 +95,7 @@ fn one(block: &Block, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Gi
                 Err(misplaced(&format!("`{}`", kind.node.word()), *span, session))
             }
             Entry::Station { span, .. } => Err(misplaced("`at`", *span, session)),
+            Entry::ControlRow { word, .. } => Err(misplaced("`row`", *word, session)),
             Entry::Row { row, span, .. } => Err(misplaced(&format!("`{}`", row.node.word()), *span, session)),
             Entry::Block(inner) => Err(misplaced("a block", head_span(inner), session)),
         };

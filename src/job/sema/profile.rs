@@ -189,6 +189,7 @@ fn sort<'a>(entries: &'a [Entry], place: Place, session: &mut Session<'_>) -> Ch
             Entry::Field { name, .. } => no_field(name),
             Entry::Limit { name, .. } => no_field(name),
             Entry::Row { row, span, .. } => no_row(row.node, *span),
+            Entry::ControlRow { word, .. } => no_row(Row::Control, *word),
             Entry::Block(inner) => no_block(inner),
         };
         fault = Some(session.reports.push(found));
@@ -215,6 +216,7 @@ fn no_row(row: Row, span: Span) -> Diagnostic {
             "says how thick a blade is, not what the part looks like",
             "`blade`",
         ),
+        Row::Control => ("holds control points of a surface", "`nurbs { ... }`"),
     };
     Diagnostic::new(
         Code::Misplaced,

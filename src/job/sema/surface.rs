@@ -1,7 +1,7 @@
 //! `surface { ... }`: the part's height over x and y.
 //!
-//! A surface has one source: a file of triangles or of heights (`file`), profiles that it is ruled between (`loft`), or a
-//! formula (`formula`, whose values over boxes `enclosure` works out). All become triangles over the plan of the stock, which
+//! A surface has one source: a file of triangles, of heights (`file`) or of surfaces (`step`), profiles that it is ruled
+//! between (`loft`), control points (`nurbs`), or a formula (`formula`, whose values over boxes `enclosure` works out). All become triangles over the plan of the stock, which
 //! are then compared with the stock (`judge`).
 
 mod enclosure;
@@ -9,7 +9,9 @@ pub(crate) mod file;
 mod formula;
 mod judge;
 mod loft;
+pub(crate) mod nurbs;
 mod seat;
+pub(crate) mod step;
 
 use super::eval::Scope;
 use super::fields::{Place, curve_words, head_span};
@@ -36,6 +38,7 @@ const WELD: Length = Length::mm(0.01);
 enum Source<'a> {
     File(file::Named<'a>),
     Loft(&'a Block),
+    Nurbs(&'a Block),
     Formula(formula::Written<'a>),
 }
 
@@ -44,7 +47,7 @@ impl Source<'_> {
     fn span(&self) -> Span {
         match self {
             Self::File(file) => file.head(),
-            Self::Loft(block) => head_span(block),
+            Self::Loft(block) | Self::Nurbs(block) => head_span(block),
             Self::Formula(formula) => formula.span,
         }
     }
@@ -64,6 +67,7 @@ pub(crate) fn check(
     let drawn = match source {
         Source::File(named) => return file::part(&named, stock, scope, session),
         Source::Loft(block) => loft::drawn(block, stock, scope, session)?,
+        Source::Nurbs(block) => nurbs::drawn(block, stock, scope, session)?,
         Source::Formula(written) => formula::drawn(&written, stock, scope, &mut session.reports)?,
     };
     // What could not be read may belong to the surface.
@@ -101,10 +105,15 @@ fn made(mesh: &Mesh, stock: Stock) -> Result<Surface, SurfaceError> {
     Surface::new(mesh, &placement, plan_of(stock), accuracy)
 }
 
-/// The surface of a mesh of a file.
-fn placed(mesh: &Mesh, placement: &Placement, stock: Stock) -> Result<Surface, SurfaceError> {
+/// The surface of a mesh of a file, which what it stands for lies so near to.
+fn placed(
+    mesh: &Mesh,
+    placement: &Placement,
+    tolerance: Length,
+    stock: Stock,
+) -> Result<Surface, SurfaceError> {
     let accuracy = Accuracy {
-        tolerance: Length::ZERO,
+        tolerance,
         weld: WELD,
     };
     Surface::new(mesh, placement, plan_of(stock), accuracy)
@@ -204,7 +213,8 @@ fn source_of(entry: &Entry, stock: Checked<Spanned<Stock>>) -> Result<Source<'_>
                 span: *span,
             }));
         }
-        Entry::Block(inner) if is_loft(inner) => return Ok(Source::Loft(inner)),
+        Entry::Block(inner) if is_called(inner, "loft") => return Ok(Source::Loft(inner)),
+        Entry::Block(inner) if is_called(inner, "nurbs") => return Ok(Source::Nurbs(inner)),
         Entry::Formula {
             name,
             variables,
@@ -231,14 +241,16 @@ fn source_of(entry: &Entry, stock: Checked<Spanned<Stock>>) -> Result<Source<'_>
                 stock.map_or_else(|_| "1000 mm".to_owned(), |stock| mm(stock.node.depth.to_mm()))
             )),
         Entry::Row { row, span, .. } => misplaced(&format!("`{}`", row.node.word()), *span).note(FORMS),
+        Entry::ControlRow { word, .. } => misplaced("`row`", *word)
+            .help("move it into a `nurbs { ... }` with the other control points"),
         Entry::Station { word, at, .. } => misplaced("`at`", word.to(at.span))
             .help("move it into a `loft { ... }` with another one"),
     };
     Err(Box::new(wrong))
 }
 
-fn is_loft(block: &Block) -> bool {
-    matches!(block.head.as_slice(), [Spanned { node: HeadPart::Word(word), .. }] if word == "loft")
+fn is_called(block: &Block, name: &str) -> bool {
+    matches!(block.head.as_slice(), [Spanned { node: HeadPart::Word(word), .. }] if word == name)
 }
 
 fn formula_of<'a>(
@@ -286,8 +298,7 @@ fn formula_of<'a>(
     }
 }
 
-const FORMS: &str =
-    "a surface is one of mesh \"FILE\", grid \"FILE\", loft { at ... }, or a formula z(x, y) = ...";
+const FORMS: &str = "a surface is one of mesh \"FILE\", grid \"FILE\", step \"FILE\", loft { at ... }, nurbs { row ... }, or a formula z(x, y) = ...";
 
 fn misplaced(what: &str, span: Span) -> Diagnostic {
     Diagnostic::new(

@@ -11,7 +11,7 @@ pub use super::functions::Signature;
 use super::heads::{self, Kind};
 use super::kind::Operations;
 use super::profile::{data, drawing};
-use super::surface::file;
+use super::surface::{file, nurbs, step};
 use super::{Part, blade, cell, frame, functions, machine, names, stock, units};
 use crate::BladeKind;
 use vcutc_backend_api::ir::MachineKind;
@@ -88,8 +88,17 @@ pub fn surface_file(word: &str) -> Option<&'static BlockSpec> {
     Some(match SurfaceFile::named(word)? {
         SurfaceFile::Mesh => &file::MESH,
         SurfaceFile::Grid => &file::GRID,
+        SurfaceFile::Step => &step::SPEC,
     })
 }
+
+/// The fields of a surface by control points.
+pub const fn nurbs() -> &'static BlockSpec {
+    &nurbs::SPEC
+}
+
+/// A row of control points: its first word, and how all of it looks.
+pub const CONTROL_ROW: (&str, &str) = ("row", "row (0 mm, 0 mm, 20 mm) (0 mm, 1000 mm, 30 mm)");
 
 /// A profile of a loft: its first word, and how all of it looks.
 pub const STATION: (&str, &str) = ("at", "at 1000 mm { start (0 mm, 20 mm) line to (600 mm, 30 mm) }");
@@ -98,9 +107,14 @@ pub const STATION: (&str, &str) = ("at", "at 1000 mm { start (0 mm, 20 mm) line 
 pub const SURFACES: &[(&str, &str)] = &[
     ("mesh", "mesh \"fairing.stl\" { unit = mm }"),
     ("grid", "grid \"heights.csv\""),
+    ("step", "step \"wing.stp\""),
     (
         "loft",
         "loft { at 0 mm { start (0 mm, 20 mm) line to (600 mm, 30 mm) } at 1000 mm { z(x) = 20 mm } }",
+    ),
+    (
+        "nurbs",
+        "nurbs { degree = (1, 1) row (0 mm, 0 mm, 20 mm) (0 mm, 1000 mm, 30 mm) row (600 mm, 0 mm, 30 mm) (600 mm, 1000 mm, 20 mm) }",
     ),
 ];
 

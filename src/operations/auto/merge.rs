@@ -22,6 +22,7 @@ fn about(entry: &Entry) -> Option<About<'_>> {
         Entry::Formula { .. }
         | Entry::Curve { .. }
         | Entry::Row { .. }
+        | Entry::ControlRow { .. }
         | Entry::SurfaceFile { .. }
         | Entry::Station { .. } => None,
     }
@@ -47,6 +48,7 @@ pub(crate) fn is_block(entry: &Entry, words: &[&str]) -> bool {
         | Entry::Formula { .. }
         | Entry::Curve { .. }
         | Entry::Row { .. }
+        | Entry::ControlRow { .. }
         | Entry::SurfaceFile { .. }
         | Entry::Station { .. } => false,
     }

@@ -10,11 +10,6 @@ pub(super) fn pieces(
 ) -> (Vec<Piece>, usize) {
     let [p, q] = surface.degrees;
     let [in_u, in_v] = &surface.knots;
-    let spans = |knots: &[f64], degree: usize, count: usize| -> Vec<usize> {
-        (degree..count)
-            .filter(|&span| knots[span] < knots[span + 1])
-            .collect()
-    };
     let (spans_u, spans_v) = (spans(in_u, p, rows), spans(in_v, q, columns));
     let mut pieces = Vec::with_capacity(spans_u.len() * spans_v.len());
     for &u in &spans_u {
@@ -40,8 +35,20 @@ pub(super) fn pieces(
     (pieces, spans_v.len())
 }
 
+/// The intervals between knots that have an extent, by the knots at their starts.
+pub(super) fn spans(knots: &[f64], degree: usize, count: usize) -> Vec<usize> {
+    (degree..count)
+        .filter(|&span| knots[span] < knots[span + 1])
+        .collect()
+}
+
 /// The Bezier points of the polynomial over `knots[span]..knots[span + 1]`, from its `degree + 1` control points.
-fn bezier_points(knots: &[f64], degree: usize, span: usize, control: &[Weighted]) -> Vec<Weighted> {
+pub(super) fn bezier_points(
+    knots: &[f64],
+    degree: usize,
+    span: usize,
+    control: &[Weighted],
+) -> Vec<Weighted> {
     let (start, end) = (knots[span], knots[span + 1]);
     (0..=degree)
         .map(|ends| {

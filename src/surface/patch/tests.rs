@@ -192,4 +192,13 @@ fn what_is_no_surface_is_refused() {
         Err(PatchError::Tolerance)
     );
     assert_eq!(patches(&[], tolerance), Err(PatchError::NoExtent));
+    let many: Vec<f64> = (0..500).map(f64::from).collect();
+    let heights = |k: usize| Point3::new((k / 475) as f64, (k % 475) as f64, 0.0);
+    let rough = Nurbs {
+        degrees: [24, 24],
+        knots: [many.clone(), many],
+        control: (0..475 * 475).map(heights).collect(),
+        weights: vec![],
+    };
+    assert_eq!(nurbs(&rough, tolerance), Err(PatchError::TooMany));
 }

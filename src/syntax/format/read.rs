@@ -363,7 +363,9 @@ impl<'t> Reader<'t> {
                 | Curve::Spline { .. }
                 | Curve::Polyline { .. } => self.statement(Kind::Curve, span.bytes().end),
             },
-            Entry::Row { span, .. } => self.statement(Kind::Curve, span.bytes().end),
+            Entry::Row { span, .. } | Entry::ControlRow { span, .. } => {
+                self.statement(Kind::Curve, span.bytes().end)
+            }
             Entry::SurfaceFile { options, span, .. } => self.block(Kind::Curve, options, span.bytes().end),
             Entry::Station { entries, span, .. } => self.block(Kind::Block, entries, span.bytes().end),
             Entry::Block(block) => self.block(Kind::Block, &block.entries, block.span.bytes().end),

@@ -54,7 +54,10 @@ const SPEEDS: [&str; 6] = ["in/min", "in/s", "m/min", "m/s", "mm/min", "mm/s"];
 #[test]
 fn a_surface_is_known_at_every_place() {
     let mut tried = Tried::start();
-    tried.offers("surface { | }", &["grid", "loft", "mesh", "z(x, y)"]);
+    tried.offers(
+        "surface { | }",
+        &["grid", "loft", "mesh", "nurbs", "step", "z(x, y)"],
+    );
     tried.offers("surface { mesh | }", &["\"...\""]);
     tried.offers("surface { mesh \"a.stl\" { | } }", &["unit", "place"]);
     tried.offers(
@@ -63,6 +66,22 @@ fn a_surface_is_known_at_every_place() {
     );
     tried.offers("surface { grid \"a.csv\" { unit = | } }", &["in", "m", "mm"]);
     tried.offers("surface { grid \"a.csv\" { place = | } }", &["frame"]);
+    tried.offers("surface { step | }", &["\"...\""]);
+    tried.offers("surface { step \"a.stp\" { | } }", &["place", "unit"]);
+    tried.offers(
+        "surface { step \"a.stp\" { unit = | } }",
+        &["cm", "ft", "in", "m", "mm"],
+    );
+    tried.offers(
+        "surface { nurbs { | } }",
+        &["degree", "row", "u_knots", "v_knots"],
+    );
+    tried.offers(
+        "surface { nurbs { degree = (1, 1) | } }",
+        &["row", "u_knots", "v_knots"],
+    );
+    tried.offers("surface { nurbs { row | } }", &["(x, y, z)"]);
+    tried.offers("surface { nurbs { row (3 |) } }", &LENGTHS);
     tried.offers("surface { loft { | } }", &["at"]);
     let pieces = tried.labels("profile { | }");
     tried.offers(

@@ -1,10 +1,10 @@
-//! Files of surfaces: `mesh "fairing.stl" { unit = mm }` and `grid "heights.csv"`.
+//! Files of surfaces: `mesh "fairing.stl" { unit = mm }`, `grid "heights.csv"`, and what they share with `step "wing.stp"`.
 //!
 //! A file of triangles may be binary and far larger than other files. Only its length and its hash become a source of the run;
 //! its text does where it is text and a place in it has to be shown.
 
 use super::seat::Seat;
-use super::{Drawn, judge, placed};
+use super::{Drawn, judge, placed, step};
 use crate::sema::eval::Scope;
 use crate::sema::fields::{BlockSpec, Fields, Inner, Takes, value};
 use crate::sema::files::{Relative, not_loaded};
@@ -47,7 +47,7 @@ pub(crate) const GRID: BlockSpec = BlockSpec {
 };
 
 /// Units of files of triangles, in mm: those of drawings.
-const MESH_UNITS: &[(&str, f64)] = &[
+pub(super) const MESH_UNITS: &[(&str, f64)] = &[
     ("mm", 1.0),
     ("cm", 10.0),
     ("m", 1000.0),
@@ -60,6 +60,15 @@ const GRID_UNITS: &[(&str, f64)] = &[("mm", 1.0), ("in", 25.4), ("m", 1000.0)];
 
 /// Lines of an OBJ file that say nothing about the place of a triangle.
 const WITHOUT_A_SHAPE: &[&str] = &["vn", "vt", "vp", "g", "o", "s", "mtllib", "usemtl"];
+
+/// What a file holds.
+pub(super) struct Content {
+    pub(super) mesh: Mesh,
+    /// Of its numbers, in mm.
+    pub(super) unit: f64,
+    /// How near it lies to what it stands for.
+    pub(super) tolerance: Length,
+}
 
 /// A file as the job names it.
 pub(super) struct Named<'a> {
@@ -89,28 +98,48 @@ pub(super) fn part(
     let (spec, units) = match named.kind.node {
         SurfaceFile::Mesh => (&MESH, MESH_UNITS),
         SurfaceFile::Grid => (&GRID, GRID_UNITS),
+        SurfaceFile::Step => (&step::SPEC, MESH_UNITS),
     };
     let fields = Fields::sort(spec, place_of(named.path, named.span), named.options, session);
     let mut reader = Reader::new(scope, &mut session.reports);
     let unit = reader.choice(&fields, "unit", units);
     let place = place(&fields, &mut reader);
-    let unit = match (named.kind.node, unit?) {
-        (_, Some(unit)) => unit.value,
-        (SurfaceFile::Grid, None) => 1.0,
+    let exact = |mesh, unit| Content {
+        mesh,
+        unit,
+        tolerance: Length::ZERO,
+    };
+    let (content, word, units) = match (named.kind.node, unit?) {
+        (SurfaceFile::Mesh, Some(unit)) => {
+            let mesh = triangles(named, unit.value, session)?;
+            (exact(mesh, unit.value), "mesh", units)
+        }
         (SurfaceFile::Mesh, None) => return Err(without_unit(named.path, &fields, session)),
+        (SurfaceFile::Grid, unit) => {
+            let unit = unit.map_or(1.0, |unit| unit.value);
+            (exact(heights(named, session)?, unit), "grid", units)
+        }
+        // The unit of its numbers is beyond doubt.
+        (SurfaceFile::Step, unit) => (
+            step::content(named, unit, &fields, session)?,
+            "surface",
+            [].as_slice(),
+        ),
     };
-    let mesh = match named.kind.node {
-        SurfaceFile::Mesh => triangles(named, unit, session)?,
-        SurfaceFile::Grid => heights(named, session)?,
-    };
+    let Content {
+        mesh,
+        unit,
+        tolerance,
+    } = content;
     let placement = Placement {
         frame: place?,
         unit: Length::mm(unit),
     };
     let seat = Seat {
         mesh: &mesh,
-        word: named.kind.node.word(),
+        word,
         placement,
+        tolerance,
         units,
         stock: stock.node,
         fields: &fields,
@@ -120,7 +149,7 @@ pub(super) fn part(
     if let Some(reported) = session.damage_at(named.span) {
         return Err(reported);
     }
-    match placed(&mesh, &placement, stock.node) {
+    match placed(&mesh, &placement, tolerance, stock.node) {
         Ok(surface) => {
             let drawn = Drawn {
                 surface,
@@ -170,6 +199,19 @@ fn reader_of(path: &str) -> Option<Read> {
     }
 }
 
+/// Whether a file is a mesh by its ending.
+pub(super) fn is_mesh(path: &str) -> bool {
+    reader_of(path).is_some()
+}
+
+/// Whether a file is a STEP file by its ending.
+fn is_step(path: &str) -> bool {
+    let ending = path
+        .rsplit_once('.')
+        .map(|(_, ending)| ending.to_ascii_lowercase());
+    ending.is_some_and(|ending| matches!(ending.as_str(), "stp" | "step" | "p21"))
+}
+
 /// Whether a file is a table by its ending.
 fn is_table(path: &str) -> bool {
     let ending = path
@@ -191,6 +233,9 @@ fn no_mesh(named: &Named<'_>) -> Diagnostic {
     if is_table(&path.node) {
         let title = "if it is a table of x, y and z, write `grid`";
         diagnostic.fix(title, named.kind.span, "grid")
+    } else if is_step(&path.node) {
+        let title = "write `step` to read its B-spline surfaces";
+        diagnostic.fix(title, named.kind.span, "step")
     } else {
         diagnostic.help("export the part as STL")
     }
@@ -202,17 +247,18 @@ fn triangles(named: &Named<'_>, unit: f64, session: &mut Session<'_>) -> Checked
     let Some(read) = reader_of(&path.node) else {
         return Err(session.reports.push(no_mesh(named)));
     };
-    let resolved = join_path(session.sources.name(path.span.file), &path.node);
-    let bytes = match session.loader.load_data(&resolved, LARGEST_MESH_FILE) {
-        Ok(bytes) => bytes,
-        Err(error) => {
-            let diagnostic = not_loaded(&path.span, &resolved, Relative::ToItsFile, &error, session);
-            return Err(session.reports.push(diagnostic));
-        }
-    };
+    let (resolved, bytes) = load(path, session)?;
     let ReadMesh { mesh, remarks } = match read(&bytes) {
         Ok(found) => found,
-        Err(error) => return Err(broken(error, path, &resolved, bytes, session)),
+        Err(error) => {
+            let misread = Misread {
+                error,
+                code: Code::BadMesh,
+                headline: format!("`{}` has an error", path.node),
+                help: "correct this place in the file, or export it again",
+            };
+            return Err(broken(misread, path, &resolved, bytes, session));
+        }
     };
     session.sources.add(resolved, fingerprint::of_data(&bytes));
     if let Some(diagnostic) = remarked(&remarks, path, unit) {
@@ -221,36 +267,73 @@ fn triangles(named: &Named<'_>, unit: f64, session: &mut Session<'_>) -> Checked
     Ok(mesh)
 }
 
-/// Reports a place in a file of triangles that cannot be read: in its text if it is one, else by its byte.
-fn broken(
-    error: DataError,
+/// A file of a surface that may be large: its path from here, and its bytes.
+pub(super) fn load(path: &Spanned<String>, session: &mut Session<'_>) -> Checked<(String, Vec<u8>)> {
+    let resolved = join_path(session.sources.name(path.span.file), &path.node);
+    match session.loader.load_data(&resolved, LARGEST_MESH_FILE) {
+        Ok(bytes) => Ok((resolved, bytes)),
+        Err(error) => {
+            let diagnostic = not_loaded(&path.span, &resolved, Relative::ToItsFile, &error, session);
+            Err(session.reports.push(diagnostic))
+        }
+    }
+}
+
+/// A place in a file that cannot be read, and what is said about it.
+pub(super) struct Misread {
+    pub(super) error: DataError,
+    pub(super) code: Code,
+    pub(super) headline: String,
+    /// What to do about it.
+    pub(super) help: &'static str,
+}
+
+/// Reports a place in a file that cannot be read: in its text if it is one, else by its byte.
+pub(super) fn broken(
+    misread: Misread,
     path: &Spanned<String>,
     resolved: &str,
     bytes: Vec<u8>,
     session: &mut Session<'_>,
 ) -> Reported {
-    let headline = format!("`{}` has an error", path.node);
+    let Misread {
+        error,
+        code,
+        headline,
+        help,
+    } = misread;
+    let start = usize::try_from(error.start).unwrap_or(usize::MAX);
+    let line = 1 + bytes.iter().take(start).filter(|byte| **byte == b'\n').count();
+    let is_text = !bytes.contains(&0);
     let is_small = bytes.len() as u64 <= LARGEST_FILE;
-    let text = is_small
+    let text = (is_small && is_text)
         .then_some(bytes)
         .and_then(|bytes| String::from_utf8(bytes).ok());
-    let diagnostic = match text.filter(|text| !text.contains('\0')) {
+    let diagnostic = match text {
         Some(text) => {
             let span = Span {
                 file: session.sources.add(resolved, text),
                 start: error.start,
                 end: error.end,
             };
-            Diagnostic::new(Code::BadMesh, headline, span, error.message)
+            Diagnostic::new(code, headline, span, error.message)
                 .and(path.span, "the file is named here")
-                .help("correct this place in the file, or export it again")
+                .help(help)
         }
-        None => Diagnostic::new(Code::BadMesh, headline, path.span, error.message)
-            .note(format!(
-                "this is at byte {} of the file",
-                u64::from(error.start) + 1
-            ))
-            .help("export it again"),
+        None => {
+            let byte = u64::from(error.start) + 1;
+            let (place, help) = match (is_text, code) {
+                (true, _) => (
+                    format!("this is in line {line} of the file, at byte {byte}"),
+                    help,
+                ),
+                (false, Code::BadMesh) => (format!("this is at byte {byte} of the file"), "export it again"),
+                (false, _) => (format!("this is at byte {byte} of the file"), help),
+            };
+            Diagnostic::new(code, headline, path.span, error.message)
+                .note(place)
+                .help(help)
+        }
     };
     session.reports.push(diagnostic)
 }

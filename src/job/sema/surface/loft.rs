@@ -121,6 +121,7 @@ fn sort<'a>(block: &'a Block, depth: Length, session: &mut Session<'_>) -> Check
             | Entry::Formula { span, .. }
             | Entry::Curve { span, .. }
             | Entry::Row { span, .. }
+            | Entry::ControlRow { span, .. }
             | Entry::SurfaceFile { span, .. } => *span,
             Entry::Block(inner) => head_span(inner),
         };

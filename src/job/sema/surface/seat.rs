@@ -24,6 +24,8 @@ pub(super) struct Seat<'a> {
     /// The word that names its kind of file.
     pub(super) word: &'a str,
     pub(super) placement: Placement,
+    /// How near the mesh lies to what it stands for.
+    pub(super) tolerance: Length,
     pub(super) units: &'a [(&'a str, f64)],
     pub(super) stock: Stock,
     pub(super) fields: &'a Fields<'a>,
@@ -90,8 +92,13 @@ impl Seat<'_> {
         }
         let sides = self.sides();
         if is_short(size, sides) {
+            let check = if self.units.is_empty() {
+                ""
+            } else {
+                "check `unit`, "
+            };
             return diagnostic.help(format!(
-                "the {} measures {}, the stock {}: check `unit`, turn the {} by `place`, or make the stock smaller",
+                "the {} measures {}, the stock {}: {check}turn the {} by `place`, or make the stock smaller",
                 self.word,
                 by(size),
                 by(sides),
@@ -202,7 +209,7 @@ impl Seat<'_> {
             frame,
             ..self.placement
         };
-        let Ok(surface) = placed(self.mesh, &placement, self.stock) else {
+        let Ok(surface) = placed(self.mesh, &placement, self.tolerance, self.stock) else {
             return false;
         };
         let is_covered = surface.coverage().is_ok_and(|coverage| coverage.gaps.is_empty());
