@@ -93,6 +93,7 @@ impl<'a> Request<'a> {
             machine: self.machine,
             options: self.options,
             operations: self.operations,
+            surfaces: None,
         }
     }
 }
@@ -268,7 +269,10 @@ pub fn compile_in(
     progress(Stage::Reading);
     let mut outcome = Outcome::default();
     let (sources, diagnostics) = (&mut outcome.sources, &mut outcome.diagnostics);
-    let choices = request.choices();
+    let choices = sema::Choices {
+        surfaces: run.memory.surfaces(),
+        ..request.choices()
+    };
     let (ast, job) = sema::check(request.path, request.loader, choices, sources, diagnostics)
         .map_err(|error| RequestError::Unreadable(error.to_string()))?;
     outcome.ast = ast;

@@ -23,6 +23,7 @@ use vcutc_cancellation::Wanted;
 use vcutc_job::CheckedJob;
 use vcutc_job::PlannedJob;
 use vcutc_job::search::SearchSpace;
+use vcutc_job::sema::surface::kept::Surfaces;
 use vcutc_machine::Model;
 use vcutc_motion::solve::{
     Changes, Found, LEAST_CLEARANCE, Reached, Unreachable, Unreached, again, solve_while,
@@ -55,23 +56,32 @@ struct Put {
 pub struct Memory {
     plans: Shelf<Open, PlannedJob>,
     motions: Shelf<Put, Result<Found, Trouble>>,
+    /// None without room.
+    surfaces: Option<Surfaces>,
 }
 
 impl Memory {
     /// A memory that keeps nothing: for who compiles once.
     #[must_use]
     pub const fn none() -> Self {
-        Self::with_room(0)
+        Self::with_room(0, None)
     }
 
     /// A memory for who compiles again and again.
     #[must_use]
-    pub const fn of_some_runs() -> Self {
-        Self::with_room(ROOM)
+    pub fn of_some_runs() -> Self {
+        Self::with_room(ROOM, Some(Surfaces::default()))
     }
 
-    const fn with_room(room: usize) -> Self {
+    /// The surfaces of files that were read before, for who checks a job; none without room.
+    #[must_use]
+    pub const fn surfaces(&self) -> Option<&Surfaces> {
+        self.surfaces.as_ref()
+    }
+
+    const fn with_room(room: usize, surfaces: Option<Surfaces>) -> Self {
         Self {
+            surfaces,
             plans: Shelf::with_room(room),
             motions: Shelf::with_room(room),
         }

@@ -41,7 +41,7 @@ pub mod session;
 pub mod setup;
 mod stock;
 pub mod study;
-mod surface;
+pub mod surface;
 mod tools;
 pub mod units;
 pub mod vocabulary;
@@ -57,6 +57,7 @@ use missing::Missing;
 use overrides::Overrides;
 use report::Checked;
 use session::Session;
+use surface::kept::Surfaces;
 use vcutc_diagnostics::Diagnostic;
 pub use vcutc_diagnostics::schema::dimension;
 use vcutc_diagnostics::source::{LoadError, Loader, SourceMap, Spanned};
@@ -74,6 +75,8 @@ pub struct Choices<'a> {
     pub options: Typed<'a>,
     /// The operations of the language.
     pub operations: Operations,
+    /// Surfaces of files that runs before have read, where there are such runs.
+    pub surfaces: Option<&'a Surfaces>,
 }
 
 /// Options of a target as the command line gives them.

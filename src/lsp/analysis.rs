@@ -17,6 +17,7 @@ use vcutc_driver::{self as driver, Outcome, Patience, Request, RequestError, Run
 use vcutc_job::PlannedJob;
 use vcutc_job::sema::kind::Operations;
 use vcutc_job::sema::study::{Study, study};
+use vcutc_job::sema::surface::kept::Surfaces;
 use vcutc_job::sema::{Choices, Part};
 use vcutc_syntax::ast::{Ast, Item};
 
@@ -119,15 +120,20 @@ pub(super) fn part_of(ast: &Ast, operations: Operations) -> Part {
 
 impl Analysis {
     /// Looks at text and meaning. None when the root file cannot be read.
-    pub(super) fn of(root: &str, stamp: u64, loader: &dyn Loader, operations: Operations) -> Option<Self> {
-        let (sources, diagnostics, study) = studied(root, Part::Job, loader, operations)?;
+    pub(super) fn of(
+        root: &str,
+        stamp: u64,
+        loader: &dyn Loader,
+        (operations, surfaces): (Operations, &Surfaces),
+    ) -> Option<Self> {
+        let (sources, diagnostics, study) = studied(root, Part::Job, loader, (operations, surfaces))?;
         let part = study
             .files
             .first()
             .map_or(Part::Job, |file| part_of(&file.ast, operations));
         let (sources, diagnostics, study) = match part {
             Part::Job => (sources, diagnostics, study),
-            Part::Library => studied(root, part, loader, operations)?,
+            Part::Library => studied(root, part, loader, (operations, surfaces))?,
         };
         let planning = match &study.job {
             Some(_) => Planning::Due,
@@ -195,11 +201,12 @@ fn studied(
     root: &str,
     part: Part,
     loader: &dyn Loader,
-    operations: Operations,
+    (operations, surfaces): (Operations, &Surfaces),
 ) -> Option<(SourceMap, Vec<Diagnostic>, Study)> {
     let (mut sources, mut diagnostics) = (SourceMap::default(), Vec::new());
     let choices = Choices {
         operations,
+        surfaces: Some(surfaces),
         ..Choices::default()
     };
     let study = study(root, part, loader, choices, &mut sources, &mut diagnostics).ok()?;

@@ -7,6 +7,7 @@ use lsp_types::Uri;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_job::sema::Part;
 use vcutc_job::sema::kind::Operations;
+use vcutc_job::sema::surface::kept::Surfaces;
 
 /// How the client calls an open document.
 #[derive(Clone, Debug)]
@@ -48,6 +49,8 @@ pub(super) struct Documents {
     pub(super) encoding: Encoding,
     /// Folders of the workspace.
     pub(super) folders: Vec<String>,
+    /// Surfaces of files that were read before.
+    surfaces: Surfaces,
     stamps: u64,
 }
 
@@ -172,7 +175,7 @@ impl Documents {
             open: &self.texts,
             below: files,
         };
-        Analysis::of(path, self.stamps, &overlay, self.operations)
+        Analysis::of(path, self.stamps, &overlay, (self.operations, &self.surfaces))
     }
 
     fn is_library(&self, path: &str) -> bool {

@@ -7,6 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use vcutc_diagnostics::Code;
 use vcutc_diagnostics::source::{FileId, Loader, Span};
 use vcutc_job::sema::study::{Definition, Meaning};
+use vcutc_job::sema::surface::kept::Surfaces;
 use vcutc_job::sema::vocabulary::{self, RESERVED};
 use vcutc_syntax::lexical::{TokenKind, tokens};
 
@@ -183,8 +184,10 @@ pub(super) fn changes_meaning(
         open: &changed,
         below,
     };
+    let surfaces = Surfaces::default();
     analyses.iter().find_map(|before| {
-        let Some(after) = Analysis::of(&before.root, before.stamp, &overlay, before.study.operations) else {
+        let known = (before.study.operations, &surfaces);
+        let Some(after) = Analysis::of(&before.root, before.stamp, &overlay, known) else {
             return Some(format!("{} cannot be read any more", before.root));
         };
         let (reported_before, reported_after) = (reported(before), reported(&after));

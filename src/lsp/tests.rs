@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 use vcutc_backend_api::backend::OptionKind;
 use vcutc_diagnostics::source::{LoadError, Loader};
 use vcutc_job::sema::study::Meaning;
+use vcutc_job::sema::surface::kept::Surfaces;
 use vcutc_job::sema::vocabulary::{self, BlockSpec, Dimension, FieldSpec, Leaving, Signature, Takes};
 use vcutc_registry as registry;
 use vcutc_registry::OPERATIONS;
@@ -230,7 +231,12 @@ fn spots_of_targets() -> Vec<Spot> {
 /// What is shown over a word; none if that is nothing, or about something else.
 fn explained(spot: &Spot) -> Option<String> {
     let path = "/job.vcut";
-    let known = Analysis::of(path, 1, &One(spot.text.clone()), OPERATIONS)?;
+    let known = Analysis::of(
+        path,
+        1,
+        &One(spot.text.clone()),
+        (OPERATIONS, &Surfaces::default()),
+    )?;
     let reported = hover(&known, path, spot.at, &registry::backends())?;
     (spot.text.get(reported.span.bytes()) == Some(spot.word.as_str())).then_some(reported.text)
 }
@@ -454,7 +460,13 @@ fn the_snippets_of_editors_are_right() {
             }
             _ => format!("{job}{own}"),
         };
-        let known = Analysis::of("/job.vcut", 1, &One(text.clone()), OPERATIONS).unwrap();
+        let known = Analysis::of(
+            "/job.vcut",
+            1,
+            &One(text.clone()),
+            (OPERATIONS, &Surfaces::default()),
+        )
+        .unwrap();
         let codes = known.diagnostics.iter().map(|found| found.code.number());
         // The file that a drawing's snippet names is not there.
         let wrong: Vec<&str> = codes.filter(|code| *code != "VC0212").collect();
@@ -469,7 +481,7 @@ fn functions_take_and_give_what_their_signatures_say() {
         let inside = &example[name.len() + 1..example.len() - 1];
         let argument = inside.split(',').next().unwrap();
         let text = format!("let given = {example}\nlet taken = {argument}\n");
-        let known = Analysis::of("/job.vcut", 1, &One(text), OPERATIONS).unwrap();
+        let known = Analysis::of("/job.vcut", 1, &One(text), (OPERATIONS, &Surfaces::default())).unwrap();
         let dimension = |name: &str| match known.study.definition(name).unwrap().meaning {
             Meaning::Value(Some(value)) => value.dimension(),
             Meaning::Value(None) | Meaning::Blade(_) | Meaning::Machine => panic!("{example}"),

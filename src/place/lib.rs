@@ -158,6 +158,7 @@ fn prepare(
             machine: request.machine,
             options: request.options,
             operations: request.operations,
+            surfaces: None,
         },
         sources,
         &mut diagnostics,

@@ -57,6 +57,7 @@ fn checked(text: &str) -> CheckedJob {
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        surfaces: None,
     };
     let (mut sources, mut diagnostics) = (SourceMap::default(), Vec::new());
     let (_, job) = sema::check(JOB, &files, choices, &mut sources, &mut diagnostics).unwrap();

@@ -43,6 +43,7 @@ mod hostile;
 #[cfg(all(feature = "cli", feature = "gcode", feature = "krl", feature = "rapid"))]
 mod jobs;
 #[cfg(feature = "krl")]
+mod kept_surfaces;
 mod krl_text;
 mod left_out;
 #[cfg(all(feature = "krl", feature = "lsp"))]

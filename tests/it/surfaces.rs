@@ -95,7 +95,7 @@ pub(crate) fn program(outcome: &Outcome) -> String {
 }
 
 /// A binary STL of a sheet over the stock: the hill, lower by what `dip` says at each y.
-fn stl(dip: impl Fn(f64) -> f64) -> Vec<u8> {
+pub(crate) fn stl(dip: impl Fn(f64) -> f64) -> Vec<u8> {
     let (across, along) = (60, 8);
     let corner = |i: usize, j: usize| {
         let (x, y) = (120.0 * i as f64 / across as f64, 80.0 * j as f64 / along as f64);

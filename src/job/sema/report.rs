@@ -25,6 +25,11 @@ impl Reports {
         Reported(())
     }
 
+    /// How many there are.
+    pub const fn count(&self) -> usize {
+        self.diagnostics.len()
+    }
+
     /// Takes what another stage has found; the token when that was anything.
     pub fn append(&mut self, found: Vec<Diagnostic>) -> Option<Reported> {
         let token = (!found.is_empty()).then_some(Reported(()));

@@ -1,6 +1,7 @@
 //! What the checks of one run share: the loader, the source texts, and what has been found so far.
 
 use super::report::{Checked, Reported, Reports};
+use super::surface::kept::Surfaces;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use vcutc_backend_api::profile::Profile;
@@ -19,6 +20,8 @@ pub struct Session<'a> {
     /// Where files come from.
     pub loader: &'a dyn Loader,
     pub sources: &'a mut SourceMap,
+    /// Surfaces of files that runs before have read, if there are such runs.
+    pub(crate) surfaces: Option<&'a Surfaces>,
     /// What has been found.
     pub reports: Reports,
     /// Files of which a part could not be read. What seems to be missing there may be in the unreadable part.
@@ -37,6 +40,7 @@ impl<'a> Session<'a> {
         Self {
             loader,
             sources,
+            surfaces: None,
             reports: Reports::default(),
             damaged: BTreeMap::new(),
             machines: BTreeMap::new(),

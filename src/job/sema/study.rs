@@ -75,6 +75,7 @@ pub fn study(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Study, LoadError> {
     let mut session = Session::new(loader, sources);
+    session.surfaces = choices.surfaces;
     let files = files::load(root, &mut session)?;
     let overrides = overrides::read(choices.overrides, choices.options.given, &mut session);
     let wanted = cell::wanted(choices.machine, &mut session);

@@ -8,6 +8,7 @@ mod enclosure;
 pub(crate) mod file;
 mod formula;
 mod judge;
+pub mod kept;
 mod loft;
 pub(crate) mod nurbs;
 mod seat;

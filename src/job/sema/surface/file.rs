@@ -3,8 +3,10 @@
 //! A file of triangles may be binary and far larger than other files. Only its length and its hash become a source of the run;
 //! its text does where it is text and a place in it has to be shown.
 
+use super::kept::Asked;
 use super::seat::Seat;
 use super::{Drawn, judge, placed, step};
+use crate::Sourced;
 use crate::sema::eval::Scope;
 use crate::sema::fields::{BlockSpec, Fields, Inner, Takes, value};
 use crate::sema::files::{Relative, not_loaded};
@@ -104,27 +106,42 @@ pub(super) fn part(
     let mut reader = Reader::new(scope, &mut session.reports);
     let unit = reader.choice(&fields, "unit", units);
     let place = place(&fields, &mut reader);
+    let (unit, frame) = (unit?, place?);
+    let reported = session.reports.count();
+    let loaded = loaded(named, unit, &fields, session)?;
+    let asked = loaded.as_ref().map(|loaded| Asked {
+        content: loaded.hash.clone(),
+        kind: named.kind.node,
+        ending: ending_of(&named.path.node),
+        unit: unit.map(|unit| unit.value),
+        place: frame,
+        stock: stock.node,
+    });
+    let is_whole = session.damage_at(named.span).is_none();
+    if let (Some(surfaces), Some(asked), Some(loaded), true) = (session.surfaces, &asked, &loaded, is_whole)
+        && let Some(part) = surfaces.find(asked)
+    {
+        session.sources.add(loaded.path.clone(), loaded.hash.clone());
+        return Ok(part);
+    }
     let exact = |mesh, unit| Content {
         mesh,
         unit,
         tolerance: Length::ZERO,
     };
-    let (content, word, units) = match (named.kind.node, unit?) {
-        (SurfaceFile::Mesh, Some(unit)) => {
-            let mesh = triangles(named, unit.value, session)?;
-            (exact(mesh, unit.value), "mesh", units)
-        }
-        (SurfaceFile::Mesh, None) => return Err(without_unit(named.path, &fields, session)),
-        (SurfaceFile::Grid, unit) => {
-            let unit = unit.map_or(1.0, |unit| unit.value);
-            (exact(heights(named, session)?, unit), "grid", units)
-        }
+    let size = unit.map_or(1.0, |unit| unit.value);
+    let (content, word, units) = match (named.kind.node, loaded) {
         // The unit of its numbers is beyond doubt.
-        (SurfaceFile::Step, unit) => (
-            step::content(named, unit, &fields, session)?,
+        (SurfaceFile::Step, Some(loaded)) => (
+            step::content(named, unit, &fields, loaded, session)?,
             "surface",
             [].as_slice(),
         ),
+        (_, Some(loaded)) => {
+            let mesh = triangles(named, size, loaded, session)?;
+            (exact(mesh, size), "mesh", units)
+        }
+        (_, None) => (exact(heights(named, session)?, size), "grid", units),
     };
     let Content {
         mesh,
@@ -132,7 +149,7 @@ pub(super) fn part(
         tolerance,
     } = content;
     let placement = Placement {
-        frame: place?,
+        frame,
         unit: Length::mm(unit),
     };
     let seat = Seat {
@@ -149,7 +166,7 @@ pub(super) fn part(
     if let Some(reported) = session.damage_at(named.span) {
         return Err(reported);
     }
-    match placed(&mesh, &placement, tolerance, stock.node) {
+    let part = match placed(&mesh, &placement, tolerance, stock.node) {
         Ok(surface) => {
             let drawn = Drawn {
                 surface,
@@ -161,7 +178,34 @@ pub(super) fn part(
             SurfaceError::Elsewhere { .. } => offer(judge::elsewhere(error, named.head(), stock)),
             SurfaceError::BadPlan | SurfaceError::OutOfRange => super::not_made(error, named.head()),
         })),
+    }?;
+    if let (Some(surfaces), Some(asked), true) =
+        (session.surfaces, asked, session.reports.count() == reported)
+    {
+        surfaces.keep(asked, part.clone());
     }
+    Ok(part)
+}
+
+/// The file of a mesh or of B-spline surfaces; none of a table of heights.
+fn loaded(
+    named: &Named<'_>,
+    unit: Option<Sourced<f64>>,
+    fields: &Fields<'_>,
+    session: &mut Session<'_>,
+) -> Checked<Option<Loaded>> {
+    match (named.kind.node, unit) {
+        (SurfaceFile::Grid, _) => return Ok(None),
+        (SurfaceFile::Mesh, None) => return Err(without_unit(named.path, fields, session)),
+        (SurfaceFile::Mesh, Some(_)) if reader_of(&named.path.node).is_none() => {
+            return Err(session.reports.push(no_mesh(named)));
+        }
+        (SurfaceFile::Step, _) if is_mesh(&named.path.node) => {
+            return Err(session.reports.push(step::a_mesh(named)));
+        }
+        (SurfaceFile::Mesh | SurfaceFile::Step, _) => {}
+    }
+    load(named.path, session).map(Some)
 }
 
 fn place(fields: &Fields<'_>, reader: &mut Reader<'_>) -> Checked<Frame> {
@@ -190,13 +234,20 @@ type Read = fn(&[u8]) -> Result<ReadMesh, DataError>;
 
 /// The reader of a file of triangles, by its ending.
 fn reader_of(path: &str) -> Option<Read> {
-    let (_, ending) = path.rsplit_once('.')?;
-    match ending.to_ascii_lowercase().as_str() {
+    match ending_of(path).as_str() {
         "stl" => Some(import::stl),
         "obj" => Some(import::obj),
         "ply" => Some(import::ply),
         _ => None,
     }
+}
+
+/// The ending of a name in small letters; empty where it has none.
+fn ending_of(path: &str) -> String {
+    let ending = path
+        .rsplit_once('.')
+        .map(|(_, ending)| ending.to_ascii_lowercase());
+    ending.unwrap_or_default()
 }
 
 /// Whether a file is a mesh by its ending.
@@ -206,18 +257,12 @@ pub(super) fn is_mesh(path: &str) -> bool {
 
 /// Whether a file is a STEP file by its ending.
 fn is_step(path: &str) -> bool {
-    let ending = path
-        .rsplit_once('.')
-        .map(|(_, ending)| ending.to_ascii_lowercase());
-    ending.is_some_and(|ending| matches!(ending.as_str(), "stp" | "step" | "p21"))
+    matches!(ending_of(path).as_str(), "stp" | "step" | "p21")
 }
 
 /// Whether a file is a table by its ending.
 fn is_table(path: &str) -> bool {
-    let ending = path
-        .rsplit_once('.')
-        .map(|(_, ending)| ending.to_ascii_lowercase());
-    ending.is_some_and(|ending| matches!(ending.as_str(), "csv" | "tsv" | "txt" | "dat" | "xyz"))
+    matches!(ending_of(path).as_str(), "csv" | "tsv" | "txt" | "dat" | "xyz")
 }
 
 /// A name that does not end as those of meshes do.
@@ -242,12 +287,16 @@ fn no_mesh(named: &Named<'_>) -> Diagnostic {
 }
 
 /// The triangles of a file, in its own unit, which is so many mm.
-fn triangles(named: &Named<'_>, unit: f64, session: &mut Session<'_>) -> Checked<Mesh> {
+fn triangles(named: &Named<'_>, unit: f64, loaded: Loaded, session: &mut Session<'_>) -> Checked<Mesh> {
     let path = named.path;
     let Some(read) = reader_of(&path.node) else {
         return Err(session.reports.push(no_mesh(named)));
     };
-    let (resolved, bytes) = load(path, session)?;
+    let Loaded {
+        path: resolved,
+        bytes,
+        hash,
+    } = loaded;
     let ReadMesh { mesh, remarks } = match read(&bytes) {
         Ok(found) => found,
         Err(error) => {
@@ -260,18 +309,30 @@ fn triangles(named: &Named<'_>, unit: f64, session: &mut Session<'_>) -> Checked
             return Err(broken(misread, path, &resolved, bytes, session));
         }
     };
-    session.sources.add(resolved, fingerprint::of_data(&bytes));
+    session.sources.add(resolved, hash);
     if let Some(diagnostic) = remarked(&remarks, path, unit) {
         session.reports.push(diagnostic);
     }
     Ok(mesh)
 }
 
-/// A file of a surface that may be large: its path from here, and its bytes.
-pub(super) fn load(path: &Spanned<String>, session: &mut Session<'_>) -> Checked<(String, Vec<u8>)> {
+/// A file of a surface that may be large.
+pub(super) struct Loaded {
+    /// Its path from here.
+    pub(super) path: String,
+    pub(super) bytes: Vec<u8>,
+    /// What stands for it among the sources.
+    pub(super) hash: String,
+}
+
+fn load(path: &Spanned<String>, session: &mut Session<'_>) -> Checked<Loaded> {
     let resolved = join_path(session.sources.name(path.span.file), &path.node);
     match session.loader.load_data(&resolved, LARGEST_MESH_FILE) {
-        Ok(bytes) => Ok((resolved, bytes)),
+        Ok(bytes) => Ok(Loaded {
+            path: resolved,
+            hash: fingerprint::of_data(&bytes),
+            bytes,
+        }),
         Err(error) => {
             let diagnostic = not_loaded(&path.span, &resolved, Relative::ToItsFile, &error, session);
             Err(session.reports.push(diagnostic))

@@ -2,7 +2,7 @@
 //!
 //! The file states its own unit. One that the job states besides must be the same.
 
-use super::file::{Content, Misread, Named, broken, is_mesh, load};
+use super::file::{Content, Loaded, Misread, Named, broken};
 use super::nurbs;
 use crate::Sourced;
 use crate::sema::fields::{BlockSpec, Fields, Inner, Takes, value};
@@ -17,7 +17,6 @@ use vcutc_diagnostics::source::Spanned;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_surface::import::{Advice, ReadStep, Remarks, Step, StepError};
 use vcutc_surface::patch;
-use vcutc_syntax::fingerprint;
 
 pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`step`",
@@ -50,21 +49,15 @@ pub(super) fn content(
     named: &Named<'_>,
     unit: Option<Sourced<f64>>,
     fields: &Fields<'_>,
+    loaded: Loaded,
     session: &mut Session<'_>,
 ) -> Checked<Content> {
     let path = named.path;
-    if is_mesh(&path.node) {
-        let diagnostic = Diagnostic::new(
-            Code::BadMesh,
-            format!("`{}` is a mesh, not a STEP file", path.node),
-            path.span,
-            "a file of triangles by its name",
-        );
-        return Err(session
-            .reports
-            .push(diagnostic.fix("write `mesh`", named.kind.span, "mesh")));
-    }
-    let (resolved, bytes) = load(path, session)?;
+    let Loaded {
+        path: resolved,
+        bytes,
+        hash,
+    } = loaded;
     let ReadStep { surfaces, remarks } = match read(&bytes, unit) {
         Ok(found) => found,
         Err(Fault::Misread(error)) => {
@@ -73,7 +66,7 @@ pub(super) fn content(
         Err(Fault::NoUnit) => return Err(without_unit(path, fields, session)),
         Err(Fault::OtherUnit(size)) => return Err(other_unit(size, unit, path, session)),
     };
-    session.sources.add(resolved, fingerprint::of_data(&bytes));
+    session.sources.add(resolved, hash);
     if let Some(diagnostic) = remarked(&remarks, path) {
         session.reports.push(diagnostic);
     }
@@ -85,6 +78,18 @@ pub(super) fn content(
         }),
         Err(error) => Err(session.reports.push(nurbs::impossible(error, named.head()))),
     }
+}
+
+/// A mesh by the name of its file.
+pub(super) fn a_mesh(named: &Named<'_>) -> Diagnostic {
+    let path = named.path;
+    let diagnostic = Diagnostic::new(
+        Code::BadMesh,
+        format!("`{}` is a mesh, not a STEP file", path.node),
+        path.span,
+        "a file of triangles by its name",
+    );
+    diagnostic.fix("write `mesh`", named.kind.span, "mesh")
 }
 
 fn read(bytes: &[u8], stated: Option<Sourced<f64>>) -> Result<ReadStep, Fault> {

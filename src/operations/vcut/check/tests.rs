@@ -32,6 +32,7 @@ impl Files {
             machine: None,
             options: Typed::default(),
             operations: VCUT,
+            surfaces: None,
         })
     }
 
@@ -41,6 +42,7 @@ impl Files {
             machine: Some(machine),
             options: Typed::default(),
             operations: VCUT,
+            surfaces: None,
         })
     }
 
