@@ -17,6 +17,7 @@ use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::opw::Coupling;
 use vcutc_motion::pace::{Basis, Kept};
 use vcutc_motion::solve::{ReachReport, Reached};
+use vcutc_simulation::prove::Tracked;
 
 /// Something that is worth knowing of a program before it runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,6 +26,11 @@ pub enum Check {
     Chips,
     /// No cut enters the part or its allowance.
     Part,
+    /// In sections across tracks on a surface strips come free and no more stays than may, and the disc enters the part between
+    /// poses by no more than it may.
+    Tracks,
+    /// The same of strips and of what stays, between these sections.
+    BetweenSections,
     /// Of an air cut, which cuts nothing: the tip stays above the stock.
     AboveStock,
     /// Every axis stays within its range.
@@ -73,6 +79,8 @@ pub enum Reason {
     AirCut,
     /// The target has no reader.
     NoReader,
+    /// Sections are looked at, not what lies between them.
+    SectionsOnly,
 }
 
 /// A check, and what came of it.
@@ -145,18 +153,18 @@ pub struct Carried<'a> {
 impl Checks {
     /// The checks of a job whose cuts are proven.
     #[must_use]
-    pub fn of(carried: Option<Carried<'_>>, basis: Basis, bodies: Bodies) -> Self {
+    pub fn of(carried: Option<Carried<'_>>, basis: Basis, bodies: Bodies, tracked: &[Tracked]) -> Self {
         let holder = match bodies {
             Bodies::Stated => made(Check::Holder(Vec::new())),
             Bodies::Lacking => not_made(Check::Holder(Vec::new()), Reason::NoBody),
             Bodies::LackingOf(blades) => not_made(Check::Holder(blades), Reason::NoBody),
         };
-        Self::after(
-            vec![made(Check::Chips), made(Check::Part)],
-            carried,
-            basis,
-            holder,
-        )
+        let mut all = vec![made(Check::Chips), made(Check::Part)];
+        if !tracked.is_empty() {
+            all.push(made(Check::Tracks));
+            all.push(not_made(Check::BetweenSections, Reason::SectionsOnly));
+        }
+        Self::after(all, carried, basis, holder)
     }
 
     /// The checks of an air cut.
@@ -220,6 +228,8 @@ impl Checks {
             (
                 Check::Chips
                 | Check::Part
+                | Check::Tracks
+                | Check::BetweenSections
                 | Check::AboveStock
                 | Check::Accelerations
                 | Check::Holder(_)

@@ -449,12 +449,13 @@ fn compiled(
     let carried = carried.map(|(machine, reached)| Carried { machine, reached });
     let left_over = LeftOver::of(&job.part, &report.contour);
     Compiled {
-        checks: Checks::of(carried, paced.basis, Bodies::of(job)),
+        checks: Checks::of(carried, paced.basis, Bodies::of(job), &report.tracked),
         parameters: chosen::figures(plan),
         numbers: Numbers::of(plan, &report),
         summary: with_surface(
             summary(plan, &report, paced.basis, figures.as_ref()),
             left_over.as_ref(),
+            &report.tracked,
         ),
         times: time_figures(&report, paced.basis),
         op_times: paced.times,

@@ -61,12 +61,23 @@ pub enum Motion {
     Follow,
 }
 
+/// A pose on a chain: where the tip is, and how the blade is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stand {
+    pub tip: Point3,
+    pub held: Orientation,
+    /// How the piece ends that leads here.
+    pub joint: Joint,
+}
+
 /// Where the blade is between cuts.
 #[derive(Clone, Copy)]
 enum At {
     Above,
     /// Beside the work, about to cut this way.
     Beside(Feed),
+    /// Beside the work, after a chain.
+    AfterChain,
 }
 
 impl Pass {
@@ -118,7 +129,7 @@ impl<'b> Writer<'b> {
         match self.at {
             At::Above => self.begin(pass, feed),
             At::Beside(here) if here == feed => self.go_beside(pass, feed),
-            At::Beside(_) => {
+            At::Beside(_) | At::AfterChain => {
                 self.rise();
                 self.come_down(pass, feed);
             }
@@ -149,11 +160,50 @@ impl<'b> Writer<'b> {
         self.layer = layer_of(pass.site);
     }
 
+    /// A chain through all of its poses, of which the first and the last are beside the work, over the safe plane from wherever the blade
+    /// is.
+    pub fn chain(&mut self, site: Site, poses: &[Stand]) {
+        let Some((first, rest)) = poses.split_first() else {
+            return;
+        };
+        let above = Point3 {
+            z: self.safe,
+            ..first.tip
+        };
+        match self.at {
+            At::Above => {
+                let way = layer_of(site).unwrap_or(site);
+                self.rise_to_turn(way);
+                self.travel_to(way, above, first.held);
+                self.start(way);
+            }
+            At::Beside(_) | At::AfterChain => {
+                self.rise();
+                self.travel_to(site, above, first.held);
+            }
+        }
+        let feed = self.travel;
+        self.go(site, first.tip, Action::Approach { to: first.tip, feed });
+        for stand in rest {
+            let action = Action::Follow {
+                to: stand.tip,
+                orientation: self.builder.orientation(stand.held),
+                via: None,
+                feed: self.stage.feed,
+                rate: self.rate,
+                joint: stand.joint,
+            };
+            self.go(site, stand.tip, action);
+        }
+        self.at = At::AfterChain;
+        self.layer = layer_of(site);
+    }
+
     /// The way of the next cut.
     fn feed(&self) -> Feed {
         match (self.direction, self.at) {
             (Direction::Alternate, At::Beside(feed)) => feed,
-            (Direction::Alternate, At::Above) | (Direction::Forward, _) => Feed::Forward,
+            (Direction::Alternate, At::Above | At::AfterChain) | (Direction::Forward, _) => Feed::Forward,
             (Direction::Backward, _) => Feed::Backward,
         }
     }
@@ -163,11 +213,16 @@ impl<'b> Writer<'b> {
         let way = layer_of(pass.site).unwrap_or(pass.site);
         self.rise_to_turn(way);
         self.travel(way, self.above(pass, feed), pass, feed);
+        self.start(way);
+        self.approach(pass);
+    }
+
+    /// Starts what drives the blade.
+    fn start(&mut self, way: Site) {
         for drive in self.stage.drives {
             self.builder.op(way, drive.switched(Switch::On));
         }
         self.builder.op(way, Action::AwaitReady);
-        self.approach(pass);
     }
 
     /// An operation before with the same blade may have left it where it has no room to turn: then straight up first.
@@ -233,6 +288,11 @@ impl<'b> Writer<'b> {
             let to = self.builder.orientation(between);
             self.builder.op(site, Action::Turn { to, rate: self.rate });
         }
+        self.travel_to(site, to, posture);
+    }
+
+    /// A straight way, with the blade turned to a posture that is less than half a revolution away.
+    fn travel_to(&mut self, site: Site, to: Point3, posture: Orientation) {
         let orientation = self.builder.orientation(posture);
         let action = if self.builder.knows_tip() {
             Action::Travel {
@@ -265,8 +325,9 @@ impl<'b> Writer<'b> {
 
     /// Straight up to the safe plane; what drives the blade stops.
     pub fn leave(&mut self) {
-        if let At::Beside(_) = self.at {
-            self.rise();
+        match self.at {
+            At::Above => {}
+            At::Beside(_) | At::AfterChain => self.rise(),
         }
         for drive in self.stage.drives {
             let off = drive.switched(Switch::Off);

@@ -8,4 +8,5 @@ pub mod lower;
 pub mod plan;
 pub mod posture;
 pub mod standoff;
+pub mod tracks;
 pub mod verdict;

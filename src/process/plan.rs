@@ -64,6 +64,7 @@ pub fn plan_while<'j>(
         name: job.name.clone(),
         stock: job.stock,
         profile: Profile::clone(&planning.profile),
+        surface: job.part.shared_surface(),
         tolerance: Part::TOLERANCE,
         machine: job.machine.clone(),
         operations,

@@ -41,6 +41,15 @@ impl Feed {
         }
     }
 
+    /// A coordinate along y as it grows along the feed.
+    #[must_use]
+    pub const fn along(self, y: f64) -> f64 {
+        match self {
+            Self::Forward => y,
+            Self::Backward => -y,
+        }
+    }
+
     const fn sigma(self) -> f64 {
         match self {
             Self::Forward => 1.0,

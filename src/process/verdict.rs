@@ -7,6 +7,7 @@ mod bodies;
 
 use crate::lower;
 use crate::plan::plan_while;
+use crate::tracks::proof::judged;
 use attempts::Attempts;
 pub use bodies::headline as body_in_work;
 use vcutc_backend_api::ir::OperationId;
@@ -77,7 +78,13 @@ pub fn bodies(plan: &PlannedJob, program: &VerifiedProgram) -> Bodies {
 /// Replays the cuts of a program, each operation compared with what the plan keeps it out of.
 #[must_use]
 pub fn replay(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
-    prove::replay(program, &bounds(plan))
+    let bounds = bounds(plan);
+    let mut replay = prove::replay(program, &bounds);
+    if let Some(part) = &plan.surface {
+        let (before, program) = (&replay.surface, program.program());
+        replay.tracked = judged(part.surface(), before, program, &bounds, &mut replay.findings);
+    }
+    replay
 }
 
 /// What each operation must stay out of.
@@ -188,6 +195,11 @@ pub fn explained(asked: &dyn Operation, finding: Finding) -> Diagnostic {
             format!("the blade meets material at {}", point(at)),
         ),
         CutFault::Overcut { at, depth } => overcut(asked, finding, at, depth),
+        CutFault::Stays { at, height, limit } => {
+            let (what, label) = stays_words(at, height, limit);
+            let place = place(&finding);
+            Diagnostic::new(Code::ScallopOverLimit, format!("beside {place}, {what}"), span, label)
+        }
         CutFault::Strip(fault) => {
             let (what, label) = strip_words(fault);
             let message = format!("at {}, {what}", place(&finding));
@@ -278,6 +290,20 @@ pub fn strip_words(fault: PassFault) -> (String, String) {
     }
 }
 
+/// What stays beside a track, after "beside layer 1, track 3, ", and a label.
+#[must_use]
+pub fn stays_words(at: Point2, height: Length, limit: Length) -> (String, String) {
+    let rounded = Length::mm((height.to_mm() * 1e4).ceil() / 1e4);
+    (
+        format!(
+            "{} mm of material stay on the part, the limit is {} mm",
+            show(rounded.to_mm()),
+            show(limit.to_mm())
+        ),
+        format!("the most at {}", point(at)),
+    )
+}
+
 /// A cut that enters the part.
 #[must_use]
 pub fn overcut(asked: &dyn Operation, finding: Finding, at: Point2, depth: Length) -> Diagnostic {
@@ -298,7 +324,16 @@ pub fn overcut(asked: &dyn Operation, finding: Finding, at: Point2, depth: Lengt
 #[must_use]
 pub fn place(finding: &Finding) -> String {
     let (layer, kind, cut) = (finding.layer, finding.kind.noun(), finding.cut);
-    format!("layer {layer}, {kind} {cut} ({})", point(finding.tip))
+    let tip = finding.tip;
+    match finding.y {
+        None => format!("layer {layer}, {kind} {cut} ({})", point(tip)),
+        Some(y) => format!(
+            "layer {layer}, {kind} {cut} (x {} mm, y {} mm, z {} mm)",
+            show(tip.x),
+            show(y),
+            show(tip.z)
+        ),
+    }
 }
 
 /// `x 43.2 mm, z 18.6 mm`.

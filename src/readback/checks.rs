@@ -431,6 +431,10 @@ impl Read<'_> {
                 let (what, label) = verdict::strip_words(fault);
                 (format!("at {place}, {what}"), label)
             }
+            CutFault::Stays { at, height, limit } => {
+                let (what, label) = verdict::stays_words(at, height, limit);
+                (format!("beside {place}, {what}"), label)
+            }
             // The slits of changed cuts have been told already, and are the same.
             CutFault::Overcut { .. } if is_reported && self.cuts().any(|cut| cut.op == op) => return None,
             CutFault::Overcut { at, depth } => (

@@ -197,7 +197,10 @@ impl<'p> Watcher<'p> {
 
     fn takes_skin_off(&self, operation: OperationId) -> bool {
         let bound = self.bounds.get(usize::from(operation.0));
-        matches!(bound.and_then(|bound| bound.passes), Some(Passes::Skin(_)))
+        matches!(
+            bound.and_then(|bound| bound.passes),
+            Some(Passes::Skin(_) | Passes::Tracks(_))
+        )
     }
 
     /// Where the body comes nearest above the section: in a straight cut, if nearer than in any before; on other ways, if it

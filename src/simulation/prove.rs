@@ -12,6 +12,9 @@
 //! stay out of the part and the operation's allowance everywhere (a later operation may come closer to the part than an
 //! earlier one). They are compared corner by corner at the end; between corners both are straight.
 //!
+//! Tracks of a disc that change along y are judged elsewhere, where the surface is known that they follow ([`Tracks`]): here they take
+//! nothing off.
+//!
 //! On a piece of a chain the blade itself is followed, with its thickness and the chain's blend ([`piece`]).
 
 mod entry;
@@ -34,7 +37,7 @@ use flank::{FlankGeometry, flanks};
 use piece::Piece;
 use std::collections::BTreeMap;
 use strip::Through;
-pub use strip::{Passes, Skin, Strips};
+pub use strip::{Passes, Skin, Strips, Tracked, Tracks};
 use vcutc_backend_api::ir::{
     Action, CutKind, Flank, Joint, Op, OpId, OperationId, OrientationId, Program, Site, ToolId,
 };
@@ -72,6 +75,8 @@ pub struct Finding {
     pub cut: NonZeroU32,
     /// Where its tip runs.
     pub tip: Point2,
+    /// The y of that, in mm; none where it is the same at every y.
+    pub y: Option<f64>,
     /// What is wrong.
     pub fault: CutFault,
 }
@@ -112,6 +117,15 @@ pub enum CutFault {
     },
     /// A pass of a disc does not do what it is for.
     Strip(PassFault),
+    /// More stays on the part beside a track than may.
+    Stays {
+        /// Where that is the most.
+        at: Point2,
+        /// How far from the part.
+        height: Length,
+        /// The limit.
+        limit: Length,
+    },
 }
 
 /// All faults of one kind, of which the worst is kept.
@@ -125,13 +139,15 @@ pub struct Findings {
     pub overcut: Option<Finding>,
     /// How many faults passes of a disc have, and the first of them.
     pub strips: Option<(usize, Finding)>,
+    /// In how many sections too much stays beside tracks on a surface, and the most of that.
+    pub stays: Option<(usize, Finding)>,
 }
 
 impl Findings {
     pub fn iter(&self) -> impl Iterator<Item = (usize, Finding)> {
         let overcut = self.overcut.map(|finding| (1, finding));
         let cuts = self.not_freed.into_iter().chain(self.blocked).chain(overcut);
-        cuts.chain(self.strips)
+        cuts.chain(self.strips).chain(self.stays)
     }
 }
 
@@ -146,6 +162,8 @@ pub struct Replay {
     pub longest_edge: Length,
     /// Cuts of each layer of each operation, in order.
     pub layers: Vec<(OperationId, usize)>,
+    /// What tracks on a surface do, operation by operation; empty until they are judged where the surface is known.
+    pub tracked: Vec<Tracked>,
 }
 
 /// Replays a program's cuts. `bounds` are the operations' own, in order.
@@ -253,6 +271,7 @@ impl Cut {
             kind: program.cut_kind(self.operation, self.tool),
             cut: self.cut,
             tip: self.tip,
+            y: None,
             fault,
         }
     }
@@ -273,6 +292,8 @@ struct Player<'p> {
     /// The deepest entry into the part of what leaves no trace in a surface, slits and chains, and how deep that is.
     traceless: Option<(Finding, f64)>,
     longest_edge: f64,
+    /// The cut of the chain that was counted last: it may stop on its way.
+    counted: Option<Site>,
     /// How many cuts each layer has.
     layers: BTreeMap<(OperationId, NonZeroU32), usize>,
     /// Slits, and what to report of them if they free nothing.
@@ -325,6 +346,7 @@ impl<'p> Player<'p> {
             kept: BTreeMap::new(),
             parts: BTreeMap::new(),
             longest_edge: 0.0,
+            counted: None,
             layers: BTreeMap::new(),
         }
     }
@@ -556,15 +578,19 @@ impl<'p> Player<'p> {
             kind: program.cut_kind(operation, segment.before.tool),
             cut,
             tip: Point2 { x: to.x, z: to.z },
+            y: None,
             fault,
         };
-        if joint == Joint::Stop {
+        if joint == Joint::Stop && self.counted.replace(segment.op.site) != Some(segment.op.site) {
             *self.layers.entry((operation, layer)).or_default() += 1;
         }
         let passes = self
             .bounds
             .get(usize::from(operation.0))
             .and_then(|bound| bound.passes);
+        if let Some(Passes::Tracks(_)) = passes {
+            return;
+        }
         if let Some(through) = Through::of(self.program, segment, passes) {
             self.pass(&through, operation, finding);
             return;
@@ -610,6 +636,7 @@ impl<'p> Player<'p> {
                 .into_iter()
                 .map(|((operation, _), cuts)| (operation, cuts))
                 .collect(),
+            tracked: Vec::new(),
         }
     }
 
@@ -668,7 +695,7 @@ fn note(kept: &mut Option<(usize, Finding)>, finding: Finding, worse: impl Fn(&F
 fn is_longer(a: &Finding, b: &Finding) -> bool {
     let needed = |finding: &Finding| match finding.fault {
         CutFault::NotFreed { needed, .. } => needed.to_mm(),
-        CutFault::Blocked { .. } | CutFault::Overcut { .. } | CutFault::Strip(_) => 0.0,
+        CutFault::Blocked { .. } | CutFault::Overcut { .. } | CutFault::Strip(_) | CutFault::Stays { .. } => 0.0,
     };
     needed(a) > needed(b) + 1e-6
 }

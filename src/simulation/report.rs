@@ -2,7 +2,7 @@
 
 use super::body::Passage;
 use super::contour::{Sampled, Scallop, farthest};
-use super::prove::Replay;
+use super::prove::{Replay, Tracked};
 use super::timing::Times;
 use vcutc_backend_api::ir::{OperationId, Stock};
 use vcutc_backend_api::units::{Area, Length};
@@ -35,6 +35,8 @@ pub struct Report {
     pub deepest: Scallop,
     /// Where a blade's body comes nearest above the work in a cut, where one is stated and looked at.
     pub body: Option<Passage>,
+    /// What tracks on a surface do, operation by operation. The other figures are of what the cuts before them leave.
+    pub tracked: Vec<Tracked>,
 }
 
 impl Report {
@@ -80,6 +82,7 @@ pub fn report(replay: Replay, stock: Stock, part: &Profile, times: Times) -> Rep
         correlation: Sampled::of(&corners, part.points()).correlation(),
         deepest,
         body: None,
+        tracked: replay.tracked,
         contour: corners,
     }
 }

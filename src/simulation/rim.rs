@@ -64,6 +64,30 @@ impl Rim {
         }
     }
 
+    /// The rim of a disc that climbs on its way along y by so much for each mm, seen along that way in the section through its
+    /// centre. Its axis leans by the lead along y, and by the roll towards -x.
+    ///
+    /// A point at the distance y along the way from the centre passes that section `climb y` lower: the circle of the edge, sheared
+    /// so, shows as an ellipse again. With the axis `a` and `s = a_z - climb a_y`, its half width is `R sqrt(1 - a_x^2)`, the slope of
+    /// its conjugate diameter `-a_x s / (1 - a_x^2)`, and it hangs below that by `(a_y + climb a_z) / (1 - a_x^2)` times its half
+    /// width: twice its area is `R^2` times the part of the axis along `(0, 1, climb)`.
+    #[must_use]
+    pub fn climbing(centre: Point2, radius: Length, [lead, roll]: [Angle; 2], climb: f64) -> Self {
+        if climb == 0.0 {
+            return Self::rolled(centre, radius, lead, roll);
+        }
+        let [x, y, z] = axis(lead, roll);
+        // At most 1, and above 0 of an axis that points up.
+        let rest = (1.0 - x * x).max(f64::MIN_POSITIVE);
+        Self {
+            centre,
+            half: radius.to_mm() * rest.sqrt(),
+            sag: (y + climb * z).abs() / rest,
+            slope: -x * (z - climb * y) / rest,
+            overhang: radius.to_mm() * (1.0 - y * y).max(0.0).sqrt(),
+        }
+    }
+
     /// The centre of the edge, in mm.
     #[must_use]
     pub const fn centre(&self) -> Point2 {
@@ -286,6 +310,13 @@ impl Rim {
             out.push(Point2::new(over.at.x, -over.above));
         }
     }
+}
+
+/// The axis of a disc, of length 1, that leans by a lead along y and is rolled towards -x.
+pub(crate) fn axis(lead: Angle, roll: Angle) -> [f64; 3] {
+    let (along, up) = libm::sincos(lead.to_rad());
+    let (aside, upright) = libm::sincos(roll.to_rad());
+    [-aside * up, along, up * upright]
 }
 
 /// No stretch takes more chords than this on either side of the centre; the last one is longer if need be.

@@ -163,6 +163,18 @@ impl Contact {
     }
 }
 
+/// The frame of a tool in a pose: z into the part, x as near to a direction as that allows. None if that is along the axis.
+#[must_use]
+pub fn frame_towards(pose: &Pose, direction: [f64; 3]) -> Option<Frame> {
+    let z = pose.axis.to_array().map(|part| -part);
+    let along = dot(z, direction);
+    let x = unit(core::array::from_fn(|i| direction[i] - along * z[i]))?;
+    Some(Frame {
+        origin: pose.centre,
+        orientation: with_axes([x, cross(z, x), z])?,
+    })
+}
+
 /// The orientation with these axes, of length 1 and square to each other.
 fn with_axes([x, y, z]: [[f64; 3]; 3]) -> Option<Orientation> {
     let trace = x[0] + y[1] + z[2];

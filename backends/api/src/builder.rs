@@ -8,11 +8,14 @@ use crate::ir::{
 use crate::state::{Drive, State};
 use crate::units::{AngularSpeed, Length, Speed};
 use core::num::NonZeroU32;
+use std::collections::BTreeMap;
 
 /// A program in the making.
 #[derive(Clone, Debug)]
 pub struct ProgramBuilder {
     program: Program,
+    /// The place of each orientation in its table, by the bits of its quaternion.
+    orientations: BTreeMap<[u64; 4], u32>,
     /// After the last op.
     state: State,
 }
@@ -38,6 +41,7 @@ impl ProgramBuilder {
                 blend: Length::ZERO,
                 ops: Vec::new(),
             },
+            orientations: BTreeMap::new(),
             state: State::START,
         }
     }
@@ -127,8 +131,14 @@ impl ProgramBuilder {
     /// An orientation of the table, added where it is new.
     #[inline]
     pub fn orientation(&mut self, orientation: Orientation) -> OrientationId {
-        let place = find_or_push(&mut self.program.orientations, orientation);
-        OrientationId(u32::from(id(place)))
+        // Tracks on surfaces have one for each pose. The sum turns a negative zero into a positive one, as equality does.
+        let key = orientation.quaternion().map(|part| (part + 0.0).to_bits());
+        let table = &mut self.program.orientations;
+        let place = *self.orientations.entry(key).or_insert_with(|| {
+            table.push(orientation);
+            u32::try_from(table.len() - 1).unwrap_or(u32::MAX)
+        });
+        OrientationId(place)
     }
 
     /// A speed of the table, added where it is new.

@@ -28,6 +28,10 @@ impl Check {
         let what = match self {
             Self::Chips => "Every chip comes free: watch the first part",
             Self::Part => "No cut enters the part: measure the first part",
+            Self::Tracks => "The disc follows the surface and frees its strips: watch the first part",
+            Self::BetweenSections => {
+                "Strips come free and little stays between the sections that were looked at, too: watch and measure the first part"
+            }
             Self::AboveStock => "The tip stays above the stock: step through it slowly",
             Self::AxisLimits => {
                 "Every pose is within reach and within the limits of the axes: simulate the program on the control"
@@ -74,6 +78,7 @@ impl Reason {
             Self::NotMeasured => "not measured for an arm without a closed-form solution",
             Self::NoBody => "the compiler does not know their shapes",
             Self::AirCut => "an air cut is compared with nothing but the top of the stock",
+            Self::SectionsOnly => "the compiler looks at sections across the tracks, not at what lies between them",
             Self::NoReader => "this target's programs are not read back",
         }
     }
@@ -89,6 +94,8 @@ mod tests {
         let all = [
             Check::Chips,
             Check::Part,
+            Check::Tracks,
+            Check::BetweenSections,
             Check::AboveStock,
             Check::AxisLimits,
             Check::AxisRate("A1".to_owned()),

@@ -23,6 +23,8 @@ impl Checks {
             Check::AxisRate(_) => None,
             Check::Chips
             | Check::Part
+            | Check::Tracks
+            | Check::BetweenSections
             | Check::AboveStock
             | Check::Accelerations
             | Check::Holder(_)

@@ -29,7 +29,17 @@ impl Checks {
     pub fn proven(&self) -> String {
         let mut parts = Vec::new();
         if self.is_made(&Check::Chips) && self.is_made(&Check::Part) {
-            parts.push("every chip comes free and no cut enters the part or its allowance".to_owned());
+            let by = if self.is_made(&Check::Tracks) { " of roughing" } else { "" };
+            parts.push(format!(
+                "every chip{by} comes free and no cut{by} enters the part or its allowance"
+            ));
+        }
+        if self.is_made(&Check::Tracks) {
+            parts.push(
+                "in sections across the tracks on the surface every strip comes free and no more stays than may, and on its way \
+                 from pose to pose the disc enters the surface by no more than is allowed"
+                    .to_owned(),
+            );
         }
         if self.is_made(&Check::AboveStock) {
             parts.push("the tip stays above the stock".to_owned());
@@ -124,6 +134,8 @@ impl Checks {
                     Check::AxisRate(axis) => Some(axis.clone()),
                     Check::Chips
                     | Check::Part
+                    | Check::Tracks
+                    | Check::BetweenSections
                     | Check::AboveStock
                     | Check::AxisLimits
                     | Check::SingularPoses
@@ -165,6 +177,8 @@ impl Check {
         match self {
             Self::Chips => "chips",
             Self::Part => "part",
+            Self::Tracks => "tracks",
+            Self::BetweenSections => "between_sections",
             Self::AboveStock => "above_stock",
             Self::AxisLimits => "axis_limits",
             Self::AxisRate(_) => "axis_rate",
@@ -184,6 +198,8 @@ impl Check {
         match self {
             Self::Chips => "whether chips come free",
             Self::Part => "whether cuts enter the part",
+            Self::Tracks => "tracks on the surface",
+            Self::BetweenSections => "what comes free and what stays between sections across the tracks",
             Self::AboveStock => "whether the tip stays above the stock",
             Self::AxisLimits => "reach and the limits of axes",
             Self::AxisRate(_) => "the speed of an axis",
@@ -210,6 +226,7 @@ impl Reason {
             Self::NoBody => "no_body",
             Self::AirCut => "air_cut",
             Self::NoReader => "no_reader",
+            Self::SectionsOnly => "sections_only",
         }
     }
 
@@ -223,6 +240,7 @@ impl Reason {
             Self::NoBody => "their shapes are not known",
             Self::AirCut => "an air cut is compared with nothing but the top of the stock",
             Self::NoReader => "the target has no reader",
+            Self::SectionsOnly => "sections are looked at, 10 mm apart or 200 of them",
         }
     }
 }

@@ -3,16 +3,17 @@
 use super::search::RouteSet;
 use super::{Operation, Trials, WorksThere};
 use crate::description::{ParameterFigure, ParameterTable};
-use crate::{BladeRef, Machine, Order, Sourced};
+use crate::{BladeRef, Machine, Order, Shaded, Sourced};
 use core::any::Any;
 use core::fmt::Debug;
+use std::sync::Arc;
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::ir::{OperationId, SourceRef, Stock};
 use vcutc_backend_api::units::{Angle, Area, Duration, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
-use vcutc_simulation::prove::{Bound, Finding};
+use vcutc_simulation::prove::{Bound, Finding, Passes};
 use vcutc_simulation::report::Report;
 use vcutc_simulation::surface::Side;
 
@@ -23,8 +24,10 @@ pub struct PlannedJob {
     pub name: String,
     /// The stock.
     pub stock: Stock,
-    /// The part's polyline.
+    /// The part's polyline; of a surface that of its shadow.
     pub profile: Profile,
+    /// The part where it changes along y.
+    pub surface: Option<Arc<Shaded>>,
     /// How far it may be off the part as drawn.
     pub tolerance: Length,
     /// The machine, if the job has one.
@@ -47,11 +50,13 @@ impl PlannedJob {
         operations.map(|planned| planned.estimate().time).sum()
     }
 
-    /// The tightest limit on scallop of an operation, with the operation; the first among equals.
+    /// The tightest limit on the scallop across the cuts, of operations that leave the same at every y, with the operation; the first among equals.
     #[must_use]
     pub fn scallop_limit(&self) -> Option<(OperationId, Sourced<Length>)> {
         let limits = (0..)
             .zip(&self.operations)
+            // What tracks on a surface leave, its sections show.
+            .filter(|(_, planned)| !matches!(planned.bound().passes, Some(Passes::Tracks(_))))
             .filter_map(|(index, planned)| Some((OperationId(index), planned.asked().scallop_limit()?)));
         limits.min_by(|(_, a), (_, b)| a.value.total_cmp(&b.value))
     }

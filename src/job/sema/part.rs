@@ -37,12 +37,20 @@ enum Shape {
     Surface(Arc<Shaded>),
 }
 
-/// A surface with its shadow.
+/// A surface with its shadow, shared by all that look at it.
 #[derive(Clone, Debug)]
-struct Shaded {
+pub struct Shaded {
     surface: Surface,
     /// Its greatest height over each x.
     shadow: Profile,
+}
+
+impl Shaded {
+    /// The surface.
+    #[must_use]
+    pub const fn surface(&self) -> &Surface {
+        &self.surface
+    }
 }
 
 /// The shadow follows from the surface. A surface of a million triangles is not compared with itself.
@@ -94,6 +102,15 @@ impl Part {
     pub fn surface(&self) -> Option<&Surface> {
         match &self.shape {
             Shape::Surface(shaded) => Some(&shaded.surface),
+            Shape::Profile(_) => None,
+        }
+    }
+
+    /// The same, to be kept.
+    #[must_use]
+    pub fn shared_surface(&self) -> Option<Arc<Shaded>> {
+        match &self.shape {
+            Shape::Surface(shaded) => Some(Arc::clone(shaded)),
             Shape::Profile(_) => None,
         }
     }

@@ -76,11 +76,6 @@ impl Kind for Finish {
         "finish disc"
     }
 
-    /// Its tracks lie on one section.
-    fn takes_surfaces(&self) -> bool {
-        false
-    }
-
     fn spec(&self) -> &'static BlockSpec {
         &SPEC
     }

@@ -7,12 +7,14 @@
 //! | why there is no plan | `refused` |
 //! | every choice made, and what stages ask of it | `decided`, `planned` |
 //! | motions | `lower` |
+//! | the same on parts that change along y | [`on_surface`] |
 //! | words for summary, report and editor | `words` |
 
 pub mod asked;
 mod check;
 mod decided;
 mod lower;
+pub mod on_surface;
 mod operation;
 pub mod plan;
 mod planned;

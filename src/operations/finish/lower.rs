@@ -11,7 +11,7 @@ use vcutc_process::beside::{Drive, Motion, Pass, Stage, Writer};
 use vcutc_process::posture::{Feed, Holder};
 
 /// What programs call it.
-const KIND: OperationKind = OperationKind::named("finish_disc").unwrap();
+pub(crate) const KIND: OperationKind = OperationKind::named("finish_disc").unwrap();
 
 /// Appends the ops of one operation.
 pub(crate) fn lower(planned: &Planned, source: SourceRef, builder: &mut ProgramBuilder) {

@@ -2,8 +2,9 @@
 
 use crate::asked::{AIR, FinishDisc};
 use crate::decided::Planned;
+use crate::on_surface;
 use crate::plan::{self, Wish, Work};
-use crate::refused::Refused;
+use crate::refused::{Refused, Why};
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::Span;
 use vcutc_geometry::offset::offset_up;
@@ -46,6 +47,16 @@ impl Operation for FinishDisc {
     }
 
     fn plan<'j>(&'j self, ground: Ground<'j>) -> Result<Laid, Box<dyn Unplanned + 'j>> {
+        if let Some(surface) = ground.job.job().part.surface() {
+            let laid = on_surface::planned(self, &self.wish(), surface, &ground);
+            return laid.map_err(|refusal| -> Box<dyn Unplanned + 'j> {
+                Box::new(Refused {
+                    asked: self,
+                    ground,
+                    why: Why::OnSurface(refusal),
+                })
+            });
+        }
         let bound = offset_up(&ground.job.profile, self.allowance.value);
         let work = Work {
             part: &ground.job.profile,
@@ -69,7 +80,7 @@ impl Operation for FinishDisc {
             Err(refusal) => Err(Box::new(Refused {
                 asked: self,
                 ground,
-                refusal,
+                why: Why::OnProfile(refusal),
             })),
         }
     }

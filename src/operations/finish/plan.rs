@@ -11,8 +11,8 @@
 //! they are too thick for that it leans to the side, so that they pass the hub; the rim is then lower on that side.
 
 pub mod model;
-mod order;
-mod tracks;
+pub(crate) mod order;
+pub(crate) mod tracks;
 
 use crate::asked::Sequence;
 use tracks::{Hold, Tilt};
@@ -29,10 +29,10 @@ use vcutc_simulation::surface::Surface;
 pub const MOST_TRACKS: usize = 20_000;
 
 /// By how much the lead grows from one that is tried to the next, in degrees.
-const LEAD_STEP: f64 = 0.5;
+pub(crate) const LEAD_STEP: f64 = 0.5;
 
 /// How often tracks are put closer to keep the limit on scallop, each time by a twentieth.
-const TRIES: usize = 60;
+pub(crate) const TRIES: usize = 60;
 
 /// What is to be finished.
 #[derive(Clone, Copy, Debug)]
@@ -121,7 +121,7 @@ pub fn plan(work: Work<'_>, wish: &Wish) -> Result<(PlannedFinish, Surface), Ref
 }
 
 /// The leads to try, from the least on.
-fn leads(wish: &Wish) -> Vec<Angle> {
+pub(crate) fn leads(wish: &Wish) -> Vec<Angle> {
     match wish.lead {
         Auto::Given(lead) => vec![lead],
         Auto::Auto => {
@@ -245,6 +245,7 @@ fn simulated(work: Work<'_>, wish: &Wish, planned: &PlannedFinish) -> Result<Sur
             contact: track.contact.x,
             lead,
             roll: track.roll,
+            climb: 0.0,
             over_hub: wish.over_hub,
             clearance: wish.clearance,
         };

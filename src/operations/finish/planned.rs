@@ -2,6 +2,7 @@
 
 use crate::asked::AIR;
 use crate::decided::Planned;
+use crate::words::Chosen;
 use crate::{lower, words};
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::ir::SourceRef;
@@ -95,11 +96,11 @@ impl PlannedOperation for Planned {
     }
 
     fn parameters(&self) -> Vec<ParameterFigure> {
-        words::parameters(self)
+        words::parameters(Chosen::of(self))
     }
 
     fn tables(&self) -> Vec<ParameterTable> {
-        words::tables(self)
+        words::tables(Chosen::of(self))
     }
 
     fn summary(&self, _: &Report) -> Vec<(&'static str, String)> {
@@ -107,11 +108,11 @@ impl PlannedOperation for Planned {
     }
 
     fn chosen(&self, field: &str) -> Option<(String, String)> {
-        words::chosen(self, field)
+        words::chosen(Chosen::of(self), field)
     }
 
     fn layout(&self) -> [String; 2] {
-        words::layout(self)
+        words::layout(Chosen::of(self))
     }
 }
 

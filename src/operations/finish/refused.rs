@@ -2,8 +2,11 @@
 //! before it in the whole job.
 
 mod changes;
+mod on_surface;
 
 use crate::asked::FinishDisc;
+use crate::on_surface::lay::Unlaid;
+use crate::on_surface::plan::Refusal as SurfaceRefusal;
 use crate::plan::{MOST_TRACKS, Refusal};
 use changes::Change;
 use vcutc_cancellation::{Effort, Wanted};
@@ -14,17 +17,68 @@ use vcutc_job::operation::{Ground, Operation, Unplanned, WorksThere};
 use vcutc_process::verdict::strip_words;
 use vcutc_simulation::disc::{Hold, PassFault};
 use vcutc_simulation::surface::Surface;
+use vcutc_surface::track::NoTrack;
 
 /// A refusal with what it is about.
 #[derive(Debug)]
 pub(crate) struct Refused<'j> {
     pub(crate) asked: &'j FinishDisc,
     pub(crate) ground: Ground<'j>,
-    pub(crate) refusal: Refusal,
+    pub(crate) why: Why,
 }
 
-/// What it counts as, in cuts, to lay tracks and pass them through the stock.
-const TRIAL: usize = 1_000;
+/// Why there is no plan.
+#[derive(Debug)]
+pub(crate) enum Why {
+    OnProfile(Refusal),
+    OnSurface(SurfaceRefusal),
+}
+
+impl Why {
+    /// What is wrong with a pass, if that is it.
+    const fn fault(&self) -> Option<PassFault> {
+        match self {
+            Self::OnProfile(Refusal::Fault { fault, .. }) => Some(*fault),
+            Self::OnSurface(SurfaceRefusal::Fault { fault, .. }) => Some(fault.fault),
+            Self::OnProfile(Refusal::Nothing | Refusal::TooMany { .. } | Refusal::Scallop { .. })
+            | Self::OnSurface(
+                SurfaceRefusal::Allowance
+                | SurfaceRefusal::NotLast
+                | SurfaceRefusal::Nothing
+                | SurfaceRefusal::TooMany { .. }
+                | SurfaceRefusal::Scallop { .. }
+                | SurfaceRefusal::Unlaid { .. },
+            ) => None,
+        }
+    }
+
+    /// Whether too much stays.
+    const fn stays(&self) -> bool {
+        matches!(
+            self,
+            Self::OnProfile(Refusal::Scallop { .. }) | Self::OnSurface(SurfaceRefusal::Scallop { .. })
+        )
+    }
+
+    /// Whether no lead within the limits lets the disc down on the part.
+    const fn is_of_leads(&self) -> bool {
+        matches!(
+            self,
+            Self::OnSurface(SurfaceRefusal::Unlaid {
+                why: Unlaid::NoTrack(NoTrack::Lead { .. }),
+                ..
+            })
+        )
+    }
+
+    /// What it counts as, in cuts, to lay tracks and pass them through the stock.
+    const fn trial(&self) -> usize {
+        match self {
+            Self::OnProfile(_) => 1_000,
+            Self::OnSurface(_) => 5_000,
+        }
+    }
+}
 
 impl Unplanned for Refused<'_> {
     fn diagnostics(
@@ -37,7 +91,7 @@ impl Unplanned for Refused<'_> {
             if wanted.is_needless() || effort.is_spent() {
                 return false;
             }
-            effort.spend(TRIAL);
+            effort.spend(self.why.trial());
             self.does(change, wanted, works)
         });
         let diagnostic = self.diagnostic();
@@ -89,13 +143,12 @@ impl Refused<'_> {
     fn diagnostic(&self) -> Diagnostic {
         let asked = self.asked;
         let head = asked.setup.head_span;
-        match &self.refusal {
-            Refusal::Nothing => Diagnostic::new(
-                Code::NothingToCut,
-                "nothing stands above the part that this operation could take off",
-                head,
-                "this operation",
-            ),
+        let refusal = match &self.why {
+            Why::OnProfile(refusal) => refusal,
+            Why::OnSurface(refusal) => return self.told_on_surface(refusal),
+        };
+        match refusal {
+            Refusal::Nothing => nothing(head),
             Refusal::TooMany { tracks } => Diagnostic::new(
                 Code::TooManyCuts,
                 format!("{tracks} tracks are too many to plan, at most {MOST_TRACKS} are"),
@@ -121,14 +174,19 @@ impl Refused<'_> {
                     show(lead.to_deg())
                 );
                 let diagnostic = Diagnostic::new(code(*fault), message, place(asked, *fault), label);
-                match self.roughing() {
-                    Some(before) => diagnostic.and(
-                        before.setup().head_span,
-                        "what stands there, this operation has left",
-                    ),
-                    None => diagnostic,
-                }
+                self.with_roughing(diagnostic)
             }
+        }
+    }
+
+    /// With the operation that has left what stands there.
+    fn with_roughing(&self, diagnostic: Diagnostic) -> Diagnostic {
+        match self.roughing() {
+            Some(before) => diagnostic.and(
+                before.setup().head_span,
+                "what stands there, this operation has left",
+            ),
+            None => diagnostic,
         }
     }
 
@@ -142,7 +200,11 @@ impl Refused<'_> {
 
     /// What may help where no change was found to.
     fn advised(&self, diagnostic: Diagnostic) -> Diagnostic {
-        match &self.refusal {
+        let refusal = match &self.why {
+            Why::OnProfile(refusal) => refusal,
+            Why::OnSurface(refusal) => return self.advised_on_surface(diagnostic, refusal),
+        };
+        match refusal {
             Refusal::Nothing => diagnostic.help("delete the operation, or leave more for it"),
             Refusal::TooMany { .. } => diagnostic.help("use a larger `step`, or allow more scallop"),
             Refusal::Scallop { .. } => {
@@ -173,6 +235,15 @@ impl Refused<'_> {
             | PassFault::Body { .. } => diagnostic,
         }
     }
+}
+
+fn nothing(head: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::NothingToCut,
+        "nothing stands above the part that this operation could take off",
+        head,
+        "this operation",
+    )
 }
 
 const fn code(fault: PassFault) -> Code {

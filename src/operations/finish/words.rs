@@ -1,7 +1,8 @@
 //! What a plan of finishing says of itself: parameters, lines of the summary, and values of fields that were left open.
 
+use crate::asked::{FinishDisc, Sequence};
 use crate::decided::Planned;
-use vcutc_backend_api::units::Angle;
+use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::number::show;
 use vcutc_job::Auto;
 use vcutc_job::description::{
@@ -13,9 +14,32 @@ const LEAST: &str = "the least with which all strips come free and nothing is en
 const PAST: &str = "the least with which strips pass the hub, or none where they may run over it";
 const FREES: &str = "the first of crests, descending, rightwards and leftwards in which all strips come free";
 
+/// What is said alike of all plans of finishing: what was asked, and what was chosen.
+#[derive(Clone, Copy)]
+pub(crate) struct Chosen<'c> {
+    pub(crate) asked: &'c FinishDisc,
+    pub(crate) step: Length,
+    /// Where the lead differs from place to place, the least one.
+    pub(crate) lead: Angle,
+    pub(crate) side: Angle,
+    pub(crate) sequence: Sequence,
+}
+
+impl<'c> Chosen<'c> {
+    pub(crate) const fn of(planned: &'c Planned) -> Self {
+        Self {
+            asked: &planned.asked,
+            step: planned.plan.step,
+            lead: planned.plan.lead,
+            side: planned.plan.side,
+            sequence: planned.plan.sequence,
+        }
+    }
+}
+
 /// The tables: blade, cut, motion.
-pub(crate) fn tables(planned: &Planned) -> Vec<ParameterTable> {
-    let (asked, plan) = (&planned.asked, &planned.plan);
+pub(crate) fn tables(plan: Chosen<'_>) -> Vec<ParameterTable> {
+    let asked = plan.asked;
     let speed = |speed: vcutc_backend_api::units::Speed| format!("{} mm/s", show(speed.to_mm_per_s()));
     let blade = vec![
         ParameterRow::written("blade", asked.disc.name.clone(), asked.disc.span),
@@ -51,8 +75,8 @@ pub(crate) fn tables(planned: &Planned) -> Vec<ParameterTable> {
         .to_vec()
 }
 
-pub(crate) fn parameters(planned: &Planned) -> Vec<ParameterFigure> {
-    let (asked, plan) = (&planned.asked, &planned.plan);
+pub(crate) fn parameters(plan: Chosen<'_>) -> Vec<ParameterFigure> {
+    let asked = plan.asked;
     vec![
         ParameterFigure::open("step", &asked.step, millimetres(plan.step)),
         ParameterFigure::open("lead", &asked.lead, degrees(plan.lead)),
@@ -62,22 +86,24 @@ pub(crate) fn parameters(planned: &Planned) -> Vec<ParameterFigure> {
     ]
 }
 
-/// What was chosen, and the tracks.
-pub(crate) fn summary(planned: &Planned) -> Vec<(&'static str, String)> {
+/// What was chosen of what was left open.
+pub(crate) fn chosen_line(plan: Chosen<'_>) -> Option<(&'static str, String)> {
+    let asked = plan.asked;
     let open = [
-        ("step", planned.asked.step.value == Auto::Auto),
-        ("lead", planned.asked.lead.value == Auto::Auto),
-        ("side", planned.asked.side.value == Auto::Auto),
-        ("sequence", planned.asked.sequence.value == Auto::Auto),
+        ("step", asked.step.value == Auto::Auto),
+        ("lead", asked.lead.value == Auto::Auto),
+        ("side", asked.side.value == Auto::Auto),
+        ("sequence", asked.sequence.value == Auto::Auto),
     ];
     let chosen = open.into_iter().filter(|(_, is_open)| *is_open);
-    let chosen =
-        chosen.filter_map(|(field, _)| Some(format!("{field} = {}", self::chosen(planned, field)?.0)));
+    let chosen = chosen.filter_map(|(field, _)| Some(format!("{field} = {}", self::chosen(plan, field)?.0)));
     let chosen: Vec<String> = chosen.collect();
-    let mut lines = Vec::new();
-    if !chosen.is_empty() {
-        lines.push(("auto", chosen.join(", ")));
-    }
+    (!chosen.is_empty()).then(|| ("auto", chosen.join(", ")))
+}
+
+/// What was chosen, and the tracks.
+pub(crate) fn summary(planned: &Planned) -> Vec<(&'static str, String)> {
+    let mut lines: Vec<_> = chosen_line(Chosen::of(planned)).into_iter().collect();
     let steepest = planned.plan.tracks.iter().map(|track| track.roll.to_deg().abs());
     lines.push((
         "finish",
@@ -93,23 +119,23 @@ pub(crate) fn summary(planned: &Planned) -> Vec<(&'static str, String)> {
 }
 
 /// What was chosen for a field that was left open, and why.
-pub(crate) fn chosen(planned: &Planned, field: &str) -> Option<(String, String)> {
+pub(crate) fn chosen(plan: Chosen<'_>, field: &str) -> Option<(String, String)> {
     let (value, why) = match field {
-        "step" => (length_text(planned.plan.step), FEWEST),
-        "lead" => (angle_text(planned.plan.lead), LEAST),
-        "side" => (angle_text(planned.plan.side), PAST),
-        "sequence" => (planned.plan.sequence.word().to_owned(), FREES),
+        "step" => (length_text(plan.step), FEWEST),
+        "lead" => (angle_text(plan.lead), LEAST),
+        "side" => (angle_text(plan.side), PAST),
+        "sequence" => (plan.sequence.word().to_owned(), FREES),
         _ => return None,
     };
     Some((value, why.to_owned()))
 }
 
 /// `tracks` and their measures.
-pub(crate) fn layout(planned: &Planned) -> [String; 2] {
+pub(crate) fn layout(plan: Chosen<'_>) -> [String; 2] {
     let measures = format!(
         "step {} mm, lead {} deg",
-        show(planned.plan.step.to_mm()),
-        show(planned.plan.lead.to_deg())
+        show(plan.step.to_mm()),
+        show(plan.lead.to_deg())
     );
     ["tracks".to_owned(), measures]
 }

@@ -5,6 +5,7 @@ use super::{Section, Subject};
 use crate::html::{Column, Html, table};
 use crate::pictures;
 use vcutc_driver::left_over::LeftOver;
+use vcutc_simulation::prove::Tracked;
 use vcutc_simulation::report::Report;
 use vcutc_surface::residual::{Over, Volume};
 
@@ -76,9 +77,11 @@ fn figures(subject: Subject<'_>) -> Html {
     ];
     let left_over = subject.material.compiled.left_over.as_ref();
     let over_surface = left_over.into_iter().flat_map(over_surface);
+    let finished = report.tracked.iter().flat_map(finished);
     let rows = rows
         .into_iter()
         .chain(over_surface)
+        .chain(finished)
         .map(|(name, value, meaning)| vec![name.to_owned(), value, meaning]);
     table("Machined and theoretical contour", &columns, rows)
 }
@@ -103,6 +106,32 @@ fn over_surface(left: &LeftOver) -> [(&'static str, String, String); 3] {
             "highest above the surface",
             format!("{:.2} mm", height.to_mm()),
             format!("straight above the part, at x {x}, y {y}"),
+        ),
+    ]
+}
+
+/// What tracks on a surface leave, of which the other figures know nothing: they are those of roughing.
+fn finished(tracked: &Tracked) -> [(&'static str, String, String); 3] {
+    let [x, y, _] = tracked.at;
+    [
+        (
+            "left after finishing",
+            format!("{:.3} mm", tracked.left.to_mm()),
+            format!(
+                "the largest distance from the part in {} sections across the tracks, at x {x:.1} mm, y {y:.1} mm; all figures \
+                 above are of what roughing leaves",
+                tracked.sections
+            ),
+        ),
+        (
+            "mean after finishing",
+            format!("{:.3} mm", tracked.mean.to_mm()),
+            "area that stays in these sections, over their length".to_owned(),
+        ),
+        (
+            "entry of the disc",
+            format!("{:.3} mm", tracked.entry.to_mm()),
+            "how deep it enters the part between two poses, along z, at most".to_owned(),
         ),
     ]
 }

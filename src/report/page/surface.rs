@@ -8,6 +8,7 @@ use crate::pictures::{SurfaceMap, SurfaceSections};
 pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     let part = SurfaceMap::of_part(&subject.material)?;
     let residual = SurfaceMap::of_residual(&subject.material)?;
+    let is_finished = !subject.material.compiled.report.tracked.is_empty();
     let heights = figure(
         &Ids {
             page: "surface-",
@@ -24,9 +25,15 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
         },
         Zoom::Free,
         &format!(
-            "How high material stands straight above the part after all cuts: {}. The cuts are the same at every y: besides \
-             scallops, material stays where the part lies below its shadow.",
-            residual.figures()
+            "How high material stands straight above the part after {}: {}. The cuts are the same at every y: besides \
+             scallops, material stays where the part lies below its shadow.{}",
+            if is_finished { "roughing" } else { "all cuts" },
+            residual.figures(),
+            if is_finished {
+                " What the tracks of finishing take off of that is not shown; the figures of the deviation say what they leave."
+            } else {
+                ""
+            }
         ),
         &|ids| residual.draw(ids),
     );

@@ -5,6 +5,7 @@ use crate::html::{Html, unbroken};
 use vcutc_diagnostics::render::{ColorChoice, render};
 use vcutc_driver::checks::{Checks, Standing};
 use vcutc_driver::summary::{self, time};
+use vcutc_backend_api::units::Length;
 use vcutc_motion::summary::margin_words;
 
 /// The header: job, machine, verdict, warnings.
@@ -129,6 +130,7 @@ fn rows(subject: Subject<'_>) -> Vec<Key> {
                     |limit| format!("limit {:.2} mm", limit.to_mm()),
                 );
                 match compiled.left_over {
+                    Some(_) if !report.tracked.is_empty() => format!("of roughing, from the shadow, {limit}"),
                     Some(_) => format!("from the shadow, {limit}"),
                     None => limit,
                 }
@@ -147,8 +149,14 @@ fn rows(subject: Subject<'_>) -> Vec<Key> {
             "of the cross-section".to_owned(),
         ),
     ];
-    rows.push(match &compiled.left_over {
-        Some(over) => free(
+    let finished = report.tracked.iter().map(|tracked| tracked.left).max_by(Length::total_cmp);
+    rows.push(match (&compiled.left_over, finished) {
+        (Some(_), Some(left)) => free(
+            "Material left",
+            format!("{:.3} mm", left.to_mm()),
+            "at most, from the surface, in sections across the tracks".to_owned(),
+        ),
+        (Some(over), None) => free(
             "Material left",
             format!("{:.3} l", over.all.volume.to_litres()),
             format!(
@@ -156,7 +164,7 @@ fn rows(subject: Subject<'_>) -> Vec<Key> {
                 over.all.highest.height.to_mm()
             ),
         ),
-        None => free(
+        (None, _) => free(
             "Material left",
             format!("{:.2} %", share(left, left + removed) * 100.0),
             format!("{left:.2} mm² stay on the part"),

@@ -54,9 +54,22 @@ impl SurfaceMap {
         let surface = material.job.part.surface()?;
         let (size, cells) = laid_out(surface);
         let machined = Machined::new(corners(material)).ok()?;
+        // What tracks on the surface take off, sections alone know.
+        let is_finished = !material.compiled.report.tracked.is_empty();
+        let (title, what) = if is_finished {
+            (
+                "material that roughing leaves above the part",
+                "height of the material that roughing leaves above the part",
+            )
+        } else {
+            (
+                "material left above the part",
+                "height of the material left above the part",
+            )
+        };
         Some(Self {
-            title: format!("{}: material left above the part", material.plan.name),
-            what: "height of the material left above the part",
+            title: format!("{}: {title}", material.plan.name),
+            what,
             size,
             cells,
             map: surface.left_over(&machined, cells).ok()??,

@@ -6,7 +6,7 @@
 
 use super::TOUCH;
 use crate::disc::{Disc, PassFault};
-use crate::rim::{Line, Rim};
+use crate::rim::{Line, Rim, axis};
 use crate::surface::Surface;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::curve::Point2;
@@ -68,6 +68,8 @@ pub(super) struct Stand {
     pub(super) centre: Point2,
     pub(super) lead: Angle,
     pub(super) roll: Angle,
+    /// How much higher its way gets with each mm of y.
+    pub(super) climb: f64,
     /// Air around the body.
     pub(super) clearance: Length,
     /// Over what slivers below the centre are gone before the body comes.
@@ -76,15 +78,19 @@ pub(super) struct Stand {
 
 /// Where each stage of the body is in the section.
 pub(super) fn contacts(surface: &mut Surface, disc: &Disc, stand: &Stand, out: &mut Vec<PassFault>) {
-    let (top, cosine) = (surface.top(), libm::cos(stand.lead.to_rad()));
-    let (aside, up) = libm::sincos(stand.roll.to_rad());
+    let top = surface.top();
+    let [aside, along, up] = axis(stand.lead, stand.roll);
     for (number, stage) in disc.body.iter().enumerate() {
-        let rise = stage.from.to_mm() * cosine;
-        let centre = Point2::new(stand.centre.x - rise * aside, stand.centre.z + rise * up);
+        let rise = stage.from.to_mm();
+        // What lies farther along the way passes the section that much lower.
+        let centre = Point2::new(
+            stand.centre.x + rise * aside,
+            stand.centre.z + rise * (up - stand.climb * along),
+        );
         // What touches the clearance is clear.
         let radius = stage.radius + stand.clearance - Length::mm(TOUCH);
         let stage = Stage {
-            edge: Rim::rolled(centre, radius, stand.lead, stand.roll),
+            edge: Rim::climbing(centre, radius, [stand.lead, stand.roll], stand.climb),
             cover: stand.cover,
             centre: stand.centre,
         };

@@ -33,6 +33,7 @@ impl CrossSection {
             centre: pass.centre,
             lead: pass.lead,
             roll: Angle::ZERO,
+            climb: 0.0,
             clearance: pass.clearance,
             cover: Some(rim.cover()),
         };

@@ -43,6 +43,7 @@ impl CrossSection {
             centre: pass.centre,
             lead: pass.lead,
             roll: pass.roll,
+            climb: pass.climb,
             clearance: pass.clearance,
             cover: None,
         };

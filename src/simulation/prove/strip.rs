@@ -20,6 +20,52 @@ pub enum Passes {
     Strips(Strips),
     /// To take the skin off the part.
     Skin(Skin),
+    /// To take the skin off a surface, in tracks that change along y: no section shows them.
+    Tracks(Tracks),
+}
+
+/// What holds of tracks on a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tracks {
+    /// What holds in each section.
+    pub skin: Skin,
+    /// The most material that may stay on the part.
+    pub scallop: Length,
+    /// How deep the disc may enter the part between two poses, along z.
+    pub gouge: Length,
+}
+
+/// What the tracks of an operation do, and leave on the part. Found from the program where the surface is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tracked {
+    pub operation: OperationId,
+    /// How many there are.
+    pub tracks: usize,
+    /// How many poses they have.
+    pub poses: usize,
+    /// The least and the greatest lead of their moves.
+    pub leads: [Angle; 2],
+    /// How deep the disc may enter the part, at most, along z.
+    pub entry: Length,
+    /// In how many sections across them they were looked at.
+    pub sections: usize,
+    /// The most that stays on the part in these.
+    pub left: Length,
+    /// Where, in mm.
+    pub at: [f64; 3],
+    /// The mean height of what stays: the area that stays in the sections over their length.
+    pub mean: Length,
+}
+
+impl Tracks {
+    /// The disc of a blade, with these limits; none of a blade that is none.
+    #[must_use]
+    pub fn disc(&self, blade: &Blade) -> Option<Disc> {
+        match blade.shape {
+            Shape::Disc(edge) => Some(disc(blade, edge, Some(Passes::Tracks(*self)))),
+            Shape::Straight(_) | Shape::Crusher(_) => None,
+        }
+    }
 }
 
 /// What holds of passes that take the skin off the part.
@@ -84,6 +130,7 @@ impl Through {
         let is_taken = match passes {
             Some(Passes::Skin(_)) => lead > Angle::ZERO,
             Some(Passes::Strips(_)) => roll == Angle::ZERO,
+            Some(Passes::Tracks(_)) => false,
             None => roll == Angle::ZERO || lead > Angle::ZERO,
         };
         is_taken.then(|| Self {
@@ -104,6 +151,7 @@ impl Through {
             contact: nearest.map_or(self.centre.x, |(at, _)| at.x),
             lead: self.lead,
             roll: self.roll,
+            climb: 0.0,
             over_hub: skin.over_hub,
             clearance: skin.clearance,
         }
@@ -155,7 +203,7 @@ fn area_above(from: Point2, to: Point2, z: f64) -> f64 {
 fn disc(blade: &Blade, edge: ir::Disc, passes: Option<Passes>) -> Disc {
     let limits = passes.map(|passes| match passes {
         Passes::Strips(strips) => (strips.depth, strips.width),
-        Passes::Skin(skin) => (skin.depth, skin.width),
+        Passes::Skin(skin) | Passes::Tracks(Tracks { skin, .. }) => (skin.depth, skin.width),
     });
     let (depth, width) = limits.unzip();
     Disc {
@@ -251,6 +299,8 @@ impl<'p> Player<'p> {
                 let pass = through.strip(Some(strips), self.section.surface());
                 self.section.pass_unguarded(&through.disc, &pass)
             }
+            // They are no passes, see `Through::of`.
+            Some(Passes::Tracks(_)) => return,
             // What a pass takes off does not depend on what it is for.
             None if through.roll == Angle::ZERO => {
                 let pass = through.strip(None, self.section.surface());

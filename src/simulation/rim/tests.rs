@@ -49,6 +49,49 @@ proptest! {
         prop_assert!((touching.z - slope * (touching.x - x) - rim.flank(slope)).abs() < 1e-9 * radius);
     }
 
+    /// The same of one that climbs: its points, each moved along its way into the section through the centre. And how far along the way
+    /// they lie.
+    #[test]
+    fn climbing_it_is_the_lower_edge_of_a_circle_that_is_swept(
+        (radius, lead, roll) in (1.0..80.0_f64, -10.0..20.0_f64, -40.0..40.0_f64),
+        climb in -0.6..0.6_f64, share in -0.99..0.99_f64,
+    ) {
+        let [x, y, z] = axis(Angle::deg(lead), Angle::deg(roll));
+        let ahead = (y + climb * z) / (1.0 + climb * climb).sqrt();
+        prop_assume!(ahead > 0.02);
+        // Two directions square to the axis.
+        let u = [z, 0.0, -x].map(|part| part / (x * x + z * z).sqrt());
+        let v = [y * u[2] - z * u[1], z * u[0] - x * u[2], x * u[1] - y * u[0]];
+        let centre = Point2::new(3.0, 5.0);
+        let pass = crate::disc::SkinPass {
+            centre,
+            contact: 3.0,
+            lead: Angle::deg(lead),
+            roll: Angle::deg(roll),
+            climb,
+            over_hub: Length::ZERO,
+            clearance: Length::ZERO,
+        };
+        let disc = crate::disc::Disc { radius: Length::mm(radius), depth: None, width: None, body: Vec::new() };
+        let rim = pass.rim(&disc);
+        let [from, to] = rim.cover();
+        let place = f64::midpoint(from, to) + share * (to - from) / 2.0;
+        let mut nearest = (f64::INFINITY, [0.0; 2]);
+        for i in 0..20_000_u32 {
+            let (sine, cosine) = libm::sincos(f64::from(i) / 20_000.0 * core::f64::consts::TAU);
+            let off: [f64; 3] = core::array::from_fn(|i| radius * (u[i] * cosine + v[i] * sine));
+            let (at, height) = (3.0 + off[0], 5.0 + off[2] - climb * off[1]);
+            prop_assert!(height >= rim.height(at) - 1e-6, "{at} {height} {}", rim.height(at));
+            // Of both points over the place the lower one.
+            if (at - place).abs() < radius * 2e-3 && height < nearest.0 {
+                nearest = (height, [off[1], at]);
+            }
+        }
+        let (height, [along, at]) = nearest;
+        prop_assert!((height - rim.height(at)).abs() < 1e-6 * radius);
+        prop_assert!((along - pass.ahead(&disc, at)).abs() < 1e-5 * radius, "{along}");
+    }
+
     /// The same of a disc that is rolled: its axis is turned about y after it leans.
     #[test]
     fn rolled_it_is_the_lower_edge_of_a_circle_in_space(

@@ -12,7 +12,7 @@ use vcutc_simulation::surface::Side;
 
 /// How the axis of the disc leans to the side.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Tilt {
+pub(crate) enum Tilt {
     Fixed(Angle),
     /// By the least with which strips of so many steps pass the hub.
     PastHub {
@@ -51,12 +51,13 @@ pub(super) fn first_step(wish: &Wish, lead: Angle, tilt: Tilt) -> f64 {
 }
 
 /// How far strips have to keep from the axis, in mm.
-fn clear_of_hub(wish: &Wish) -> f64 {
+pub(crate) fn clear_of_hub(wish: &Wish) -> f64 {
     let hub = wish.disc.body.first().map(|stage| stage.radius);
     (hub.unwrap_or(Length::ZERO) + wish.clearance).to_mm()
 }
 
-fn past_hub(wish: &Wish, lead: Angle, reach: f64) -> Option<Angle> {
+/// The least side tilt with which strips that reach so far from the contact pass the hub.
+pub(crate) fn past_hub(wish: &Wish, lead: Angle, reach: f64) -> Option<Angle> {
     let radius = wish.disc.radius.to_mm();
     let side = model::side_past_hub(radius, lead.to_rad(), clear_of_hub(wish), reach).map(Angle::rad);
     // As it is printed, so that a job that states it is cut alike.

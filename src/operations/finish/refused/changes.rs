@@ -2,7 +2,6 @@
 
 use super::Refused;
 use crate::asked::FinishDisc;
-use crate::plan::Refusal;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
@@ -44,11 +43,7 @@ impl Change {
 impl Refused<'_> {
     pub(super) fn changes(&self) -> impl Iterator<Item = Change> + '_ {
         let asked = self.asked;
-        let (fault, stays) = match &self.refusal {
-            Refusal::Nothing | Refusal::TooMany { .. } => (None, false),
-            Refusal::Scallop { .. } => (None, true),
-            Refusal::Fault { fault, .. } => (Some(*fault), false),
-        };
+        let (fault, stays, leads) = (self.why.fault(), self.why.stays(), self.why.is_of_leads());
         let runs_at_hub = matches!(fault, Some(PassFault::OverBody { .. }));
         let hangs = matches!(fault, Some(PassFault::Attached { .. }));
         let is_strip = fault.is_some_and(|fault| !matches!(fault, PassFault::EntersPart { .. }));
@@ -56,9 +51,9 @@ impl Refused<'_> {
             (stays && is_given(&asked.step)).then(|| self.opened("step")),
             (is_strip && is_given(&asked.sequence)).then(|| self.opened("sequence")),
             ((runs_at_hub || hangs) && is_given(&asked.side)).then(|| self.opened("side")),
-            ((stays || hangs) && is_given(&asked.lead)).then(|| self.opened("lead")),
+            ((stays || hangs || leads) && is_given(&asked.lead)).then(|| self.opened("lead")),
         ];
-        let leads = (stays || hangs || runs_at_hub).then(|| self.larger_leads());
+        let leads = (stays || hangs || runs_at_hub || leads).then(|| self.larger_leads());
         let roughings = is_strip.then(|| self.roughings_leaving_less());
         let both = is_strip.then(|| self.roughings_and_leads());
         let hubs = runs_at_hub.then(|| self.over_hub());

@@ -13,6 +13,7 @@ fn over(centre: Point2, lead: f64, roll: f64) -> SkinPass {
         contact: rim.touching(libm::tan(f64::to_radians(roll))).x,
         lead: Angle::deg(lead),
         roll: Angle::deg(roll),
+        climb: 0.0,
         over_hub: Length::mm(100.0),
         clearance: Length::ZERO,
     }

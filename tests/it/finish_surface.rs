@@ -1,0 +1,181 @@
+//! `finish disc` on surfaces through all stages and targets: what the programs do to a dome and to a bowl, by points of the disc in
+//! space; read back, changed and refused.
+
+use crate::pipeline::Files;
+use crate::rect::{is_same, machines, mended};
+use crate::repository::root;
+use vcutc::diagnostics::{Code, has_errors};
+use vcutc::driver::{self, Outcome, Request, Typed};
+use vcutc::registry;
+use vcutc_backend_api::ir::{Action, Joint, Program};
+
+/// An arch across the tracks, with a fall of 0.67 mm to both ends of them.
+const DOME: &str = "z(x, y) = 30 mm - (x - 60 mm)^2 / 400 mm - (y - 50 mm)^2 / 3750 mm";
+/// Hollow across the tracks with a radius of 200 mm, and hardly along them.
+const BOWL: &str = "z(x, y) = 16 mm + (x - 60 mm)^2 / 400 mm + (y - 50 mm)^2 / 5000 mm";
+
+fn dome(x: f64, y: f64) -> f64 {
+    30.0 - (x - 60.0) * (x - 60.0) / 400.0 - (y - 50.0) * (y - 50.0) / 3750.0
+}
+
+fn bowl(x: f64, y: f64) -> f64 {
+    16.0 + (x - 60.0) * (x - 60.0) / 400.0 + (y - 50.0) * (y - 50.0) / 5000.0
+}
+
+fn job(surface: &str, finish: &str) -> String {
+    format!(
+        "job \"shell\"\n\nstock {{ size = (120 mm, 100 mm, 40 mm) }}\n\nsurface {{ {surface} }}\n\n\
+         blade dagger {{ cutting_length = 30 mm, half_apex = 7.13 deg, thickness = 0.5 mm, edges = double }}\n\
+         blade wheel = disc {{\n  radius = 25 mm, thickness = 1 mm, depth = 10 mm, width = 50 mm, spin = 3000 rev/min\n  \
+         body (1 mm, 8 mm) (60 mm, 25 mm)\n}}\n\n\
+         rough vcut {{\n  blade = dagger\n  rake = 60 deg\n  limits {{ swing <= 50 deg, scallop <= 4 mm }}\n  \
+         allowance = 0.3 mm\n  residual = lift\n  feed {{ cut = 150 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}\n  \
+         clearance = 10 mm\n}}\n\n\
+         finish disc {{\n  blade = wheel\n  {finish}\n  feed {{ cut = 100 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}\n  \
+         clearance = 10 mm\n}}\n\n{}",
+        machines()
+    )
+}
+
+const USUAL: &str = "limits { scallop <= 0.1 mm, lead <= 12 deg }\n  over_hub = 9 mm";
+
+fn compiled_on(text: String, machine: Option<&str>) -> Outcome {
+    let files = Files::of(root().join("examples")).with("shell.vcut", text);
+    let request = Request {
+        path: "shell.vcut",
+        loader: &files,
+        overrides: &[],
+        machine,
+        options: Typed::default(),
+        operations: registry::OPERATIONS,
+        targets: &registry::backends(),
+    };
+    driver::compile(request, &mut |_| {}).unwrap()
+}
+
+/// As far as a job without a machine is.
+fn proven(text: &str) -> Outcome {
+    compiled_on(text.replace(&machines(), ""), None)
+}
+
+/// The disc in a place: the centre of its edge, and two directions square to its axis.
+type Disc = [[f64; 3]; 3];
+
+/// The disc along all tracks, at places no farther apart than this along y, as a controller takes it from pose to pose.
+fn places(program: &Program, apart: f64) -> Vec<Disc> {
+    let mut places = Vec::new();
+    for segment in program.segments() {
+        let (Action::Follow { .. }, Some(line)) = (segment.op.action, segment.line()) else {
+            continue;
+        };
+        let count = ((line.to.tip.y - line.from.tip.y).abs() / apart).ceil().max(1.0);
+        for step in 0..=(count as u32) {
+            let frame = line.frame_at(program, f64::from(step) / count).unwrap();
+            let matrix = frame.orientation.matrix();
+            places.push([frame.origin.to_array(), matrix.map(|row| row[0]), matrix.map(|row| row[1])]);
+        }
+    }
+    places
+}
+
+/// A point of a disc, so far from its centre.
+fn point([centre, u, v]: &Disc, radius: f64, turn: f64) -> [f64; 3] {
+    let (sine, cosine) = libm::sincos(turn);
+    core::array::from_fn(|i| centre[i] + radius * (u[i] * cosine + v[i] * sine))
+}
+
+#[test]
+fn points_of_the_disc_neither_enter_the_part_nor_leave_more_than_the_limit() {
+    let parts: [(&str, fn(f64, f64) -> f64); 2] = [(DOME, dome), (BOWL, bowl)];
+    for (surface, part) in parts {
+        let outcome = proven(&job(surface, USUAL));
+        assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
+        let compiled = outcome.compiled.unwrap();
+        let program = compiled.program.verified().program();
+        let is_over = |[x, y, _]: [f64; 3]| (0.0..=120.0).contains(&x) && (0.0..=100.0).contains(&y);
+        let turns = || (0..180_u32).map(|k| f64::from(k).to_radians() * 2.0);
+        let mut deepest = 0.0_f64;
+        for disc in places(program, 1.0) {
+            for (turn, radius) in turns().flat_map(|turn| [(turn, 25.0), (turn, 12.0)]) {
+                let at = point(&disc, radius, turn);
+                if is_over(at) {
+                    deepest = deepest.max(part(at[0], at[1]) - at[2]);
+                }
+            }
+        }
+        // The triangles lie within a hundredth of a millimetre of the part.
+        assert!(deepest < 0.03, "{surface}: {deepest}");
+        // The lowest point of any edge over each half millimetre of some lines across the tracks.
+        let lines = [0.0, 17.0, 50.0, 83.0, 100.0];
+        let mut lowest = vec![[f64::INFINITY; 240]; lines.len()];
+        for disc in places(program, 0.2) {
+            for turn in (0..3600_u32).map(|k| f64::from(k).to_radians() / 10.0) {
+                let at = point(&disc, 25.0, turn);
+                let line = lines.iter().position(|y| (at[1] - y).abs() < 0.15);
+                if let (Some(line), true) = (line, (0.0..120.0).contains(&at[0])) {
+                    let slot = &mut lowest[line][(at[0] * 2.0) as usize];
+                    *slot = slot.min(at[2] - part(at[0], at[1]));
+                }
+            }
+        }
+        let highest = lowest.iter().flatten().copied().fold(0.0, f64::max);
+        assert!(highest < 0.1 + 0.03, "{surface}: {highest}");
+        let [tracked] = compiled.report.tracked.as_slice() else {
+            panic!("{:?}", compiled.report.tracked);
+        };
+        assert!(tracked.left.to_mm() <= 0.1 && tracked.entry.to_mm() <= 0.0203, "{tracked:?}");
+        assert!(tracked.leads[0].to_deg() > 2.9, "{tracked:?}");
+        let told = compiled.summary.iter().any(|line| line.contains("finished"));
+        assert!(told, "{:?}", compiled.summary);
+    }
+}
+
+/// [Yang 10] on a bowl of the radius r: the lead is `asin(R / r)`, 7.18 degrees for 25 and 200 mm.
+#[test]
+fn a_bowl_gets_the_lead_that_its_curvature_asks_for() {
+    let outcome = proven(&job(BOWL, USUAL));
+    let compiled = outcome.compiled.unwrap();
+    let [tracked] = compiled.report.tracked.as_slice() else {
+        panic!("{:?}", compiled.report.tracked);
+    };
+    let [_, most] = tracked.leads.map(|lead| lead.to_deg());
+    assert!((6.5..7.6).contains(&most), "{most}");
+}
+
+#[test]
+fn all_targets_write_tracks_on_surfaces_and_read_them_back() {
+    for (machine, target) in [("kuka", "krl"), ("abb", "rapid"), ("gantry", "gcode")] {
+        let outcome = compiled_on(job(DOME, USUAL), Some(machine));
+        assert!(!has_errors(&outcome.diagnostics), "{machine}: {:?}", outcome.diagnostics);
+        let program = outcome.compiled.as_ref().unwrap().program.verified().program().clone();
+        let through = program
+            .ops
+            .iter()
+            .filter(|op| matches!(op.action, Action::Follow { joint: Joint::Through, .. }));
+        assert!(through.count() > 100, "{machine}");
+        let backend = registry::backend(target).unwrap();
+        let written = driver::write(&outcome, backend).unwrap().unwrap();
+        assert!(is_same(&outcome, backend, &written.files), "{target}");
+    }
+}
+
+#[test]
+fn refusals_offer_what_was_tried() {
+    let refused = |text: &str| {
+        let outcome = proven(text);
+        let [refused] = outcome.diagnostics.as_slice() else {
+            panic!("{:?}", outcome.diagnostics);
+        };
+        refused.clone()
+    };
+    // The bowl asks for more than 4 degrees.
+    let text = job(BOWL, "limits { scallop <= 0.1 mm, lead <= 4 deg }\n  over_hub = 9 mm").replace(&machines(), "");
+    let lead = refused(&text);
+    assert_eq!(lead.code, Code::Overcut, "{lead:?}");
+    let fix = lead.fixes.first().unwrap();
+    let after = proven(&mended(&text, fix));
+    assert!(!has_errors(&after.diagnostics), "{:?}", after.diagnostics);
+    // Tracks keep no allowance, and come last.
+    let kept = refused(&job(DOME, &format!("{USUAL}\n  allowance = 0.05 mm")));
+    assert_eq!(kept.code, Code::Misplaced, "{kept:?}");
+}
