@@ -108,7 +108,8 @@ fn advice(diagnostic: &Diagnostic, margin: usize, color: ColorChoice) -> String 
 fn fix_in_words(fix: &Fix) -> String {
     let mut words = fix.title.clone();
     for edit in &fix.edits {
-        let replacement = edit.replacement.trim();
+        // What is put in after something else begins with a comma.
+        let replacement = edit.replacement.trim().trim_start_matches([',', ' ']);
         if !replacement.is_empty() && !fix.title.contains(replacement) {
             let _ = write!(words, ": `{replacement}`");
         }

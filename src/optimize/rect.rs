@@ -137,12 +137,11 @@ fn gained(now: Figures, then: Option<Figures>) -> String {
         return "saves nothing".to_owned();
     }
     let share = (saved.to_s() / now.time.to_s()).abs() * 100.0;
-    let (verb, by) = if saved > Duration::ZERO {
-        ("saves", saved)
+    if saved > Duration::ZERO {
+        format!("saves {} ({share:.1} %)", seconds(saved))
     } else {
-        ("costs", Duration::ZERO - saved)
-    };
-    format!("{verb} {} ({share:.1} %)", seconds(by))
+        format!("takes {} longer ({share:.1} %)", seconds(Duration::ZERO - saved))
+    }
 }
 
 fn row(mark: &str, limit: Option<Length>, plan: Option<Figures>) -> Vec<String> {

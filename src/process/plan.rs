@@ -48,6 +48,10 @@ pub fn plan_while<'j>(
     let mut ground = first_ground(&planning, space, wanted);
     let mut operations = Vec::new();
     for operation in &job.operations {
+        // What takes off what others leave has nothing to go by where one of these has no plan.
+        if !unplanned.is_empty() && operation.takes_off().is_some() {
+            continue;
+        }
         match operation.plan(ground.clone()) {
             Ok(Laid { planned, after }) => {
                 ground.cuts_left -= planned.cuts();

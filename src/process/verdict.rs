@@ -198,7 +198,12 @@ pub fn explained(asked: &dyn Operation, finding: Finding) -> Diagnostic {
         CutFault::Stays { at, height, limit } => {
             let (what, label) = stays_words(at, height, limit);
             let place = place(&finding);
-            Diagnostic::new(Code::ScallopOverLimit, format!("beside {place}, {what}"), span, label)
+            Diagnostic::new(
+                Code::ScallopOverLimit,
+                format!("beside {place}, {what}"),
+                span,
+                label,
+            )
         }
         CutFault::Strip(fault) => {
             let (what, label) = strip_words(fault);

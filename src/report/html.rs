@@ -238,9 +238,28 @@ pub(crate) fn percent(share: f64) -> String {
     format!("{:.1} %", share * 100.0)
 }
 
+/// What stands between backquotes is set as what to write.
+pub(crate) fn with_code(text: &str) -> Html {
+    let parts = text.split('`').enumerate();
+    let set = parts.map(|(number, part)| match number % 2 {
+        0 => unbroken(part),
+        _ => html!(in "<code>{part}</code>", part = part),
+    });
+    set.collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_to_write_is_set_as_code() {
+        assert_eq!(
+            with_code("`a = 3 mm` saves 5 %, or `b`").into_text(),
+            "<code>a = 3 mm</code> saves 5\u{a0}%, or <code>b</code>"
+        );
+        assert_eq!(with_code("nothing").into_text(), "nothing");
+    }
 
     #[test]
     fn numbers_stay_with_their_units() {

@@ -7,7 +7,7 @@
 use super::Material;
 use super::digest::hexadecimal;
 use super::facts;
-use super::html::{Html, Markup};
+use super::html::{Html, Markup, with_code};
 use super::page::policy::{Requests, policy};
 use vcutc_backend_api::ir::Changer;
 use vcutc_backend_api::units::Duration;
@@ -56,7 +56,15 @@ pub fn sheet(outcome: &Outcome, files: &[(&str, &[u8])], read_back: Option<ReadB
         } else {
             "Blade no."
         },
-        not_checked = items(material.compiled.checks.with(read_back).by_hand()),
+        not_checked = items(
+            material
+                .compiled
+                .checks
+                .with(read_back)
+                .by_hand()
+                .iter()
+                .map(|line| with_code(line))
+        ),
         version = env!("CARGO_PKG_VERSION"),
     );
     Some(sheet.into_text())

@@ -695,7 +695,9 @@ fn note(kept: &mut Option<(usize, Finding)>, finding: Finding, worse: impl Fn(&F
 fn is_longer(a: &Finding, b: &Finding) -> bool {
     let needed = |finding: &Finding| match finding.fault {
         CutFault::NotFreed { needed, .. } => needed.to_mm(),
-        CutFault::Blocked { .. } | CutFault::Overcut { .. } | CutFault::Strip(_) | CutFault::Stays { .. } => 0.0,
+        CutFault::Blocked { .. } | CutFault::Overcut { .. } | CutFault::Strip(_) | CutFault::Stays { .. } => {
+            0.0
+        }
     };
     needed(a) > needed(b) + 1e-6
 }

@@ -72,7 +72,11 @@ fn places(program: &Program, apart: f64) -> Vec<Disc> {
         for step in 0..=(count as u32) {
             let frame = line.frame_at(program, f64::from(step) / count).unwrap();
             let matrix = frame.orientation.matrix();
-            places.push([frame.origin.to_array(), matrix.map(|row| row[0]), matrix.map(|row| row[1])]);
+            places.push([
+                frame.origin.to_array(),
+                matrix.map(|row| row[0]),
+                matrix.map(|row| row[1]),
+            ]);
         }
     }
     places
@@ -123,7 +127,10 @@ fn points_of_the_disc_neither_enter_the_part_nor_leave_more_than_the_limit() {
         let [tracked] = compiled.report.tracked.as_slice() else {
             panic!("{:?}", compiled.report.tracked);
         };
-        assert!(tracked.left.to_mm() <= 0.1 && tracked.entry.to_mm() <= 0.0203, "{tracked:?}");
+        assert!(
+            tracked.left.to_mm() <= 0.1 && tracked.entry.to_mm() <= 0.0203,
+            "{tracked:?}"
+        );
         assert!(tracked.leads[0].to_deg() > 2.9, "{tracked:?}");
         let told = compiled.summary.iter().any(|line| line.contains("finished"));
         assert!(told, "{:?}", compiled.summary);
@@ -146,12 +153,28 @@ fn a_bowl_gets_the_lead_that_its_curvature_asks_for() {
 fn all_targets_write_tracks_on_surfaces_and_read_them_back() {
     for (machine, target) in [("kuka", "krl"), ("abb", "rapid"), ("gantry", "gcode")] {
         let outcome = compiled_on(job(DOME, USUAL), Some(machine));
-        assert!(!has_errors(&outcome.diagnostics), "{machine}: {:?}", outcome.diagnostics);
-        let program = outcome.compiled.as_ref().unwrap().program.verified().program().clone();
-        let through = program
-            .ops
-            .iter()
-            .filter(|op| matches!(op.action, Action::Follow { joint: Joint::Through, .. }));
+        assert!(
+            !has_errors(&outcome.diagnostics),
+            "{machine}: {:?}",
+            outcome.diagnostics
+        );
+        let program = outcome
+            .compiled
+            .as_ref()
+            .unwrap()
+            .program
+            .verified()
+            .program()
+            .clone();
+        let through = program.ops.iter().filter(|op| {
+            matches!(
+                op.action,
+                Action::Follow {
+                    joint: Joint::Through,
+                    ..
+                }
+            )
+        });
         assert!(through.count() > 100, "{machine}");
         let backend = registry::backend(target).unwrap();
         let written = driver::write(&outcome, backend).unwrap().unwrap();
@@ -169,7 +192,11 @@ fn refusals_offer_what_was_tried() {
         refused.clone()
     };
     // The bowl asks for more than 4 degrees.
-    let text = job(BOWL, "limits { scallop <= 0.1 mm, lead <= 4 deg }\n  over_hub = 9 mm").replace(&machines(), "");
+    let text = job(
+        BOWL,
+        "limits { scallop <= 0.1 mm, lead <= 4 deg }\n  over_hub = 9 mm",
+    )
+    .replace(&machines(), "");
     let lead = refused(&text);
     assert_eq!(lead.code, Code::Overcut, "{lead:?}");
     let fix = lead.fixes.first().unwrap();

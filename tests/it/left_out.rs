@@ -36,10 +36,10 @@ fn strips_whose_slits_take_the_body_into_a_wall_are_left_out() {
             "{height}: {warned:?}"
         );
         let plan = &planned(&outcome).plan;
-        assert_eq!(plan.left_out, left_out, "{height}");
+        assert_eq!(plan.room.left_out(), left_out, "{height}");
         let without = proven(beside_a_plateau(height, "").replace(", body (40 mm, 8 mm) }", " }"));
         let all = &planned(&without).plan;
-        assert_eq!(all.left_out, 0);
+        assert_eq!(all.room.left_out(), 0);
         assert_eq!(plan.strips().count() + left_out, all.strips().count(), "{height}");
         // What is left out stands, so limits count it, and the message says why.
         let limited = proven(beside_a_plateau(height, ", limits { scallop <= 11 mm }"));

@@ -78,7 +78,9 @@ impl Reason {
             Self::NotMeasured => "not measured for an arm without a closed-form solution",
             Self::NoBody => "the compiler does not know their shapes",
             Self::AirCut => "an air cut is compared with nothing but the top of the stock",
-            Self::SectionsOnly => "the compiler looks at sections across the tracks, not at what lies between them",
+            Self::SectionsOnly => {
+                "the compiler looks at sections across the tracks, not at what lies between them"
+            }
             Self::NoReader => "this target's programs are not read back",
         }
     }

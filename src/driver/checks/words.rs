@@ -29,7 +29,11 @@ impl Checks {
     pub fn proven(&self) -> String {
         let mut parts = Vec::new();
         if self.is_made(&Check::Chips) && self.is_made(&Check::Part) {
-            let by = if self.is_made(&Check::Tracks) { " of roughing" } else { "" };
+            let by = if self.is_made(&Check::Tracks) {
+                " of roughing"
+            } else {
+                ""
+            };
             parts.push(format!(
                 "every chip{by} comes free and no cut{by} enters the part or its allowance"
             ));

@@ -61,7 +61,7 @@ fn even(taken: (&str, &WayFigures), other: (&str, &WayFigures)) -> String {
     let (word, planned) = (other.0, &other.1.planned);
     let depth = match planned.is_faster_than(&taken.1.planned) {
         Faster::Everywhere => format!("{word} is faster at every depth"),
-        Faster::Nowhere => format!("{word} is faster at no depth"),
+        Faster::Nowhere => format!("{word} is never faster at these feeds"),
         Faster::Beyond(depth) => format!("{word} is faster from a depth of {} on", millimetres(depth)),
         Faster::Below(depth) => format!("{word} is faster below a depth of {}", millimetres(depth)),
     };
@@ -72,7 +72,7 @@ fn even(taken: (&str, &WayFigures), other: (&str, &WayFigures)) -> String {
             let even = figures.planned.even_feed(&against.1.planned)?;
             let (depth, feed) = (millimetres(figures.planned.depth), metres_per_minute(even));
             Some(format!(
-                "; at {depth} {word} is the faster one {from} a disc feed of {feed}{on}"
+                "; at {depth} {word} is faster {from} a disc feed of {feed}{on}"
             ))
         });
     let basis = if has_uncounted_changes(taken.1) || has_uncounted_changes(other.1) {

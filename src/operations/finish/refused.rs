@@ -214,11 +214,26 @@ impl Refused<'_> {
         }
     }
 
+    /// Whether the operation before this one leaves its cuts where they are, and could lift them onto the part.
+    fn may_lift(&self) -> bool {
+        let least = self.asked.allowance.value;
+        let variants = self.roughing().map(|before| before.leaving_less(least));
+        let advice = variants
+            .unwrap_or_default()
+            .into_iter()
+            .map(|variant| variant.advice);
+        advice.into_iter().any(|advice| advice.contains("residual"))
+    }
+
     fn advised_of(&self, diagnostic: Diagnostic, fault: PassFault) -> Diagnostic {
         if self.roughing().is_none() {
             return diagnostic.help("rough the stock first, for example with `rough vcut`");
         }
-        let nearer = "let roughing end its grooves nearer to the part: with `residual = lift`, a smaller `allowance`, or a smaller `step`";
+        let nearer = if self.may_lift() {
+            "let roughing end its grooves nearer to the part: with `residual = lift`, a smaller `allowance`, or a smaller `step`"
+        } else {
+            "let roughing end its grooves nearer to the part: with a smaller `allowance`, or a smaller `step`"
+        };
         match fault {
             PassFault::Attached {
                 hold: Hold::Buried { .. },

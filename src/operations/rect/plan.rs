@@ -126,14 +126,36 @@ pub struct PlannedRect {
     pub levels: Vec<f64>,
     /// What the blades do, one after the other. No stage is empty, and every change of blade lies between two of them.
     pub stages: Vec<Stage>,
-    /// How many strips are left out because the body of the straight blade has no room beside them.
-    pub left_out: usize,
+    /// Whether the body of the straight blade has room beside the slits.
+    pub room: Room,
     /// The most that stays on the part.
     pub left: Length,
     /// What stays, from left to right; walls are two corners at one x.
     pub contour: Vec<Point2>,
     /// Its time by the model.
     pub time: Duration,
+}
+
+/// Whether the body of the straight blade has room beside slits; the best comes first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Room {
+    /// It has, or nothing is known of it.
+    Enough,
+    /// It has without so many strips, which are left out.
+    Without(usize),
+    /// It meets what stands, and leaving out strips does not help.
+    Lacking,
+}
+
+impl Room {
+    /// How many strips are left out.
+    #[must_use]
+    pub const fn left_out(self) -> usize {
+        match self {
+            Self::Without(strips) => strips,
+            Self::Enough | Self::Lacking => 0,
+        }
+    }
 }
 
 /// What one blade does before the other one comes.

@@ -4,7 +4,7 @@
 
 use crate::asked::RoughRect;
 use crate::plan::model::Counts;
-use crate::plan::{self, Blades, Limits, PlannedRect, Wish, Work};
+use crate::plan::{self, Blades, Limits, PlannedRect, Room, Wish, Work};
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::number::show;
 use vcutc_geometry::curve::Point2;
@@ -121,7 +121,7 @@ impl RoughRect {
             ..self.wish()
         };
         let plan = plan::plan(work, blades, &wish, ground.cuts_left).ok()?;
-        Some(Figures::of(&plan))
+        (plan.room != Room::Lacking).then(|| Figures::of(&plan))
     }
 }
 

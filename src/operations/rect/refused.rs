@@ -46,7 +46,8 @@ pub(crate) fn diagnostic(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
             through,
             needed,
             edge,
-        } => too_deep(asked, (*layer, *through), (*needed, *edge)),
+            most,
+        } => too_deep(asked, (*layer, *through), (*needed, *edge), *most),
         Refusal::TooHighForSlit {
             x,
             bottom,
@@ -94,8 +95,9 @@ pub(crate) fn diagnostic(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
             left,
             limit,
             left_out,
+            works,
         } => {
-            let diagnostic = scallop(asked, *left, *limit);
+            let diagnostic = scallop(asked, *left, *limit, *works);
             match words::left_out(asked, *left_out) {
                 Some(note) => diagnostic.note(note),
                 None => diagnostic,
@@ -226,18 +228,15 @@ fn too_thick(asked: &RoughRect, layer: Length, chip: Length, depth: Length) -> D
 }
 
 /// The least that was planned, and what of it no layer and no step changes.
-fn scallop(asked: &RoughRect, left: Length, limit: Length) -> Diagnostic {
-    let advice = match (asked.layer.value, asked.step.value) {
-        (Auto::Given(_), Auto::Given(_)) => {
-            format!(
-                "use smaller layers and steps, or a limit of at least {} mm",
-                up(left)
-            )
+fn scallop(asked: &RoughRect, left: Length, limit: Length, works: Option<Length>) -> Diagnostic {
+    let advice = match (asked.layer.value, asked.step.value, works.map(up)) {
+        (Auto::Given(_), Auto::Given(_), Some(works)) => {
+            format!("use smaller layers and steps, or a limit of {works} mm, which a plan keeps")
         }
-        (Auto::Auto, _) | (_, Auto::Auto) => format!(
-            "use a limit of at least {} mm: this is the least of the layers and steps that were tried",
-            up(left)
+        (_, _, Some(works)) => format!(
+            "use a limit of {works} mm, which a plan keeps: the least of the layers and steps that were tried"
         ),
+        (_, _, None) => "use smaller layers and steps, or allow more to stay".to_owned(),
     };
     let sink = asked.disc.radius.value * asked.lead.value.sin();
     let diagnostic = Diagnostic::new(
@@ -259,8 +258,8 @@ fn scallop(asked: &RoughRect, left: Length, limit: Length) -> Diagnostic {
         )
     });
     let diagnostic = match (allowance, rise) {
-        (Some(allowance), Some(rise)) => diagnostic.note(format!("in that are {allowance}, and {rise}")),
-        (Some(one), None) | (None, Some(one)) => diagnostic.note(format!("in that: {one}")),
+        (Some(allowance), Some(rise)) => diagnostic.note(format!("of this: {allowance}, and {rise}")),
+        (Some(one), None) | (None, Some(one)) => diagnostic.note(format!("of this: {one}")),
         (None, None) => diagnostic,
     };
     let diagnostic = if asked.down_to.value > Length::ZERO {
@@ -275,6 +274,7 @@ fn too_deep(
     asked: &RoughRect,
     (layer, through): (Length, u32),
     (needed, edge): (Length, Length),
+    most: Length,
 ) -> Diagnostic {
     let layers = match through {
         1 => format!("layers of {} mm", mm(layer)),
@@ -297,7 +297,7 @@ fn too_deep(
     )
     .help(format!(
         "use layers of at most {} mm, or `layer = auto`",
-        down(layer * (edge.to_mm() / needed.to_mm()))
+        down(most)
     ))
 }
 
@@ -309,7 +309,7 @@ fn closed(asked: &RoughRect, closed: &Closed) -> Diagnostic {
     let diagnostic = Diagnostic::new(
         Code::NoAccess,
         format!(
-            "layer {} is closed at x {} mm and x {} mm: `{}` gets at no strip between them; {below}",
+            "layer {} is closed at x {} mm and x {} mm: `{}` cannot reach any strip between them; {below}",
             closed.layer,
             mm(closed.left),
             mm(closed.right),
@@ -323,7 +323,7 @@ fn closed(asked: &RoughRect, closed: &Closed) -> Diagnostic {
         return diagnostic.help("rough this part with `rough vcut`");
     };
     let text = format!("{} mm", mm(height));
-    let advice = format!("stop above it with `down_to = {text}`, and cut the rest with `rough vcut`");
+    let advice = format!("stop above the valley with `down_to = {text}`, and cut the rest with `rough vcut`");
     diagnostic.fix_all(advice, &asked.setup.stated("down_to", asked.down_to.span, &text))
 }
 

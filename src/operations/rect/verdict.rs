@@ -57,7 +57,7 @@ pub(crate) fn much_stays(
     compile: &Compile<'_>,
 ) -> Option<Diagnostic> {
     let asked = &planned.asked;
-    let left_out = crate::words::left_out(asked, planned.plan.left_out)?;
+    let left_out = crate::words::left_out(asked, planned.plan.room.left_out())?;
     let (body, share) = (asked.blade.body.as_ref()?, balance.share());
     if share <= MUCH {
         return None;

@@ -117,7 +117,7 @@ pub(crate) fn summary(planned: &Planned, _: &Report) -> Vec<(&'static str, Strin
             counted(counts.changes, "change of blade")
         ),
     ));
-    lines.extend(left_out(&planned.asked, planned.plan.left_out).map(|text| ("avoid", text)));
+    lines.extend(left_out(&planned.asked, planned.plan.room.left_out()).map(|text| ("avoid", text)));
     lines
 }
 

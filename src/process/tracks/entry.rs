@@ -44,7 +44,13 @@ pub struct Deepest {
 const HALVINGS: u32 = 6;
 
 /// The bound on a move; on both halves of it where it is not small enough, for a bound falls with the square of the length.
-fn bounded(moves: &Moves<'_, '_>, disc: &Disc, [from, to]: [&Placed; 2], enough: Length, halvings: u32) -> Entry {
+fn bounded(
+    moves: &Moves<'_, '_>,
+    disc: &Disc,
+    [from, to]: [&Placed; 2],
+    enough: Length,
+    halvings: u32,
+) -> Entry {
     let entry = moves.between(disc, from, to, enough);
     if entry.depth <= enough || halvings == 0 {
         return entry;
@@ -54,7 +60,11 @@ fn bounded(moves: &Moves<'_, '_>, disc: &Disc, [from, to]: [&Placed; 2], enough:
     let [first, second] =
         [[from, &middle], [&middle, to]].map(|half| bounded(moves, disc, half, enough, halvings - 1));
     let slope = first.slope.max(second.slope);
-    let deeper = if first.depth >= second.depth { first } else { second };
+    let deeper = if first.depth >= second.depth {
+        first
+    } else {
+        second
+    };
     Entry { slope, ..deeper }
 }
 

@@ -157,7 +157,10 @@ impl Judge<'_, '_, '_> {
 
     /// A track that does not lead along y throughout, or holds the disc with its face upwards, frees nothing that is known.
     fn note_turning_back(&mut self, track: &Stated) {
-        let centre = track.poses.first().map_or(Point3::new(0.0, 0.0, 0.0), |pose| pose.centre);
+        let centre = track
+            .poses
+            .first()
+            .map_or(Point3::new(0.0, 0.0, 0.0), |pose| pose.centre);
         let needed = Length::mm(f64::INFINITY);
         let fault = CutFault::NotFreed {
             needed,
@@ -185,7 +188,12 @@ impl Judge<'_, '_, '_> {
         let over = skimmed.left.iter().filter(|left| left.height > limit + ROUNDING);
         for left in over {
             let nearest = stated.iter().min_by(|a, b| {
-                let aside = |track: &Stated| track.poses.first().map_or(f64::INFINITY, |pose| (pose.centre.x - left.at.x).abs());
+                let aside = |track: &Stated| {
+                    track
+                        .poses
+                        .first()
+                        .map_or(f64::INFINITY, |pose| (pose.centre.x - left.at.x).abs())
+                };
                 aside(a).total_cmp(&aside(b))
             });
             let Some(track) = nearest else { continue };

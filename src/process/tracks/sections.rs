@@ -159,7 +159,10 @@ impl Section {
     }
 
     fn missed(&self, track: usize, way: &Way) -> Fault {
-        let centre = way.poses().first().map_or(Point3::new(0.0, self.y, 0.0), |pose| pose.centre);
+        let centre = way
+            .poses()
+            .first()
+            .map_or(Point3::new(0.0, self.y, 0.0), |pose| pose.centre);
         let stretch = Stretch {
             from: centre.x,
             to: centre.x,

@@ -223,7 +223,11 @@ fn higher_body(
     let heights: Vec<String> = stages.iter().map(|stage| text(stage.from)).collect();
     let advice = match heights.as_slice() {
         [only] => format!("use a longer blade, whose body begins at {only}"),
-        all => format!("use a longer blade, whose stages begin at {}", all.join(", ")),
+        [first @ .., last] => format!(
+            "use a longer blade, whose stages begin at {} and {last}",
+            first.join(", ")
+        ),
+        [] => "use a longer blade".to_owned(),
     };
     let given = body.stages.iter().zip(heights);
     let edits = given.map(|(stage, height)| Some((stage.from.span?, height)));

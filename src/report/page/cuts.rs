@@ -5,7 +5,7 @@
 use crate::Material;
 use crate::html::{Column, Html, table, unbroken};
 use std::collections::BTreeMap;
-use vcutc_backend_api::ir::{Action, Program, Site};
+use vcutc_backend_api::ir::{Action, CutKind, Program, Site};
 use vcutc_backend_api::units::Duration;
 use vcutc_driver::summary::time;
 
@@ -17,6 +17,8 @@ const MOST_CUTS: usize = 2000;
 struct Cut {
     /// Its number within its layer.
     number: u32,
+    /// What it does.
+    kind: CutKind,
     /// Where the tip runs, in mm.
     x: f64,
     z: f64,
@@ -58,7 +60,7 @@ fn folded(layers: &Layers, height: f64, name: &dyn Fn((u32, u32)) -> String) -> 
             table = by_layer(layers, name)
         ),
         _ => {
-            let hint = "Depth is measured from the top of the stock to the tip. The way is that of both flanks, with their extensions \
+            let hint = "Depth is measured from the top of the stock to the tip, of a disc to the centre of its edge. The way is that of both flanks, with their extensions \
                         beyond the stock. The time includes turns and the way to the cut. Choose a start to see it in the playback.";
             let all = layers
                 .iter()
@@ -82,12 +84,14 @@ fn layers(program: &Program, op_times: &[Duration]) -> Layers {
             cut,
         } = segment.op.site
         {
-            let (operation, layer, number) = (u32::from(operation.0) + 1, layer.get(), cut.get());
+            let (id, operation) = (operation, u32::from(operation.0) + 1);
+            let (layer, number) = (layer.get(), cut.get());
             let cuts = layers.entry((operation, layer)).or_default();
             let place = *places.entry((operation, layer, number)).or_insert(cuts.len());
             if place == cuts.len() {
                 cuts.push(Cut {
                     number,
+                    kind: CutKind::Cut,
                     x: 0.0,
                     z: 0.0,
                     way: 0.0,
@@ -97,6 +101,9 @@ fn layers(program: &Program, op_times: &[Duration]) -> Layers {
             }
             if let Some(cut) = cuts.get_mut(place) {
                 cut.time += *time;
+                if matches!(segment.op.action, Action::Cut { .. } | Action::Follow { .. }) {
+                    cut.kind = program.cut_kind(id, segment.before.tool);
+                }
                 if let (Action::Cut { to, .. } | Action::Follow { to, .. }, Some(line)) =
                     (segment.op.action, segment.line())
                 {
@@ -116,7 +123,7 @@ fn layer_of_cuts(name: &str, cuts: &[Cut], height: f64) -> Html {
         let start = cut.start.to_s();
         html!(
             "cut.html",
-            number = cut.number as usize,
+            number = label(cut),
             x = format!("{:.2}", cut.x),
             z = format!("{:.2}", cut.z),
             depth = format!("{:.2}", height - cut.z),
@@ -132,6 +139,14 @@ fn layer_of_cuts(name: &str, cuts: &[Cut], height: f64) -> Html {
         words = unbroken(&in_words(cuts)),
         rows = cuts.iter().map(row).collect::<Html>(),
     )
+}
+
+/// Its number, and what it is where that is not a V.
+fn label(cut: &Cut) -> String {
+    match cut.kind {
+        CutKind::Cut => cut.number.to_string(),
+        CutKind::Slit | CutKind::Strip | CutKind::Track => format!("{} {}", cut.kind.noun(), cut.number),
+    }
 }
 
 /// `13 cuts, tips at z 28.43 mm, 1 min 27.1 s`.
@@ -212,6 +227,7 @@ mod tests {
         for number in 0..count {
             let cut = Cut {
                 number: number % 100 + 1,
+                kind: CutKind::Cut,
                 x: f64::from(number),
                 z: 123.456,
                 way: 1234.5,

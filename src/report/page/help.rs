@@ -2,7 +2,7 @@
 
 use super::Subject;
 use super::source::Listing;
-use crate::html::{Html, unbroken};
+use crate::html::{Html, with_code};
 use vcutc_driver::hints::Hint;
 
 /// The block; nothing where nothing was found, or nothing was looked for.
@@ -35,28 +35,4 @@ fn item(hint: &Hint, listing: &Listing<'_>) -> Html {
         title = with_code(&hint.fix.title),
         edits = edits.collect::<Html>()
     )
-}
-
-/// What stands between backquotes is set as what to write.
-fn with_code(text: &str) -> Html {
-    let parts = text.split('`').enumerate();
-    let set = parts.map(|(number, part)| match number % 2 {
-        0 => unbroken(part),
-        _ => html!(in "<code>{part}</code>", part = part),
-    });
-    set.collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_to_write_is_set_as_code() {
-        assert_eq!(
-            with_code("`a = 3 mm` saves 5 %, or `b`").into_text(),
-            "<code>a = 3 mm</code> saves 5\u{a0}%, or <code>b</code>"
-        );
-        assert_eq!(with_code("nothing").into_text(), "nothing");
-    }
 }

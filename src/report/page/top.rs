@@ -1,11 +1,11 @@
 //! The top of the page: what was made, what is proven of it, and its key numbers.
 
 use super::Subject;
-use crate::html::{Html, unbroken};
+use crate::html::{Html, unbroken, with_code};
+use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::render::{ColorChoice, render};
 use vcutc_driver::checks::{Checks, Standing};
 use vcutc_driver::summary::{self, time};
-use vcutc_backend_api::units::Length;
 use vcutc_motion::summary::margin_words;
 
 /// The header: job, machine, verdict, warnings.
@@ -44,7 +44,7 @@ fn verdict(checks: &Checks) -> Html {
     let open = checks.not_checked().map(|open| {
         html!(
             in "<p class=\"unchecked\"><strong>Not checked:</strong> {open}.</p>\n",
-            open = open
+            open = with_code(&open)
         )
     });
     html!(
@@ -149,7 +149,11 @@ fn rows(subject: Subject<'_>) -> Vec<Key> {
             "of the cross-section".to_owned(),
         ),
     ];
-    let finished = report.tracked.iter().map(|tracked| tracked.left).max_by(Length::total_cmp);
+    let finished = report
+        .tracked
+        .iter()
+        .map(|tracked| tracked.left)
+        .max_by(Length::total_cmp);
     rows.push(match (&compiled.left_over, finished) {
         (Some(_), Some(left)) => free(
             "Material left",

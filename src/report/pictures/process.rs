@@ -73,7 +73,7 @@ fn others(planned: &PlanTime, deepest: Length) -> Vec<(String, [f64; 2])> {
     let ratio = |&ratio: &f64| {
         let feed = still.to_mm_per_s() * ratio / spinning.to_mm_per_s();
         let metres = show((still.to_mm_per_s() * ratio * 6.0).round() / 100.0);
-        let name = format!("disc at {metres} m/min, {ratio} of the blade");
+        let name = format!("disc at {metres} m/min, {ratio} x the feed of the straight blade");
         (name, ends(planned, deepest, feed))
     };
     RATIOS.iter().map(ratio).collect()

@@ -145,7 +145,10 @@ impl Layout<'_, '_, '_> {
             let place = Point3::new(asked.x, 0.0, 0.0);
             return Err(Unlaid::Posture { place });
         };
-        let (second, last_but_one) = (stops.get(1).unwrap_or(last), stops.iter().rev().nth(1).unwrap_or(first));
+        let (second, last_but_one) = (
+            stops.get(1).unwrap_or(last),
+            stops.iter().rev().nth(1).unwrap_or(first),
+        );
         let before = self.beyond(asked.feed, [first, second], first, End::Before)?;
         let after = self.beyond(asked.feed, [last_but_one, last], last, End::After)?;
         let within = stops.iter().map(|stop| stop.placed.pose());
@@ -160,9 +163,7 @@ impl Layout<'_, '_, '_> {
                     .ok_or(Unlaid::Posture { place: tip })
             })
             .collect::<Result<_, _>>()?;
-        let posture = Unlaid::Posture {
-            place: first.contact,
-        };
+        let posture = Unlaid::Posture { place: first.contact };
         let poses = as_poses(&held).ok_or(posture)?;
         let entry = deepest(self.moves, self.disc, &poses, [MOVES, BLEND]).ok_or(posture)?;
         if entry.depth > GOUGE {
@@ -179,7 +180,10 @@ impl Layout<'_, '_, '_> {
                 return Err(Unlaid::Below { tip: *tip, by });
             }
         }
-        let highest = stops.iter().max_by(|a, b| a.contact.z.total_cmp(&b.contact.z)).unwrap_or(first);
+        let highest = stops
+            .iter()
+            .max_by(|a, b| a.contact.z.total_cmp(&b.contact.z))
+            .unwrap_or(first);
         Ok(Track {
             x: asked.x,
             stands: stands(&held),

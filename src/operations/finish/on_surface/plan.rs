@@ -110,7 +110,8 @@ pub(super) fn plan(
     let dropper = Dropper::new(surface);
     let normals = Normals::new(surface);
     // Checking a job refuses surfaces that are too tangled, or have no height somewhere.
-    let (Ok(moves), Ok(sections), Some(disc)) = (Moves::new(&dropper), Sections::of(surface), solid(&blade)) else {
+    let (Ok(moves), Ok(sections), Some(disc)) = (Moves::new(&dropper), Sections::of(surface), solid(&blade))
+    else {
         return Err(Refusal::Nothing);
     };
     let planner = Planner {
@@ -281,7 +282,11 @@ impl Planner<'_, '_, '_> {
     /// strips that the disc takes, nor than have room beside its hub.
     fn first_step(&self, lead: Angle, tilt: Tilt) -> f64 {
         let (wish, radius) = (self.wish, self.wish.disc.radius);
-        let most = wish.disc.width.map_or(f64::INFINITY, Length::to_mm).min(radius.to_mm());
+        let most = wish
+            .disc
+            .width
+            .map_or(f64::INFINITY, Length::to_mm)
+            .min(radius.to_mm());
         let (most, side) = match tilt {
             Tilt::Fixed(side) => (most, side),
             Tilt::PastHub { share } => {
@@ -349,7 +354,11 @@ impl Planner<'_, '_, '_> {
                 Direction::Alternate if place % 2 == 0 => Feed::Forward,
                 Direction::Alternate => Feed::Backward,
             };
-            let key = (number, run.side() == Side::Right && hold.side != Angle::ZERO, feed == Feed::Forward);
+            let key = (
+                number,
+                run.side() == Side::Right && hold.side != Angle::ZERO,
+                feed == Feed::Forward,
+            );
             let laid = known.borrow().get(&key).cloned();
             let track = match laid {
                 Some(track) => track,

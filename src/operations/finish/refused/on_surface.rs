@@ -111,7 +111,11 @@ impl Refused<'_> {
     fn held(&self, x: f64, y: f64) -> Diagnostic {
         Diagnostic::new(
             Code::Overcut,
-            format!("at x {} mm, y {} mm the part is too steep for the disc", mm(x), mm(y)),
+            format!(
+                "at x {} mm, y {} mm the part is too steep for the disc",
+                mm(x),
+                mm(y)
+            ),
             self.asked.setup.head_span,
             "tracks of this operation",
         )
@@ -125,7 +129,9 @@ impl Refused<'_> {
 
     pub(super) fn advised_on_surface(&self, diagnostic: Diagnostic, refusal: &Refusal) -> Diagnostic {
         match refusal {
-            Refusal::Allowance => diagnostic.help("delete `allowance`, and raise the surface if material has to stay on it"),
+            Refusal::Allowance => {
+                diagnostic.help("delete `allowance`, and raise the surface if material has to stay on it")
+            }
             Refusal::NotLast => diagnostic.help("move this block to the end, or into a job of its own"),
             Refusal::Nothing => diagnostic.help("delete the operation, or leave more for it"),
             Refusal::TooMany { .. } => diagnostic.help("use a larger `step`, or allow more scallop"),

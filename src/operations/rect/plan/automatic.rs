@@ -8,7 +8,7 @@ use super::blades::TOUCH;
 use super::ground::{Sizes, Terms};
 use super::refusal::{Closed, Exceeded, Over, Refusal, SizeField};
 use super::trial::{self, Choice};
-use super::{Blades, PlannedRect, Rounding, Span, Wish, Work};
+use super::{Blades, PlannedRect, Room, Rounding, Span, Wish, Work};
 use crate::asked::Residual;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::grid;
@@ -19,6 +19,12 @@ const SHRINKING: f64 = 0.8;
 
 /// How often a size shrinks at most: to about a sixth.
 const SHRUNK: u32 = 8;
+
+/// So many smaller sizes are tried where the body of the straight blade has no room beside slits.
+const TRIES_FOR_ROOM: u32 = 24;
+
+/// How often a limit on the scallop is raised to one that a plan keeps.
+const RAISES: u32 = 3;
 
 /// Most layers that slits go through where that is open.
 const MOST_THROUGH: u32 = 8;
@@ -55,8 +61,25 @@ pub fn plan(work: Work<'_>, blades: &Blades, wish: &Wish, most: usize) -> Result
     match search.best(wish.down_to) {
         Err(Refusal::Closed(closed)) => Err(Refusal::Closed(search.opened(closed))),
         Err(Refusal::Over(over)) => Err(Refusal::Over(search.with_a_limit_that_works(over))),
+        Err(Refusal::Scallop {
+            left,
+            limit,
+            left_out,
+            ..
+        }) => Err(Refusal::Scallop {
+            left,
+            limit,
+            left_out,
+            works: search.scallop_that_works(left),
+        }),
         planned => planned,
     }
+}
+
+/// Whether a plan is faster, the body of the straight blade having no less room.
+fn is_better(plan: &PlannedRect, other: &PlannedRect) -> bool {
+    let order = plan.room.cmp(&other.room).then(plan.time.total_cmp(&other.time));
+    order.is_lt()
 }
 
 struct Search<'s> {
@@ -84,7 +107,7 @@ impl Search<'_> {
             }
             let further = self.through(through, down_to);
             best = match (best, further) {
-                (Ok(best), Ok(further)) if further.time < best.time => Ok(further),
+                (Ok(best), Ok(further)) if is_better(&further, &best) => Ok(further),
                 (Ok(best), _) => Ok(best),
                 (Err(_), Ok(further)) => Ok(further),
                 (Err(refusal), Err(other)) => Err(refusal.or_less(other)),
@@ -116,9 +139,28 @@ impl Search<'_> {
             further.total_cmp(&section)
         });
         let mut best: Option<Refusal> = None;
+        let mut cramped: Option<PlannedRect> = None;
+        let mut further = TRIES_FOR_ROOM;
         for (layer, step) in tries {
+            if cramped.is_some() {
+                if further == 0 {
+                    break;
+                }
+                further -= 1;
+            }
             match self.tried(layer, step, through, down_to) {
-                Ok(plan) => return Ok(plan),
+                Ok(plan) if plan.room == Room::Enough => return Ok(plan),
+                Ok(plan) => {
+                    let is_better = cramped.as_ref().is_none_or(|known| {
+                        let order = plan.room.cmp(&known.room);
+                        order.then(plan.left.total_cmp(&known.left)).is_lt()
+                    });
+                    if is_better {
+                        cramped = Some(plan);
+                    }
+                }
+                // With smaller sizes nothing else is in the way but what was before.
+                Err(_) if cramped.is_some() => {}
                 Err(refusal @ Refusal::Scallop { .. }) => {
                     best = Some(match best {
                         Some(best) => best.or_less(refusal),
@@ -130,7 +172,7 @@ impl Search<'_> {
                 Err(refusal) => return Err(best.unwrap_or(refusal)),
             }
         }
-        Err(best.unwrap_or(Refusal::Nothing))
+        cramped.ok_or_else(|| best.unwrap_or(Refusal::Nothing))
     }
 
     fn tried(
@@ -170,7 +212,8 @@ impl Search<'_> {
             return Err(Refusal::Scallop {
                 left: plan.left,
                 limit,
-                left_out: plan.left_out,
+                left_out: plan.room.left_out(),
+                works: None,
             });
         }
         let counts = plan.counts();
@@ -203,6 +246,7 @@ impl Search<'_> {
                 through,
                 needed: knife.edge_for(LEAST_LAYER * f64::from(through)),
                 edge: knife.edge,
+                most: by_blades,
             });
         }
         self.sizes(
@@ -238,7 +282,8 @@ impl Search<'_> {
             Auto::Auto => span.most.map_or(largest, |most| most.min(largest)),
         };
         let least = span.least.unwrap_or(Length::ZERO);
-        let tries = if self.wish.limits.scallop.is_some() {
+        // Smaller sizes leave less, and give the body of the straight blade more room.
+        let tries = if self.wish.limits.scallop.is_some() || self.blades.shank.is_some() {
             SHRUNK
         } else {
             0
@@ -267,6 +312,26 @@ impl Search<'_> {
             Rounding::Exact => size,
             Rounding::Grid => Length::mm(grid::down(size.to_mm())),
         }
+    }
+
+    /// A limit on the scallop, no less than this, that a plan keeps: with another limit other sizes are tried.
+    fn scallop_that_works(&self, left: Length) -> Option<Length> {
+        let mut limit = left;
+        for _ in 0..RAISES {
+            limit = Length::mm(grid::up(limit.to_mm()));
+            let mut raised = self.wish.clone();
+            raised.limits.scallop = Some(limit);
+            let search = Search {
+                wish: &raised,
+                ..*self
+            };
+            match search.best(raised.down_to) {
+                Ok(_) => return Some(limit),
+                Err(Refusal::Scallop { left, .. }) if left > limit => limit = left,
+                Err(_) => return None,
+            }
+        }
+        None
     }
 
     /// A broken limit on the whole with one in its place that was tried: what is in the way may be another limit too.

@@ -31,6 +31,8 @@ pub enum Refusal {
         needed: Length,
         /// The edge that it may use.
         edge: Length,
+        /// The thickest layer that both blades take.
+        most: Length,
     },
     /// A slit runs down beside a wall that is higher than the edge of the straight blade covers.
     TooHighForSlit {
@@ -68,6 +70,8 @@ pub enum Refusal {
         limit: Length,
         /// How many strips are left out because the body of the straight blade has no room beside them.
         left_out: usize,
+        /// A limit that a plan keeps, tried.
+        works: Option<Length>,
     },
     /// There is a plan, but one that breaks a limit on the whole.
     Over(Over),

@@ -10,7 +10,7 @@ use super::refusal::{Closed, Refusal};
 use super::shank::{self, Shank};
 use super::slits::{self, Through};
 use super::terrain::Terrain;
-use super::{Blades, PlannedRect, Slit, Stage};
+use super::{Blades, PlannedRect, Room, Slit, Stage};
 use crate::asked::Residual;
 use core::ops::RangeInclusive;
 use vcutc_backend_api::units::{Duration, Length};
@@ -110,7 +110,16 @@ impl Trial<'_> {
         let (Ok(plan), Some(shank)) = (&planned, &self.blades.shank) else {
             return planned;
         };
-        self.cleared(layout, plan, shank).map_or(planned, Ok)
+        let cleared = self.cleared(layout, plan, shank);
+        cleared.map_or_else(
+            || {
+                planned.map(|plan| PlannedRect {
+                    room: Room::Lacking,
+                    ..plan
+                })
+            },
+            Ok,
+        )
     }
 
     /// The plan without the strips whose slits take the body into what stands.
@@ -120,7 +129,10 @@ impl Trial<'_> {
         loop {
             let met = shank.meets(&plan, self.ground, self.terms.work.stock);
             if met.is_empty() {
-                plan.left_out = pieces - layout.pieces.len();
+                let left_out = pieces - layout.pieces.len();
+                if left_out > 0 {
+                    plan.room = Room::Without(left_out);
+                }
                 return Some(plan);
             }
             let fewer = shank::without(&layout, &met, self.ground);
@@ -209,6 +221,7 @@ impl Trial<'_> {
                 through,
                 needed,
                 edge: knife.edge,
+                most: self.thickest_layer(through),
             });
         }
         let chip = layer + wheel.sink();
@@ -228,6 +241,13 @@ impl Trial<'_> {
             return Err(Refusal::TooWide { widest, limit, bound });
         }
         Ok(())
+    }
+
+    /// The thickest layer that both blades take where slits go through so many.
+    fn thickest_layer(&self, through: u32) -> Length {
+        let (knife, wheel) = (self.terms.knife, self.terms.wheel);
+        let deepest = knife.deepest() - wheel.slit_excess(Length::mm(self.ground.spacing()));
+        (deepest * (1.0 / f64::from(through))).min(wheel.thickest_layer())
     }
 
     /// Whether the edge covers what it must beside a slit.
@@ -284,7 +304,7 @@ impl Trial<'_> {
             residual: self.choice.residual,
             levels: layout.levels.clone(),
             stages,
-            left_out: 0,
+            room: Room::Enough,
             left: Length::mm(self.ground.left_by(&contour)),
             contour,
             time: Duration::ZERO,
