@@ -110,6 +110,7 @@ impl Case {
                 overrides: &self.overrides(),
                 machine: self.machine(),
                 options: Typed::default(),
+                surfaces: None,
             },
             &mut sources,
             &mut diagnostics,

@@ -88,9 +88,12 @@ fn point([centre, u, v]: &Disc, radius: f64, turn: f64) -> [f64; 3] {
     core::array::from_fn(|i| centre[i] + radius * (u[i] * cosine + v[i] * sine))
 }
 
+/// A part by its height.
+type Height = fn(f64, f64) -> f64;
+
 #[test]
 fn points_of_the_disc_neither_enter_the_part_nor_leave_more_than_the_limit() {
-    let parts: [(&str, fn(f64, f64) -> f64); 2] = [(DOME, dome), (BOWL, bowl)];
+    let parts: [(&str, Height); 2] = [(DOME, dome), (BOWL, bowl)];
     for (surface, part) in parts {
         let outcome = proven(&job(surface, USUAL));
         assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);

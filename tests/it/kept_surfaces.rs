@@ -17,7 +17,7 @@ fn checked(
     mesh: Vec<u8>,
     surfaces: Option<&Surfaces>,
 ) -> (Option<CheckedJob>, Vec<Diagnostic>, usize) {
-    let files = Files::of("examples".into())
+    let files = Files::of("examples")
         .with("job.vcut", text)
         .with("hill.stl", mesh);
     let (mut sources, mut found) = (SourceMap::default(), Vec::new());

@@ -130,7 +130,7 @@ proptest! {
                 text.0[place] = 0;
             }
         }
-        let mut memory = Memory::with_room(room);
+        let mut memory = Memory::with_room(room, None);
         for (place, word) in edits {
             text.0[place] = word;
             let again = compile_again(request(&text, &targets), &mut memory);

@@ -4,8 +4,9 @@
 //! not stop where pieces of a chain meet leaves the way there by the blend of the program, which comes on top, measured along z:
 //! `sqrt(1 + g^2)` times, with the steepest slope g of the part below the disc.
 
+use vcutc_backend_api::geometry::Orientation;
 use vcutc_backend_api::ir::{Blade, Shape};
-use vcutc_backend_api::units::Length;
+use vcutc_backend_api::units::{Angle, Length};
 use vcutc_surface::disc::{Axis, Disc, Pose, Stage};
 use vcutc_surface::gouge::{Entry, Moves, Placed};
 
@@ -29,6 +30,13 @@ pub fn solid(blade: &Blade) -> Option<Disc> {
     Disc::new(edge.radius, stages.collect()).ok()
 }
 
+/// By how much a tool turns from each of these orientations to the next one.
+#[must_use]
+pub fn turns(held: &[Orientation]) -> Vec<Angle> {
+    let pairs = held.iter().zip(held.iter().skip(1));
+    pairs.map(|(from, to)| from.angle_to(*to)).collect()
+}
+
 /// How deep a disc may enter the surface on its way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deepest {
@@ -48,17 +56,18 @@ fn bounded(
     moves: &Moves<'_, '_>,
     disc: &Disc,
     [from, to]: [&Placed; 2],
+    turn: Angle,
     enough: Length,
     halvings: u32,
 ) -> Entry {
-    let entry = moves.between(disc, from, to, enough);
+    let entry = moves.between(disc, [from, to], turn, enough);
     if entry.depth <= enough || halvings == 0 {
         return entry;
     }
     let middle = middle(from.pose(), to.pose()).and_then(|pose| moves.place(disc, pose));
     let Some(middle) = middle else { return entry };
-    let [first, second] =
-        [[from, &middle], [&middle, to]].map(|half| bounded(moves, disc, half, enough, halvings - 1));
+    let [first, second] = [[from, &middle], [&middle, to]]
+        .map(|half| bounded(moves, disc, half, turn * 0.5, enough, halvings - 1));
     let slope = first.slope.max(second.slope);
     let deeper = if first.depth >= second.depth {
         first
@@ -78,13 +87,14 @@ fn middle(from: Pose, to: Pose) -> Option<Pose> {
     })
 }
 
-/// The bound over all poses of a way and all moves between them. A move that is bounded by less than `enough` is not looked at
+/// The bound over all poses of a way and all moves between them, on which the whole tool turns by `turns`, about its own axis too. A move that is bounded by less than `enough` is not looked at
 /// more closely. None without poses, or with one that is not finite.
 #[must_use]
 pub fn deepest(
     moves: &Moves<'_, '_>,
     disc: &Disc,
     poses: &[Pose],
+    turns: &[Angle],
     [enough, blend]: [Length; 2],
 ) -> Option<Deepest> {
     let placed: Option<Vec<Placed>> = poses.iter().map(|pose| moves.place(disc, *pose)).collect();
@@ -103,8 +113,9 @@ pub fn deepest(
     for (number, one) in placed.iter().enumerate() {
         note(number, one.pose(), one.depth().unwrap_or(Length::ZERO));
     }
-    for (number, (from, to)) in placed.iter().zip(placed.iter().skip(1)).enumerate() {
-        let entry = bounded(moves, disc, [from, to], enough, HALVINGS);
+    let pairs = placed.iter().zip(placed.iter().skip(1)).zip(turns);
+    for (number, ((from, to), turn)) in pairs.enumerate() {
+        let entry = bounded(moves, disc, [from, to], *turn, enough, HALVINGS);
         let aside = blend * (1.0 + entry.slope * entry.slope).sqrt();
         let is_over_part = from.depth().is_some() || to.depth().is_some() || entry.depth > Length::ZERO;
         if is_over_part {

@@ -3,12 +3,12 @@
 //! Nothing of it comes from the plan but the part and what the operation is held to ([`Tracks`]). What was roughed is that which the
 //! replay of the other cuts leaves.
 
-use super::entry::{deepest, solid};
+use super::entry::{deepest, solid, turns};
 use super::sections::{Sections, Skimmed};
 use super::way::{Way, pose_of};
 use core::num::NonZeroU32;
 use std::collections::BTreeMap;
-use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{Action, OperationId, Program, Site, ToolId};
 use vcutc_backend_api::segments::LinearSegment;
 use vcutc_backend_api::units::{Angle, Length};
@@ -29,6 +29,8 @@ struct Stated {
     cut: NonZeroU32,
     tool: ToolId,
     poses: Vec<Pose>,
+    /// How the tool is held in each of them.
+    held: Vec<Orientation>,
     /// How far its arcs lie beside their chords, at most.
     bow: Length,
     /// Whether one of its poses has no axis that points up.
@@ -132,7 +134,7 @@ impl Judge<'_, '_, '_> {
         let limits = [self.tracks.gouge * 0.5, aside];
         let found = blade
             .and_then(solid)
-            .and_then(|disc| deepest(self.moves, &disc, &track.poses, limits));
+            .and_then(|disc| deepest(self.moves, &disc, &track.poses, &turns(&track.held), limits));
         let Some(found) = found else {
             self.note_turning_back(track);
             return Length::ZERO;
@@ -267,6 +269,7 @@ fn stated(program: &Program, operation: OperationId) -> Vec<Stated> {
                 cut,
                 tool: segment.before.tool,
                 poses: Vec::new(),
+                held: Vec::new(),
                 bow: Length::ZERO,
                 is_upright: true,
             });
@@ -285,11 +288,13 @@ impl Stated {
             Some(_) | None => vec![line.from, line.to],
         };
         for end in ends {
-            let pose = program
-                .orientation(end.orientation)
-                .and_then(|held| pose_of(end.tip, held));
+            let held = program.orientation(end.orientation);
+            let pose = held.and_then(|held| Some((pose_of(end.tip, held)?, held)));
             match pose {
-                Some(pose) => self.poses.push(pose),
+                Some((pose, held)) => {
+                    self.poses.push(pose);
+                    self.held.push(held);
+                }
                 None => self.is_upright = false,
             }
         }

@@ -269,6 +269,7 @@ mod tests {
     #[test]
     fn layers_tell_their_heights() {
         let cut = |z: f64| Cut {
+            kind: CutKind::Cut,
             number: 1,
             x: 0.0,
             z,

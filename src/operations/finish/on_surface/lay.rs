@@ -11,7 +11,7 @@ use vcutc_backend_api::verify::LARGEST_KINK;
 use vcutc_geometry::grid;
 use vcutc_process::beside::Stand;
 use vcutc_process::posture::Feed;
-use vcutc_process::tracks::entry::deepest;
+use vcutc_process::tracks::entry::{deepest, turns};
 use vcutc_process::tracks::way::{Way, pose_of};
 use vcutc_surface::disc::{Disc, Pose};
 use vcutc_surface::gouge::Moves;
@@ -116,6 +116,7 @@ impl Layout<'_, '_, '_> {
             gouge: MOVES,
             widest: Length::mm(widest(&section)),
             finest: FINEST,
+            beyond: Length::ZERO,
         };
         let layer = Layer {
             moves: self.moves,
@@ -165,7 +166,9 @@ impl Layout<'_, '_, '_> {
             .collect::<Result<_, _>>()?;
         let posture = Unlaid::Posture { place: first.contact };
         let poses = as_poses(&held).ok_or(posture)?;
-        let entry = deepest(self.moves, self.disc, &poses, [MOVES, BLEND]).ok_or(posture)?;
+        let orientations: Vec<Orientation> = held.iter().map(|(_, orientation)| *orientation).collect();
+        let turns = turns(&orientations);
+        let entry = deepest(self.moves, self.disc, &poses, &turns, [MOVES, BLEND]).ok_or(posture)?;
         if entry.depth > GOUGE {
             for (tip, _) in &mut held {
                 tip.z = grid::up(tip.z + entry.depth.to_mm());

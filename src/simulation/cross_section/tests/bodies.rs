@@ -26,6 +26,7 @@ proptest! {
             centre: pass.centre,
             lead: pass.lead,
             roll: Angle::ZERO,
+            climb: 0.0,
             clearance: pass.clearance,
             cover: Some(pass.rim(&disc).cover()),
         };
