@@ -108,9 +108,10 @@ fn advice(diagnostic: &Diagnostic, margin: usize, color: ColorChoice) -> String 
 fn fix_in_words(fix: &Fix) -> String {
     let mut words = fix.title.clone();
     for edit in &fix.edits {
-        // What is put in after something else begins with a comma.
-        let replacement = edit.replacement.trim().trim_start_matches([',', ' ']);
-        if !replacement.is_empty() && !fix.title.contains(replacement) {
+        let replacement = edit.replacement.trim();
+        // What is put in after something else begins with a comma, which titles leave out.
+        let named = replacement.trim_start_matches([',', ' ']);
+        if !named.is_empty() && !fix.title.contains(named) {
             let _ = write!(words, ": `{replacement}`");
         }
     }

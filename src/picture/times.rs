@@ -1,7 +1,7 @@
 //! What time is spent on: a bar for each kind of motion, and one for each layer, divided by kind.
 
 use super::chart::{self, FRAME};
-use super::palette::{BLUE, GREEN, ORANGE, PURPLE, SKY};
+use super::palette::{BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION};
 use super::scale::Scale;
 use super::sheet::{self, Entry, Room};
 use super::svg::{Anchor, Svg};
@@ -41,7 +41,7 @@ pub struct Row {
 }
 
 /// Colours of kinds in their order.
-pub(super) const KINDS: [&str; 5] = [BLUE, ORANGE, SKY, PURPLE, GREEN];
+pub(super) const KINDS: [&str; 6] = [BLUE, ORANGE, SKY, PURPLE, GREEN, VERMILION];
 /// Most rows: more layers are put together.
 const MOST_ROWS: usize = 30;
 /// Room for names of rows.

@@ -61,6 +61,10 @@ impl<'f> Listing<'f> {
     pub(super) fn owners(&self, places: &[Place], program: &Program) -> Vec<Option<OpId>> {
         let mut ops = (0..).map(OpId).zip(places).take(program.ops.len()).peekable();
         let owner = |statement: &Statement| {
+            // A move that names another tool stands for two statements: the frame that it takes, and the move.
+            if matches!(statement.effect, Effect::Frame(..)) {
+                return None;
+            }
             ops.next_if(|(_, place)| **place == statement.place)
                 .map(|(op, _)| op)
         };

@@ -20,8 +20,10 @@ pub struct Timing {
     pub travel: Duration,
     /// Moves of all axes: to and from home, and to another way to stand.
     pub axes: Duration,
-    /// For the generator, or for a blade to be changed.
+    /// For the generator.
     pub waiting: Duration,
+    /// For a blade to be changed, where that takes a known time.
+    pub changes: Duration,
 }
 
 /// What time is spent on.
@@ -36,16 +38,19 @@ pub enum Kind {
     Waiting,
     /// A move of all axes.
     Axes,
+    /// A change of blade.
+    Changes,
 }
 
 impl Kind {
     /// All of them, in the order in which people read them.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Cutting,
         Self::Turning,
         Self::Travel,
         Self::Waiting,
         Self::Axes,
+        Self::Changes,
     ];
 
     /// What an action spends time on; those that switch something spend none.
@@ -55,7 +60,8 @@ impl Kind {
             Action::Cut { .. } | Action::Follow { .. } => Self::Cutting,
             Action::Turn { .. } => Self::Turning,
             Action::Travel { .. } | Action::Approach { .. } | Action::Retract { .. } => Self::Travel,
-            Action::AwaitReady | Action::Dwell { .. } | Action::ToolChange { .. } => Self::Waiting,
+            Action::AwaitReady | Action::Dwell { .. } => Self::Waiting,
+            Action::ToolChange { .. } => Self::Changes,
             Action::Home | Action::ChangePlace | Action::AxisTravel { .. } => Self::Axes,
             Action::Ultrasonic { .. } | Action::Spin { .. } => return None,
         })
@@ -65,7 +71,7 @@ impl Kind {
 impl Timing {
     #[must_use]
     pub fn total(&self) -> Duration {
-        self.cutting + self.turning + self.travel + self.axes + self.waiting
+        self.cutting + self.turning + self.travel + self.axes + self.waiting + self.changes
     }
 
     /// What is spent on a kind.
@@ -77,6 +83,7 @@ impl Timing {
             Kind::Travel => self.travel,
             Kind::Waiting => self.waiting,
             Kind::Axes => self.axes,
+            Kind::Changes => self.changes,
         }
     }
 
@@ -87,6 +94,7 @@ impl Timing {
             Kind::Travel => self.travel += time,
             Kind::Axes => self.axes += time,
             Kind::Waiting => self.waiting += time,
+            Kind::Changes => self.changes += time,
         }
     }
 }

@@ -42,6 +42,14 @@ pub struct KindFigures {
     /// Axis moves.
     pub axes_s: f64,
     pub waiting_s: f64,
+    /// Changes of blade; left out where there are none.
+    #[serde(skip_serializing_if = "is_none")]
+    pub changes_s: f64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+fn is_none(seconds: &f64) -> bool {
+    *seconds <= 0.0
 }
 
 /// The time of a layer.
@@ -85,6 +93,7 @@ fn kinds(timing: &Timing) -> KindFigures {
         travel_s: thousandths(timing.travel.to_s()),
         axes_s: thousandths(timing.axes.to_s()),
         waiting_s: thousandths(timing.waiting.to_s()),
+        changes_s: thousandths(timing.changes.to_s()),
     }
 }
 
@@ -103,6 +112,9 @@ pub(super) fn in_all(timing: &Timing) -> String {
     ];
     if timing.axes.to_s() > 0.0 {
         kinds.push(("axis moves", timing.axes));
+    }
+    if timing.changes.to_s() > 0.0 {
+        kinds.push(("changes of blade", timing.changes));
     }
     let kinds: Vec<String> = kinds
         .iter()

@@ -64,8 +64,10 @@ fn by_kind(whole: &Timing) -> Html {
         ("axis moves", whole.axes),
         ("waiting", whole.waiting),
     ];
+    let changes = (whole.changes > Duration::ZERO).then_some(("changes of blade", whole.changes));
     let rows = kinds
         .into_iter()
+        .chain(changes)
         .chain([("all", whole.total())])
         .map(|(kind, spent)| vec![kind.to_owned(), time(spent), share(spent, total)]);
     table("Time by kind", &columns, rows)
@@ -134,7 +136,7 @@ fn by_layer(material: &Material<'_>) -> Html {
             spent.cutting,
             spent.turning,
             spent.travel,
-            spent.axes + spent.waiting,
+            spent.axes + spent.waiting + spent.changes,
             spent.total(),
         ];
         [name, flanks.to_string()]

@@ -13,6 +13,7 @@ pub(super) const fn name(kind: Kind) -> &'static str {
         Kind::Travel => "travel",
         Kind::Waiting => "waiting",
         Kind::Axes => "all axes",
+        Kind::Changes => "changes of blade",
     }
 }
 
