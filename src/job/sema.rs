@@ -220,9 +220,6 @@ fn whole(
         }
         (None, None) => Err(missing.part(stock.ok(), session)),
     };
-    if let (None, Some(surface)) = (all.profile, all.surface) {
-        surface::must_be_followed(&all.operations, surface.place, session);
-    }
     let ways: Vec<Checked<Ways>> = all
         .operations
         .iter()

@@ -201,7 +201,7 @@ fn refusals_offer_what_was_tried() {
     )
     .replace(&machines(), "");
     let lead = refused(&text);
-    assert_eq!(lead.code, Code::Overcut, "{lead:?}");
+    assert_eq!(lead.code, Code::ScallopOverLimit, "{lead:?}");
     let fix = lead.fixes.first().unwrap();
     let after = proven(&mended(&text, fix));
     assert!(!has_errors(&after.diagnostics), "{:?}", after.diagnostics);

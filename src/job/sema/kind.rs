@@ -41,11 +41,6 @@ pub trait Kind: Debug + Sync {
         format!("{} {{\n{}}}", self.head(), lines.collect::<String>())
     }
 
-    /// Whether it works on parts that change along y.
-    fn takes_surfaces(&self) -> bool {
-        true
-    }
-
     /// Works out what a block of it means.
     fn check(&self, written: Written<'_>, session: &mut Session<'_>) -> Checked<Box<dyn Operation>>;
 

@@ -16,8 +16,6 @@ pub(crate) mod step;
 
 use super::eval::Scope;
 use super::fields::{Place, curve_words, head_span};
-use super::gather::Placed;
-use super::kind::Kind;
 use super::part::Part;
 use super::quantity::mm;
 use super::report::{Checked, Reported, Reports};
@@ -143,28 +141,6 @@ pub(crate) fn beside_a_profile(surface: Place, profile: Place) -> Diagnostic {
     .help(
         "keep the profile for a part that is the same at every y, else the surface, and delete the other one",
     )
-}
-
-/// Reports operations that follow profiles only.
-pub(crate) fn must_be_followed(
-    operations: &[(&'static dyn Kind, Placed<'_>)],
-    surface: Place,
-    session: &mut Session<'_>,
-) {
-    for (kind, placed) in operations.iter().filter(|(kind, _)| !kind.takes_surfaces()) {
-        let diagnostic = Diagnostic::new(
-            Code::Misplaced,
-            format!("`{}` does not follow surfaces", kind.head()),
-            placed.place.head,
-            "it follows profiles only",
-        )
-        .and(surface.head, "the part is a surface");
-        let help = format!(
-            "delete this block, or describe the part by `profile {{ ... }}`: `{}` then follows it",
-            kind.head()
-        );
-        session.reports.push(diagnostic.help(help));
-    }
 }
 
 /// The one source among the entries.

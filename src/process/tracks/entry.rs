@@ -48,8 +48,12 @@ pub struct Deepest {
     pub pose: Pose,
 }
 
-/// How often a move is halved to see more of it.
-const HALVINGS: u32 = 6;
+/// Moves up to this length are not halved to see more of them, in mm. Where the edge comes to a side of the plan, the bound is that of
+/// its plane, which falls by the lead over the length of the move.
+const SHORT: f64 = 0.1;
+
+/// How often a move is halved at most.
+const HALVINGS: u32 = 10;
 
 /// The bound on a move; on both halves of it where it is not small enough, for a bound falls with the square of the length.
 fn bounded(
@@ -61,7 +65,8 @@ fn bounded(
     halvings: u32,
 ) -> Entry {
     let entry = moves.between(disc, [from, to], turn, enough);
-    if entry.depth <= enough || halvings == 0 {
+    let [a, b] = [from, to].map(|end| end.pose().centre);
+    if entry.depth <= enough || halvings == 0 || a.distance(b).to_mm() <= SHORT {
         return entry;
     }
     let middle = middle(from.pose(), to.pose()).and_then(|pose| moves.place(disc, pose));

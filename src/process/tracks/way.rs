@@ -143,3 +143,6 @@ fn seen(held: &Held, ahead: f64, skin: Skin) -> SkinPass {
         clearance: skin.clearance,
     }
 }
+
+#[cfg(test)]
+mod tests;

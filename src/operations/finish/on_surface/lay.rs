@@ -38,7 +38,7 @@ const RATE: Angle = Angle::deg(0.1);
 const WIDEST: [f64; 3] = [8.0, 4.0, 2.0];
 
 /// Poses nearer to each other get none between them, in mm.
-const FINEST: Length = Length::mm(0.5);
+const FINEST: Length = Length::mm(1.0);
 
 /// The share of the largest kink that a way may bend by from piece to piece: places are rounded.
 const BEND: f64 = 0.8;
@@ -72,6 +72,15 @@ pub(super) struct Asked {
     pub(super) lift: Length,
 }
 
+/// How carefully tracks are laid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Care {
+    /// Moves between poses are not bounded: enough to see what comes free and what stays.
+    Draft,
+    /// As they are cut.
+    Final,
+}
+
 /// Why a track cannot be laid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Unlaid {
@@ -100,7 +109,7 @@ pub(super) struct Layout<'l, 'd, 's> {
 }
 
 impl Layout<'_, '_, '_> {
-    pub(super) fn track(&self, asked: &Asked) -> Result<Track, Unlaid> {
+    pub(super) fn track(&self, asked: &Asked, care: Care) -> Result<Track, Unlaid> {
         let section = self.section(asked)?;
         // Seen along the feed, +x is to the right of +y and to the left of -y.
         let side = match asked.feed {
@@ -113,7 +122,10 @@ impl Layout<'_, '_, '_> {
             most: asked.leads[1],
             rate: RATE,
             lift: asked.lift,
-            gouge: MOVES,
+            gouge: match care {
+                Care::Draft => self.disc.radius(),
+                Care::Final => MOVES,
+            },
             widest: Length::mm(widest(&section)),
             finest: FINEST,
             beyond: Length::ZERO,
@@ -124,7 +136,7 @@ impl Layout<'_, '_, '_> {
             disc: self.disc,
         };
         let track = layer.track(&section, &demand).map_err(Unlaid::NoTrack)?;
-        self.finished(asked, &track.stops)
+        self.finished(asked, &track.stops, care)
     }
 
     fn section(&self, asked: &Asked) -> Result<Section, Unlaid> {
@@ -141,7 +153,7 @@ impl Layout<'_, '_, '_> {
     }
 
     /// The poses with those before and after the part, on the grid, raised by as much as they might enter the part.
-    fn finished(&self, asked: &Asked, stops: &[Stop]) -> Result<Track, Unlaid> {
+    fn finished(&self, asked: &Asked, stops: &[Stop], care: Care) -> Result<Track, Unlaid> {
         let (Some(first), Some(last)) = (stops.first(), stops.last()) else {
             let place = Point3::new(asked.x, 0.0, 0.0);
             return Err(Unlaid::Posture { place });
@@ -165,13 +177,15 @@ impl Layout<'_, '_, '_> {
             })
             .collect::<Result<_, _>>()?;
         let posture = Unlaid::Posture { place: first.contact };
-        let poses = as_poses(&held).ok_or(posture)?;
-        let orientations: Vec<Orientation> = held.iter().map(|(_, orientation)| *orientation).collect();
-        let turns = turns(&orientations);
-        let entry = deepest(self.moves, self.disc, &poses, &turns, [MOVES, BLEND]).ok_or(posture)?;
-        if entry.depth > GOUGE {
-            for (tip, _) in &mut held {
-                tip.z = grid::up(tip.z + entry.depth.to_mm());
+        if care == Care::Final {
+            let poses = as_poses(&held).ok_or(posture)?;
+            let orientations: Vec<Orientation> = held.iter().map(|(_, orientation)| *orientation).collect();
+            let turns = turns(&orientations);
+            let entry = deepest(self.moves, self.disc, &poses, &turns, [MOVES, BLEND]).ok_or(posture)?;
+            if entry.depth > GOUGE {
+                for (tip, _) in &mut held {
+                    tip.z = grid::up(tip.z + entry.depth.to_mm());
+                }
             }
         }
         let way = as_poses(&held).and_then(Way::new).ok_or(posture)?;

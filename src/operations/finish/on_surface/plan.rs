@@ -5,7 +5,7 @@
 //! As on profiles the least lead with which everything comes free is taken, and tracks are put closer until no more stays than
 //! may. The first step is that which leaves the limit where the part asks for the least, by its curvature and slope across.
 
-use super::lay::{Asked, GOUGE, Layout, Track, Unlaid};
+use super::lay::{Asked, Care, GOUGE, Layout, Track, Unlaid};
 use crate::asked::{AIR, FinishDisc, Sequence};
 use crate::plan::model;
 use crate::plan::order::{Run, runs};
@@ -329,7 +329,11 @@ impl Planner<'_, '_, '_> {
         let known = Known::default();
         let mut refusal = None;
         for sequence in sequences {
-            match self.in_sequence(hold, sequence, &known) {
+            // Most of the work is in bounding moves, which only those tracks need that are cut.
+            let planned = self
+                .in_sequence(hold, sequence, &known, Care::Draft)
+                .and_then(|_| self.in_sequence(hold, sequence, &Known::default(), Care::Final));
+            match planned {
                 Ok(planned) => return Ok(planned),
                 Err(why @ Refusal::Fault { .. }) => refusal = Some(why),
                 Err(why) => return Err(why),
@@ -341,7 +345,13 @@ impl Planner<'_, '_, '_> {
         Err(refusal.unwrap_or(Refusal::Nothing))
     }
 
-    fn in_sequence(&self, hold: Hold, sequence: Sequence, known: &Known) -> Result<PlannedTracks, Refusal> {
+    fn in_sequence(
+        &self,
+        hold: Hold,
+        sequence: Sequence,
+        known: &Known,
+        care: Care,
+    ) -> Result<PlannedTracks, Refusal> {
         let (from, to) = self.shadow.span();
         let step = (to - from) / f64::from(hold.count);
         let at = |number: u32| step.mul_add(f64::from(number) + 0.5, from);
@@ -363,7 +373,7 @@ impl Planner<'_, '_, '_> {
             let track = match laid {
                 Some(track) => track,
                 None => {
-                    let track = self.laid(hold, run.side(), at(number), feed)?;
+                    let track = self.laid(hold, run.side(), at(number), feed, care)?;
                     known.borrow_mut().insert(key, track.clone());
                     track
                 }
@@ -399,7 +409,7 @@ impl Planner<'_, '_, '_> {
         order
     }
 
-    fn laid(&self, hold: Hold, towards: Side, x: f64, feed: Feed) -> Result<Track, Refusal> {
+    fn laid(&self, hold: Hold, towards: Side, x: f64, feed: Feed, care: Care) -> Result<Track, Refusal> {
         let side = match towards {
             Side::Right => hold.side,
             Side::Left => Angle::ZERO - hold.side,
@@ -415,7 +425,7 @@ impl Planner<'_, '_, '_> {
             leads: [hold.lead, most],
             lift: self.wish.scallop * LIFTED,
         };
-        let track = self.layout.track(&asked);
+        let track = self.layout.track(&asked, care);
         track.map_err(|why| Refusal::Unlaid { x, why })
     }
 

@@ -71,7 +71,7 @@ impl Refused<'_> {
         let head = asked.setup.head_span;
         match why {
             Unlaid::NoTrack(NoTrack::Lead { contact, lead, lift }) => Diagnostic::new(
-                Code::Overcut,
+                Code::ScallopOverLimit,
                 format!(
                     "with a lead of {} deg the disc does not come down to the part at x {} mm, y {} mm",
                     show((lead.to_deg() * 1e3).round() / 1e3),
@@ -110,7 +110,7 @@ impl Refused<'_> {
 
     fn held(&self, x: f64, y: f64) -> Diagnostic {
         Diagnostic::new(
-            Code::Overcut,
+            Code::BladesTooSmall,
             format!(
                 "at x {} mm, y {} mm the part is too steep for the disc",
                 mm(x),
