@@ -1,10 +1,12 @@
 //! The way of a disc on a track, and how it shows in a section.
 //!
-//! A section at y is passed by each point of the edge at a time of its own. The track is taken to go on straight, as it does at the
-//! moment at which the disc touches the part in that section: then all that the disc sweeps shows as one ellipse
-//! ([`SkinPass`]). What this leaves out is the bend of the way over the distance by which points of the edge lie before or
-//! after the contact: beside it by w they lie `w^2 / 2R` behind it, so that with a bend k of the way heights are off by
-//! `k w^4 / 8 R^2`: half a micrometre for tracks 16 mm apart on a dome of 3 m, with a disc of 25 mm.
+//! A section at y is passed by each point of the edge at a time of its own. All of the disc is taken to go on straight, as its point at
+//! the contact does at the moment at which it touches the part in that section: then all that the disc sweeps shows as one
+//! ellipse ([`SkinPass`]). That point moves along the part, while the centre also turns about it: on a dome its way is less
+//! steep, in a bowl steeper. What this leaves out is the bend k of the way over the distance d by which a point of the edge lies
+//! before or after the contact: heights are off by about `k d^2 / 2`. Without side tilt d is `w^2 / 2R` beside the contact by w,
+//! which makes half a micrometre for tracks 16 mm apart on a dome of 3 m, with a disc of 25 mm; with side tilt it is larger on the
+//! side of the strip.
 
 use crate::posture::Feed;
 use vcutc_backend_api::geometry::{Orientation, Point3};
@@ -29,9 +31,35 @@ pub struct Way {
 struct Held {
     centre: [f64; 3],
     axis: [f64; 3],
-    /// How much x and z change with each mm along y, in the sense of the feed.
-    drift: [f64; 2],
+    /// How much the centre moves with each mm that it goes along y, in the sense of the feed.
+    velocity: [f64; 3],
+    /// The same of the axis.
+    turn: [f64; 3],
     feed: Feed,
+}
+
+impl Held {
+    /// How much x and z of a point of the disc change with each mm that it goes along y, in the sense of the feed: it moves with the
+    /// centre, and turns with the axis. The point lies so far to the right of the centre, and ahead.
+    fn drift(&self, right: f64, ahead: f64) -> [f64; 2] {
+        let a = self.axis;
+        let along = self.feed.along(ahead);
+        // Of the face, so square to the axis.
+        let off = [right, along, -(a[0] * right + a[1] * along) / a[2]];
+        let spin = cross(a, self.turn);
+        let round = cross(spin, off);
+        let moved: [f64; 3] = core::array::from_fn(|i| self.velocity[i] + round[i]);
+        let along = self.feed.along(moved[1]);
+        [moved[0] / along, moved[2] / along]
+    }
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
 }
 
 /// The pose of a disc whose tool is held so; none if its axis does not point up.
@@ -96,13 +124,15 @@ impl Way {
         }
         let done = (along - begin) / (end - begin);
         let between = |a: [f64; 3], b: [f64; 3]| core::array::from_fn(|i| a[i] + (b[i] - a[i]) * done);
+        let rate = |a: [f64; 3], b: [f64; 3]| core::array::from_fn(|i| (b[i] - a[i]) / (end - begin));
         let (a, b) = (from.centre, to.centre);
         let axis: [f64; 3] = between(from.axis.to_array(), to.axis.to_array());
         let long = axis.iter().map(|part| part * part).sum::<f64>().sqrt();
         Some(Held {
             centre: between(a.to_array(), b.to_array()),
             axis: axis.map(|part| part / long),
-            drift: [(b.x - a.x) / (end - begin), (b.z - a.z) / (end - begin)],
+            velocity: rate(a.to_array(), b.to_array()),
+            turn: rate(from.axis.to_array(), to.axis.to_array()),
             feed: self.feed,
         })
     }
@@ -112,27 +142,27 @@ impl Way {
     #[must_use]
     pub fn pass(&self, y: f64, disc: &Disc, skin: Skin, part: &Guard<'_>) -> Option<(SkinPass, Point3)> {
         let section = self.feed.along(y);
-        let mut ahead = disc.radius.to_mm();
+        let (mut right, mut ahead) = (0.0, disc.radius.to_mm());
         let mut found = None;
         for _ in 0..ROUNDS {
             let held = self.at(section - ahead)?;
-            let pass = seen(&held, ahead, skin);
+            let pass = seen(&held, [right, ahead], skin);
             let nearest = part.nearest(&pass.rim(disc));
             let contact = nearest.map_or(pass.centre.x, |(at, _)| at.x);
-            ahead = pass.ahead(disc, contact);
+            (right, ahead) = (contact - held.centre[0], pass.ahead(disc, contact));
             found = Some((SkinPass { contact, ..pass }, held.centre.into()));
         }
         found
     }
 }
 
-/// What a disc on its way shows as in a section so far ahead of its centre.
-fn seen(held: &Held, ahead: f64, skin: Skin) -> SkinPass {
+/// What a disc on its way shows as in a section in which it touches the part so far to the right of its centre, and ahead.
+fn seen(held: &Held, [beside, ahead]: [f64; 2], skin: Skin) -> SkinPass {
     let [x, _, z] = held.centre;
     // Along the feed: the axis leans to either side of the plane of x and z.
     let [aside, along, up] = held.axis;
     let along = held.feed.along(along);
-    let [right, climb] = held.drift;
+    let [right, climb] = held.drift(beside, ahead);
     SkinPass {
         centre: Point2::new(x + right * ahead, z + climb * ahead),
         contact: x,
