@@ -18,6 +18,7 @@
 //! On a piece of a chain the blade itself is followed, with its thickness and the chain's blend ([`piece`]).
 
 mod entry;
+mod findings;
 mod flank;
 mod piece;
 mod strip;
@@ -33,6 +34,8 @@ use core::num::NonZeroU32;
 pub use entry::below_top;
 use entry::deepest_entry;
 pub(super) use entry::merge_heights;
+pub use findings::Findings;
+use findings::{is_longer, note};
 use flank::{FlankGeometry, flanks};
 use piece::Piece;
 use std::collections::BTreeMap;
@@ -126,29 +129,6 @@ pub enum CutFault {
         /// The limit.
         limit: Length,
     },
-}
-
-/// All faults of one kind, of which the worst is kept.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Findings {
-    /// How many cuts have a chip that is not freed, and the worst of them.
-    pub not_freed: Option<(usize, Finding)>,
-    /// How many cuts are blocked, and the first of them.
-    pub blocked: Option<(usize, Finding)>,
-    /// The deepest overcut.
-    pub overcut: Option<Finding>,
-    /// How many faults passes of a disc have, and the first of them.
-    pub strips: Option<(usize, Finding)>,
-    /// In how many sections too much stays beside tracks on a surface, and the most of that.
-    pub stays: Option<(usize, Finding)>,
-}
-
-impl Findings {
-    pub fn iter(&self) -> impl Iterator<Item = (usize, Finding)> {
-        let overcut = self.overcut.map(|finding| (1, finding));
-        let cuts = self.not_freed.into_iter().chain(self.blocked).chain(overcut);
-        cuts.chain(self.strips).chain(self.stays)
-    }
 }
 
 /// What a replay shows.
@@ -676,28 +656,4 @@ impl<'p> Player<'p> {
         }
         lowest.map(|(_, cut)| cut.finding(program, fault))
     }
-}
-
-/// Counts a finding and keeps the worse one.
-fn note(kept: &mut Option<(usize, Finding)>, finding: Finding, worse: impl Fn(&Finding, &Finding) -> bool) {
-    match kept {
-        Some((count, known)) => {
-            *count += 1;
-            if worse(&finding, known) {
-                *known = finding;
-            }
-        }
-        None => *kept = Some((1, finding)),
-    }
-}
-
-/// Whether one cut needs clearly more edge than another; the earlier one stands for equals.
-fn is_longer(a: &Finding, b: &Finding) -> bool {
-    let needed = |finding: &Finding| match finding.fault {
-        CutFault::NotFreed { needed, .. } => needed.to_mm(),
-        CutFault::Blocked { .. } | CutFault::Overcut { .. } | CutFault::Strip(_) | CutFault::Stays { .. } => {
-            0.0
-        }
-    };
-    needed(a) > needed(b) + 1e-6
 }

@@ -1,7 +1,8 @@
 //! Upright slits, and passes of a disc that free the strips between them, as a program states them.
 
+use super::findings::note;
 use super::flank::FlankGeometry;
-use super::{Cut, CutFault, Finding, Player, note};
+use super::{Cut, CutFault, Finding, Player};
 use crate::cross_section::Guard;
 use crate::disc::{Disc, DiscPass, SkinPass};
 use crate::rim::Rim;
