@@ -43,12 +43,12 @@ pub struct KindFigures {
     pub axes_s: f64,
     pub waiting_s: f64,
     /// Changes of blade; left out where there are none.
-    #[serde(skip_serializing_if = "is_none")]
+    #[serde(skip_serializing_if = "is_no_time")]
     pub changes_s: f64,
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
-fn is_none(seconds: &f64) -> bool {
+fn is_no_time(seconds: &f64) -> bool {
     *seconds <= 0.0
 }
 

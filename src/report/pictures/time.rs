@@ -1,6 +1,7 @@
 //! What the time is spent on.
 
 use crate::Material;
+use vcutc_backend_api::units::Duration;
 use vcutc_driver::summary;
 use vcutc_picture::{Prefix, times};
 use vcutc_simulation::timing::{Kind, LayerTime, Timing};
@@ -21,7 +22,11 @@ pub(super) const fn name(kind: Kind) -> &'static str {
 #[must_use]
 pub fn time(material: &Material<'_>, ids: Prefix) -> String {
     let spent = &material.compiled.report.times;
-    let seconds = |timing: &Timing| Kind::ALL.map(|kind| timing.of(kind).to_s()).to_vec();
+    // Most programs have one blade.
+    let has_it = |kind: &Kind| *kind != Kind::Changes || spent.all.changes > Duration::ZERO;
+    let there: Vec<Kind> = Kind::ALL.into_iter().filter(has_it).collect();
+    let seconds =
+        |timing: &Timing| -> Vec<f64> { there.iter().map(|kind| timing.of(*kind).to_s()).collect() };
     let operations = material.compiled.program.verified().program().operations.len();
     let of_layer = |layer: &LayerTime| times::Row {
         name: match operations {
@@ -41,11 +46,12 @@ pub fn time(material: &Material<'_>, ids: Prefix) -> String {
         .chain([rest])
         .filter(|row| row.seconds.iter().sum::<f64>() > 0.0)
         .collect();
-    let kinds = Kind::ALL.map(|kind| times::Kind {
+    let described = there.iter().map(|&kind| times::Kind {
         name: name(kind),
         seconds: spent.all.of(kind).to_s(),
         words: summary::time(spent.all.of(kind)),
     });
+    let kinds: Vec<times::Kind> = described.collect();
     let total = summary::time(spent.all.total());
     times::draw(&times::Times {
         heading: times::Heading {
