@@ -38,7 +38,7 @@ pub fn ply(surface: &Surface, machined: &Machined) -> Vec<u8> {
     // Writing to a string cannot fail.
     let _ = write!(
         head,
-        "ply\nformat binary_little_endian 1.0\ncomment quality: height left above the part along z, in mm\n\
+        "ply\nformat binary_little_endian 1.0\ncomment quality: height that straight cuts leave above the part along z, in mm\n\
          element vertex {}\nproperty float x\nproperty float y\nproperty float z\nproperty float quality\n\
          element face {}\nproperty list uchar int vertex_indices\nend_header\n",
         kept.len(),
