@@ -28,6 +28,9 @@ pub(crate) const CHANGING_CELLS: &[(&str, &str)] = &[
 /// What a machine of the shop cannot hold the blade for: half a turn of a single edge about itself.
 pub(crate) const NOT_ON: &[(&str, &str)] = &[("spoiler_rae2822.vcut", "gantry")];
 
+/// What a dialect of G-code has no words for: chains that go on without a stop.
+pub(crate) const NOT_IN: &[(&str, &str)] = &[("finished_dome.vcut", "fanuc")];
+
 /// The dialects of G-code, each with the options that a gantry under such a control has. M codes of Fanuc and Heidenhain
 /// controls are their builder's.
 pub(crate) const DIALECTS: &[(&str, &str)] = &[
@@ -90,6 +93,11 @@ pub(crate) fn compiling() -> Vec<(String, Vec<Pairing>)> {
         Some((name, machines))
     });
     with_machines.collect()
+}
+
+/// Whether programs for that dialect can say all that an example does.
+pub(crate) fn has_words_for(dialect: &str, example: &str) -> bool {
+    !NOT_IN.contains(&(example, dialect))
 }
 
 /// The files of the examples.

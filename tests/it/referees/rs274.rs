@@ -6,7 +6,8 @@ use super::compare::{Deed, End, Tolerance, compare, deeds};
 use super::is_there;
 use crate::pipeline::{Files, compile_on, emit_for};
 use crate::repository::root;
-use crate::shop::{Pairing, compiling, folder_for};
+use crate::shop::{Pairing, compiling, folder_for, has_words_for};
+use std::collections::BTreeMap;
 use std::fs;
 use std::process::{Command, Stdio};
 use vcutc::registry;
@@ -56,14 +57,20 @@ fn carry_out(files: &[(String, Vec<u8>)]) -> Result<Vec<Canon>, String> {
     carry_out_with(TOOL_TABLE, files)
 }
 
-/// A line for each tool of a cell, in its place; `rs274` counts in inches.
+/// A line for each place of a cell up to the last that holds a tool: `rs274` tells which line of the table a change takes, not
+/// which place that is. It counts in inches.
 fn tool_table(cell: &Cell) -> String {
-    let lines = (1..).zip(cell.tools.iter()).map(|(number, (_, tool))| {
-        let number = tool.place.unwrap_or(number);
+    let in_places = (1..).zip(cell.tools.iter()).map(|(number, (_, tool))| {
         let length = tool.frame.frame.origin.z / 25.4;
-        format!("T{number} P{number} Z{length:.6}\n")
+        (tool.place.unwrap_or(number), length)
     });
-    lines.collect()
+    let lengths: BTreeMap<u32, f64> = in_places.collect();
+    let last = lengths.keys().last().copied().unwrap_or_default();
+    let line = |number| {
+        let length = lengths.get(&number).copied().unwrap_or_default();
+        format!("T{number} P{number} Z{length:.6}\n")
+    };
+    (1..=last).map(line).collect()
 }
 
 /// The same with a table of tools.
@@ -109,6 +116,9 @@ fn judge_examples(dialect: &str, words: &[(&str, &str)], within: Tolerance) {
     let files = folder_for(dialect);
     let mut programs = 0;
     for (name, pairings) in compiling() {
+        if !has_words_for(dialect, &name) {
+            continue;
+        }
         for Pairing { machine, .. } in pairings.iter().filter(|pairing| pairing.target == target.id()) {
             let outcome = compile_on(*machine, &name, &files);
             let bundle = emit_for(target, &outcome).unwrap();
