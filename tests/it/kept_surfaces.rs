@@ -64,7 +64,7 @@ fn a_file_is_read_once_while_nothing_about_it_changes() {
             mesh.clone(),
         ),
         (text.replace("80 mm, 60 mm)", "79 mm, 60 mm)"), mesh.clone()),
-        (text.clone(), stl(|x| if x > 100.0 { 1.0 } else { 0.0 })),
+        (text.clone(), stl(|y| y * 0.01)),
     ];
     for (text, mesh) in others {
         let (job, _, _) = of(&text, &mesh);
