@@ -281,7 +281,7 @@ fn entries(matrix: &Matrix) -> impl Iterator<Item = f64> {
 }
 
 /// Compares what a bundle's main program did with what the ops say, op by op. At the start of every part but the first
-/// the state that the part before ended in must come again: its last pose, and the generator as it was.
+/// the state that the part before ended in must come again: its last pose, and generator and spindle as they were.
 pub(crate) fn compare(got: &[Event], want: &[Step], rounding: Rounding) -> Result<(), String> {
     let mut got = got.iter().peekable();
     let mut history = History::default();
@@ -318,8 +318,8 @@ fn only_setup(event: &Event) -> bool {
 struct History {
     /// The motion to where the last op ended.
     restart: Option<Event>,
-    /// The output while it is on, and what was waited for since.
-    generator: Option<Event>,
+    /// The outputs that are on, in the order in which they were switched on, and what was waited for since.
+    drives: Vec<Event>,
     awaited: Option<Event>,
 }
 
@@ -328,15 +328,16 @@ impl History {
         self.restart.clone_from(&step.restart);
         let event = &step.event;
         match event {
-            Event::Output(_, true) => self.generator = Some(event.clone()),
-            Event::Output(_, false) => {
-                self.generator = None;
-                self.awaited = None;
+            Event::Output(_, true) => self.drives.push(event.clone()),
+            Event::Output(number, false) => {
+                self.drives
+                    .retain(|on| !matches!(on, Event::Output(other, _) if other == number));
+                if self.drives.is_empty() {
+                    self.awaited = None;
+                }
             }
-            // The samples dwell only while the generator is off.
-            Event::Await(_) | Event::Wait(_) if self.generator.is_some() => {
-                self.awaited = Some(event.clone())
-            }
+            // The samples dwell only while all of them are off.
+            Event::Await(_) | Event::Wait(_) if !self.drives.is_empty() => self.awaited = Some(event.clone()),
             _ => {}
         }
     }
@@ -367,10 +368,7 @@ impl History {
             .next_if(|event| matches!(event, Event::Tool(_) | Event::Base(_)))
             .is_some()
         {}
-        for wanted in [&self.restart, &self.generator, &self.awaited]
-            .into_iter()
-            .flatten()
-        {
+        for wanted in self.restart.iter().chain(&self.drives).chain(&self.awaited) {
             let event = got.next().ok_or("a part without a start")?;
             if !same(event, wanted, rounding) {
                 return Err(format!("a part starts with {event:?} instead of {wanted:?}"));
