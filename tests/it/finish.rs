@@ -15,13 +15,14 @@ const CAP: &str = "z(x) = 30 mm - (x - 60 mm)^2 / 300 mm";
 /// Hollow with a radius of 150 mm.
 const TROUGH: &str = "z(x) = 16 mm + (x - 60 mm)^2 / 300 mm";
 
-fn job(profile: &str, finish: &str) -> String {
+/// A job that roughs its part by straight cuts up to that scallop and finishes it with a disc, on the machines of [`machines`].
+pub(crate) fn roughed_and_finished(part: &str, scallop: u32, finish: &str) -> String {
     format!(
-        "job \"cap\"\n\nstock {{ size = (120 mm, 200 mm, 40 mm) }}\n\nprofile {{ {profile} }}\n\n\
+        "{part}\n\n\
          blade dagger {{ cutting_length = 30 mm, half_apex = 7.13 deg, thickness = 0.5 mm, edges = double }}\n\
          blade wheel = disc {{\n  radius = 25 mm, thickness = 1 mm, depth = 10 mm, width = 50 mm, spin = 3000 rev/min\n  \
          body (1 mm, 8 mm) (60 mm, 25 mm)\n}}\n\n\
-         rough vcut {{\n  blade = dagger\n  rake = 60 deg\n  limits {{ swing <= 50 deg, scallop <= 6 mm }}\n  \
+         rough vcut {{\n  blade = dagger\n  rake = 60 deg\n  limits {{ swing <= 50 deg, scallop <= {scallop} mm }}\n  \
          allowance = 0.3 mm\n  residual = lift\n  feed {{ cut = 150 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}\n  \
          clearance = 10 mm\n}}\n\n\
          finish disc {{\n  blade = wheel\n  {finish}\n  feed {{ cut = 100 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}\n  \
@@ -30,21 +31,27 @@ fn job(profile: &str, finish: &str) -> String {
     )
 }
 
-const USUAL: &str = "limits { scallop <= 0.1 mm, lead <= 12 deg }\n  over_hub = 9 mm";
+fn job(profile: &str, finish: &str) -> String {
+    let part =
+        format!("job \"cap\"\n\nstock {{ size = (120 mm, 200 mm, 40 mm) }}\n\nprofile {{ {profile} }}");
+    roughed_and_finished(&part, 6, finish)
+}
+
+pub(crate) const USUAL: &str = "limits { scallop <= 0.1 mm, lead <= 12 deg }\n  over_hub = 9 mm";
 
 fn compiled(text: String, machine: &str) -> Outcome {
     compiled_on(text, Some(machine))
 }
 
 /// As [`compiled`], as far as a job without a machine is.
-fn proven(text: &str) -> Outcome {
+pub(crate) fn proven(text: &str) -> Outcome {
     compiled_on(text.replace(&machines(), ""), None)
 }
 
-fn compiled_on(text: String, machine: Option<&str>) -> Outcome {
-    let files = Files::of(root().join("examples")).with("cap.vcut", text);
+pub(crate) fn compiled_on(text: String, machine: Option<&str>) -> Outcome {
+    let files = Files::of(root().join("examples")).with("part.vcut", text);
     let request = Request {
-        path: "cap.vcut",
+        path: "part.vcut",
         loader: &files,
         overrides: &[],
         machine,

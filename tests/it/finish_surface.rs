@@ -1,11 +1,10 @@
 //! `finish disc` on surfaces through all stages and targets: what the programs do to a dome and to a bowl, by points of the disc in
 //! space; read back, changed and refused.
 
-use crate::pipeline::Files;
+use crate::finish::{USUAL, compiled_on, proven, roughed_and_finished};
 use crate::rect::{is_same, machines, mended};
-use crate::repository::root;
 use vcutc::diagnostics::{Code, has_errors};
-use vcutc::driver::{self, Outcome, Request, Typed};
+use vcutc::driver;
 use vcutc::process::verdict::replay;
 use vcutc::registry;
 use vcutc::simulation::prove::{CutFault, Findings};
@@ -26,39 +25,9 @@ fn bowl(x: f64, y: f64) -> f64 {
 }
 
 fn job(surface: &str, finish: &str) -> String {
-    format!(
-        "job \"shell\"\n\nstock {{ size = (120 mm, 100 mm, 40 mm) }}\n\nsurface {{ {surface} }}\n\n\
-         blade dagger {{ cutting_length = 30 mm, half_apex = 7.13 deg, thickness = 0.5 mm, edges = double }}\n\
-         blade wheel = disc {{\n  radius = 25 mm, thickness = 1 mm, depth = 10 mm, width = 50 mm, spin = 3000 rev/min\n  \
-         body (1 mm, 8 mm) (60 mm, 25 mm)\n}}\n\n\
-         rough vcut {{\n  blade = dagger\n  rake = 60 deg\n  limits {{ swing <= 50 deg, scallop <= 4 mm }}\n  \
-         allowance = 0.3 mm\n  residual = lift\n  feed {{ cut = 150 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}\n  \
-         clearance = 10 mm\n}}\n\n\
-         finish disc {{\n  blade = wheel\n  {finish}\n  feed {{ cut = 100 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}\n  \
-         clearance = 10 mm\n}}\n\n{}",
-        machines()
-    )
-}
-
-const USUAL: &str = "limits { scallop <= 0.1 mm, lead <= 12 deg }\n  over_hub = 9 mm";
-
-fn compiled_on(text: String, machine: Option<&str>) -> Outcome {
-    let files = Files::of(root().join("examples")).with("shell.vcut", text);
-    let request = Request {
-        path: "shell.vcut",
-        loader: &files,
-        overrides: &[],
-        machine,
-        options: Typed::default(),
-        operations: registry::OPERATIONS,
-        targets: &registry::backends(),
-    };
-    driver::compile(request, &mut |_| {}).unwrap()
-}
-
-/// As far as a job without a machine is.
-fn proven(text: &str) -> Outcome {
-    compiled_on(text.replace(&machines(), ""), None)
+    let part =
+        format!("job \"shell\"\n\nstock {{ size = (120 mm, 100 mm, 40 mm) }}\n\nsurface {{ {surface} }}");
+    roughed_and_finished(&part, 4, finish)
 }
 
 /// The disc in a place: the centre of its edge, and two directions square to its axis.

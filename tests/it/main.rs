@@ -31,6 +31,7 @@ mod curve;
 mod examples;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod finish;
+#[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod finish_surface;
 #[cfg(feature = "krl")]
 mod five_axis;
