@@ -15,7 +15,7 @@ pub(crate) mod order;
 pub(crate) mod tracks;
 
 use crate::asked::Sequence;
-use tracks::{Hold, Tilt};
+use tracks::{Hold, Tilt, least_tilted};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
@@ -104,7 +104,7 @@ pub enum Refusal {
 /// Plans the tracks, and gives what they leave.
 ///
 /// # Errors
-/// Why there is no plan; of several leads that were tried, for the greatest.
+/// Why there is no plan; where several leads were tried, what is wrong with the greatest.
 pub fn plan(work: Work<'_>, wish: &Wish) -> Result<(PlannedFinish, Surface), Refusal> {
     let mut corners = work.before.corners();
     if corners.all(|corner| corner.z <= work.bound.height(corner.x) + 1e-6) {
@@ -135,29 +135,7 @@ pub(crate) fn leads(wish: &Wish) -> Vec<Angle> {
 
 /// With a lead, and without side tilt where strips may run over the hub.
 fn with_lead(work: Work<'_>, wish: &Wish, lead: Angle) -> Result<(PlannedFinish, Surface), Refusal> {
-    let tilts = match wish.side {
-        Auto::Given(side) => vec![Tilt::Fixed(side)],
-        Auto::Auto => vec![
-            Tilt::Fixed(Angle::ZERO),
-            Tilt::PastHub { share: 1.05 },
-            Tilt::PastHub { share: 1.5 },
-        ],
-    };
-    let mut refusal = None;
-    for tilt in tilts {
-        match with_tilt(work, wish, lead, tilt) {
-            Ok(planned) => return Ok(planned),
-            Err(why) => {
-                let is_at_hub = is_over_body(&why);
-                // What keeps an upright disc from cutting is what a user can mend.
-                let why = refusal.get_or_insert(why);
-                if !is_at_hub {
-                    return Err(why.clone());
-                }
-            }
-        }
-    }
-    Err(refusal.unwrap_or(Refusal::Nothing))
+    least_tilted(wish.side, |tilt| with_tilt(work, wish, lead, tilt), is_over_body)
 }
 
 fn is_over_body(refusal: &Refusal) -> bool {

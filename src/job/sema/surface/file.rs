@@ -414,17 +414,28 @@ fn remarked(remarks: &Remarks, path: &Spanned<String>, unit: f64) -> Option<Diag
     for (name, count) in skipped.filter(|(name, _)| !WITHOUT_A_SHAPE.contains(&name.as_str())) {
         notes.push(format!("`{name}`: {}, skipped", number(*count as f64)));
     }
+    partly_read(
+        path,
+        "skipped or interpreted",
+        "more is in it than triangles",
+        notes,
+    )
+    .map(|diagnostic| diagnostic.help("export the part as triangles, for example as STL"))
+}
+
+/// That what the notes name in a file was not taken as it stands; none where there are no notes.
+pub(super) fn partly_read(
+    path: &Spanned<String>,
+    done: &str,
+    label: &'static str,
+    notes: Vec<String>,
+) -> Option<Diagnostic> {
     if notes.is_empty() {
         return None;
     }
-    let diagnostic = Diagnostic::new(
-        Code::MeshPartlyRead,
-        format!("parts of `{}` were skipped or interpreted", path.node),
-        path.span,
-        "more is in it than triangles",
-    );
-    let diagnostic = notes.into_iter().fold(diagnostic, Diagnostic::note);
-    Some(diagnostic.help("export the part as triangles, for example as STL"))
+    let title = format!("parts of `{}` were {done}", path.node);
+    let diagnostic = Diagnostic::new(Code::MeshPartlyRead, title, path.span, label);
+    Some(notes.into_iter().fold(diagnostic, Diagnostic::note))
 }
 
 /// The heights of a file on a grid, in its own unit.

@@ -2,7 +2,7 @@
 //!
 //! The file states its own unit. One that the job states besides must be the same.
 
-use super::file::{Content, Loaded, Misread, Named, broken};
+use super::file::{Content, Loaded, Misread, Named, broken, partly_read};
 use super::nurbs;
 use crate::Sourced;
 use crate::sema::fields::{BlockSpec, Fields, Inner, Takes, value};
@@ -185,15 +185,11 @@ fn remarked(remarks: &Remarks, path: &Spanned<String>) -> Option<Diagnostic> {
     let notes: Vec<String> = skipped
         .map(|(name, count)| format!("{name}: {}, skipped", number(*count as f64)))
         .collect();
-    if notes.is_empty() {
-        return None;
-    }
-    let diagnostic = Diagnostic::new(
-        Code::MeshPartlyRead,
-        format!("parts of `{}` were skipped", path.node),
-        path.span,
+    partly_read(
+        path,
+        "skipped",
         "more is in it than faces on B-spline surfaces",
-    );
-    let diagnostic = notes.into_iter().fold(diagnostic, Diagnostic::note);
-    Some(diagnostic.help("export only the faces on top of the part"))
+        notes,
+    )
+    .map(|diagnostic| diagnostic.help("export only the faces on top of the part"))
 }

@@ -9,7 +9,7 @@ use super::lay::{Asked, Care, GOUGE, Layout, Track, Unlaid};
 use crate::asked::{AIR, FinishDisc, Sequence};
 use crate::plan::model;
 use crate::plan::order::{Run, runs};
-use crate::plan::tracks::{Tilt, clear_of_hub, past_hub};
+use crate::plan::tracks::{Tilt, clear_of_hub, least_tilted, past_hub};
 use crate::plan::{LEAD_STEP, MOST_TRACKS, TRIES, Wish, leads};
 use core::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
@@ -92,7 +92,7 @@ pub(super) const fn held_to(asked: &FinishDisc) -> Tracks {
 /// Plans the tracks.
 ///
 /// # Errors
-/// Why there is no plan; of several leads that were tried, for the greatest.
+/// Why there is no plan; where several leads were tried, what is wrong with the greatest.
 pub(super) fn plan(
     asked: &FinishDisc,
     wish: &Wish,
@@ -218,29 +218,8 @@ impl Planner<'_, '_, '_> {
 
     /// With a least lead, and without side tilt where strips may run over the hub.
     fn with_lead(&self, lead: Angle) -> Result<PlannedTracks, Refusal> {
-        let tilts = match self.wish.side {
-            Auto::Given(side) => vec![Tilt::Fixed(side)],
-            Auto::Auto => vec![
-                Tilt::Fixed(Angle::ZERO),
-                Tilt::PastHub { share: 1.05 },
-                Tilt::PastHub { share: 1.5 },
-            ],
-        };
-        let mut refusal = None;
-        for tilt in tilts {
-            match self.with_tilt(lead, tilt) {
-                Ok(planned) => return Ok(planned),
-                Err(why) => {
-                    let is_at_hub = matches!(&why, Refusal::Fault { fault, .. } if matches!(fault.fault, PassFault::OverBody { .. }));
-                    // What keeps an upright disc from cutting is what a user can mend.
-                    let why = refusal.get_or_insert(why);
-                    if !is_at_hub {
-                        return Err(why.clone());
-                    }
-                }
-            }
-        }
-        Err(refusal.unwrap_or(Refusal::Nothing))
+        let is_over_body = |why: &Refusal| matches!(why, Refusal::Fault { fault, .. } if matches!(fault.fault, PassFault::OverBody { .. }));
+        least_tilted(self.wish.side, |tilt| self.with_tilt(lead, tilt), is_over_body)
     }
 
     /// As many tracks as the limit on scallop asks for.

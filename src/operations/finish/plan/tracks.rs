@@ -6,6 +6,7 @@ use crate::asked::Sequence;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::grid;
+use vcutc_job::Auto;
 use vcutc_simulation::cross_section::Guard;
 use vcutc_simulation::rim::Rim;
 use vcutc_simulation::surface::Side;
@@ -18,6 +19,33 @@ pub(crate) enum Tilt {
     PastHub {
         share: f64,
     },
+}
+
+/// A plan with the least of the side tilts that may be taken: upright first, then so far that strips pass the hub.
+///
+/// # Errors
+///
+/// What keeps the upright disc from cutting, for that is what a user can mend. Other tilts are tried only where it is the hub.
+pub(crate) fn least_tilted<P, R>(
+    side: Auto<Angle>,
+    plan: impl Fn(Tilt) -> Result<P, R>,
+    is_over_body: impl Fn(&R) -> bool,
+) -> Result<P, R> {
+    if let Auto::Given(side) = side {
+        return plan(Tilt::Fixed(side));
+    }
+    let upright = match plan(Tilt::Fixed(Angle::ZERO)) {
+        Err(why) if is_over_body(&why) => why,
+        done => return done,
+    };
+    for share in [1.05, 1.5] {
+        match plan(Tilt::PastHub { share }) {
+            Ok(planned) => return Ok(planned),
+            Err(why) if is_over_body(&why) => {}
+            Err(_) => break,
+        }
+    }
+    Err(upright)
 }
 
 /// How the disc is held on the part.
