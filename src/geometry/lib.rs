@@ -18,3 +18,4 @@ pub mod number;
 pub mod offset;
 mod point;
 pub mod profile;
+pub mod spine;

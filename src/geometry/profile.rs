@@ -132,6 +132,33 @@ impl Profile {
         Self::from_ascending(self.points.iter().map(higher).collect())
     }
 
+    /// The profile lower by a length.
+    #[must_use]
+    pub fn lowered(&self, by: Length) -> Self {
+        let lower = |point: &Point2| Point2::new(point.x, point.z - by.to_mm());
+        Self::from_ascending(self.points.iter().map(lower).collect())
+    }
+
+    /// The profile, and this height wherever it is lower.
+    #[must_use]
+    pub fn not_below(&self, least: Length) -> Self {
+        let least = least.to_mm();
+        let mut points: Vec<Point2> = Vec::with_capacity(self.points.len());
+        for (number, &point) in self.points.iter().enumerate() {
+            let before = number.checked_sub(1).and_then(|before| self.points.get(before));
+            if let Some(&from) = before
+                && (from.z < least) != (point.z < least)
+            {
+                let x = from.x + (point.x - from.x) * ((least - from.z) / (point.z - from.z));
+                if x - from.x >= least_step(x) && point.x - x >= least_step(point.x) {
+                    points.push(Point2::new(x, least));
+                }
+            }
+            points.push(Point2::new(point.x, point.z.max(least)));
+        }
+        Self::from_ascending(points)
+    }
+
     /// The part of the profile from one x to a greater one, with points at exactly these. Ends beyond the profile by
     /// no more than 1e-6 mm get the height of its end.
     ///
