@@ -38,7 +38,7 @@ pub fn ply(surface: &Surface, machined: &Machined) -> Vec<u8> {
     // Writing to a string cannot fail.
     let _ = write!(
         head,
-        "ply\nformat binary_little_endian 1.0\ncomment quality: height that straight cuts leave above the part along z, in mm\n\
+        "ply\nformat binary_little_endian 1.0\ncomment quality: height that cuts leave above the part along z, in mm\n\
          element vertex {}\nproperty float x\nproperty float y\nproperty float z\nproperty float quality\n\
          element face {}\nproperty list uchar int vertex_indices\nend_header\n",
         kept.len(),
@@ -47,7 +47,7 @@ pub fn ply(surface: &Surface, machined: &Machined) -> Vec<u8> {
     let mut bytes = head.into_bytes();
     for &corner in &kept {
         if let Some(&Point3 { x, y, z }) = mesh.corners().get(corner as usize) {
-            let left = machined.height(x) - z;
+            let left = machined.height_over(x, y) - z;
             for value in [x, y, z, left] {
                 bytes.extend((value as f32).to_le_bytes());
             }

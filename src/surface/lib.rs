@@ -45,6 +45,7 @@ pub mod residual;
 pub mod scallop;
 pub mod section;
 pub mod shadow;
+pub mod spine;
 pub mod strip;
 pub mod surface;
 pub mod swath;

@@ -9,7 +9,7 @@
 
 use crate::coverage::Tangled;
 use crate::region::{Half, Region, sides, width, within};
-use crate::residual::{Machined, Over, under, volume};
+use crate::residual::{Machined, Over, volume};
 use crate::surface::{Cell, Surface, clipped};
 use crate::visible::Part;
 use vcutc_backend_api::units::Length;
@@ -139,8 +139,7 @@ fn left(machined: &Machined, region: &[[f64; 2]], part: &Part) -> impl Iterator<
     let [from, to] = range(region, 0);
     let segments = machined.between(from, to);
     let inside = segments.filter(move |[a, b]| a.x < to - TOUCH && b.x > from + TOUCH);
-    let pieces = inside.map(move |segment| under(segment, region, part.plane));
-    pieces.filter(|piece| piece.len() >= 3)
+    inside.flat_map(move |segment| machined.above(segment, region, part.plane))
 }
 
 /// The least and the greatest coordinate of places along an axis.

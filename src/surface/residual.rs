@@ -174,11 +174,8 @@ impl Sum {
         let xs = || part.region.iter().map(|place| place[0]);
         let from = xs().fold(f64::INFINITY, f64::min);
         let to = xs().fold(f64::NEG_INFINITY, f64::max);
-        for segment in machined.between(from, to) {
-            let corners = under(segment, &part.region, part.plane);
-            if corners.len() < 3 {
-                continue;
-            }
+        let segments = machined.between(from, to);
+        for corners in segments.flat_map(|segment| machined.above(segment, &part.region, part.plane)) {
             if counts == Counts::All {
                 for &(place, height) in &corners {
                     if self.highest.is_none_or(|(most, _)| height > most) {
@@ -194,16 +191,46 @@ impl Sum {
     }
 }
 
-/// The corners of what of a region lies under a segment of a machined profile, each with the height of the segment above a plane.
-pub(crate) fn under([a, b]: [Point2; 2], region: &[[f64; 2]], plane: Plane) -> Vec<([f64; 2], f64)> {
-    let left = within(region, Half::new([-1.0, 0.0], -a.x));
-    let strip = within(&left, Half::new([1.0, 0.0], b.x));
-    let height = |place: [f64; 2]| height_between(a, b, place[0]) - plane.at(place);
-    strip.into_iter().map(|place| (place, height(place))).collect()
+/// Corners in plan, each with a height over it that is linear.
+pub(crate) type Heights = Vec<([f64; 2], f64)>;
+
+impl Machined {
+    /// What of a region lies under a segment of it, with its heights above a plane: one polygon, or where the top of the stock cuts
+    /// it off two.
+    pub(crate) fn above(&self, [a, b]: [Point2; 2], region: &[[f64; 2]], plane: Plane) -> Vec<Heights> {
+        let left = within(region, Half::new([-1.0, 0.0], -a.x));
+        let strip = within(&left, Half::new([1.0, 0.0], b.x));
+        let height = |place: [f64; 2]| height_between(a, b, place[0]);
+        let over = |place: [f64; 2], height: f64| (place, height - plane.at(place));
+        let Some(lid) = self.lid() else {
+            let whole = strip.into_iter().map(|place| over(place, height(place)));
+            return vec![whole.collect()].into_iter().filter(has_area).collect();
+        };
+        // How far it is below the lid, and how far above.
+        let below: Heights = strip
+            .iter()
+            .map(|&place| (place, lid.height(place) - height(place)))
+            .collect();
+        let higher: Heights = below.iter().map(|&(place, room)| (place, -room)).collect();
+        let open = above(&below)
+            .into_iter()
+            .map(|(place, _)| over(place, height(place)));
+        let closed = above(&higher)
+            .into_iter()
+            .map(|(place, _)| over(place, lid.height(place)));
+        [open.collect(), closed.collect()]
+            .into_iter()
+            .filter(has_area)
+            .collect()
+    }
+}
+
+fn has_area(corners: &Heights) -> bool {
+    corners.len() >= 3
 }
 
 /// The part of a polygon where a linear height over it is not below 0, with the heights.
-fn above(corners: &[([f64; 2], f64)]) -> Vec<([f64; 2], f64)> {
+fn above(corners: &[([f64; 2], f64)]) -> Heights {
     if corners.iter().all(|&(_, height)| height >= 0.0) {
         return corners.to_vec();
     }

@@ -1,13 +1,32 @@
 //! A height over x that may step.
 
 use core::fmt;
+use std::sync::Arc;
+use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::height_between;
+use vcutc_geometry::spine::Spine;
 
 /// The surface that straight cuts along y leave: a polyline whose x never decrease. Beyond its ends it goes on level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Machined {
     points: Vec<Point2>,
+    lid: Option<Lid>,
+}
+
+/// The top of the stock as it is seen with the spine of the cuts taken off: nothing is left above it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Lid {
+    spine: Arc<Spine>,
+    /// In mm.
+    top: f64,
+}
+
+impl Lid {
+    /// Its height over a place, in mm.
+    pub(crate) fn height(&self, place: [f64; 2]) -> f64 {
+        self.top - self.spine.rise(place[1])
+    }
 }
 
 /// Why points are not a machined profile. Indices count them from 0.
@@ -52,8 +71,31 @@ impl Machined {
             return Err(MachinedError::TurnsBack { index: index + 1 });
         }
         match (points.first(), points.last()) {
-            (Some(first), Some(last)) if first.x < last.x => Ok(Self { points }),
+            (Some(first), Some(last)) if first.x < last.x => Ok(Self { points, lid: None }),
             _ => Err(MachinedError::TooFew),
+        }
+    }
+
+    /// The same of cuts along a spine in a stock of that height: it stands so over each y with the spine taken off, but nowhere
+    /// higher than the stock. What is left is measured from the part with the spine taken off ([`crate::surface::Surface::levelled`]).
+    #[must_use]
+    pub fn along(self, spine: Arc<Spine>, top: Length) -> Self {
+        let top = top.to_mm();
+        let lid = Some(Lid { spine, top });
+        Self { lid, ..self }
+    }
+
+    pub(crate) const fn lid(&self) -> Option<&Lid> {
+        self.lid.as_ref()
+    }
+
+    /// How high it stands over a place of the stock, in mm; at a wall its upper end.
+    #[must_use]
+    pub fn height_over(&self, x: f64, y: f64) -> f64 {
+        let height = self.height(x);
+        match &self.lid {
+            None => height,
+            Some(lid) => (height + lid.spine.rise(y)).min(lid.top),
         }
     }
 
