@@ -12,7 +12,7 @@ use vcutc_backend_api::units::{Angle, Length};
 pub const PLACES: u64 = 10_000;
 
 /// Of the edge, in mm.
-const RADIUS: f64 = 25.0;
+pub const RADIUS: f64 = 25.0;
 
 /// The surface, prepared.
 #[must_use]
@@ -20,13 +20,26 @@ pub fn dropper(surface: &Surface) -> Dropper<'_> {
     Dropper::new(surface)
 }
 
-/// Places all over the plan, and an axis that leans by 5 degrees in a direction of its own at each.
+/// Fractional parts of multiples of irrational numbers fill a range evenly.
+fn share(k: u32, step: f64) -> f64 {
+    (f64::from(k) * step).fract()
+}
+
+/// Places all over the plan.
+pub fn places() -> impl Iterator<Item = [f64; 2]> {
+    let place = |k: u32| {
+        [
+            PLAN[0] * share(k, 0.754_877_666),
+            PLAN[1] * share(k, 0.569_840_291),
+        ]
+    };
+    (0..PLACES as u32).map(place)
+}
+
+/// These, and an axis that leans by 5 degrees in a direction of its own at each.
 fn postures() -> impl Iterator<Item = ([f64; 2], Axis)> {
-    (0..PLACES as u32).map(|k| {
-        // Fractional parts of multiples of irrational numbers fill the plan evenly.
-        let share = |step: f64| (f64::from(k) * step).fract();
-        let place = [PLAN[0] * share(0.754_877_666), PLAN[1] * share(0.569_840_291)];
-        let (sine, cosine) = (std::f64::consts::TAU * share(0.618_033_989)).sin_cos();
+    (0_u32..).zip(places()).map(|(k, place)| {
+        let (sine, cosine) = (std::f64::consts::TAU * share(k, 0.618_033_989)).sin_cos();
         let axis = Axis::new([0.087 * cosine, 0.087 * sine, 1.0]).expect("it points up");
         (place, axis)
     })
