@@ -14,7 +14,6 @@ use vcutc_driver::{Compiled, Outcome};
 use vcutc_job::planned::{CutShape, PlannedStrip, PlannedTip};
 use vcutc_job::{BladeRef, CheckedJob, PlannedJob, PlannedOperation};
 use vcutc_surface::deviation;
-use vcutc_surface::residual::Machined;
 
 /// Writes a form of the job as one file. Returns whether the job got far enough to have it.
 ///
@@ -62,7 +61,7 @@ pub(super) fn write(
 
 fn deviation_of(job: &CheckedJob, compiled: &Compiled) -> Option<Vec<u8>> {
     let surface = job.part.surface()?;
-    let machined = Machined::new(compiled.report.contour.clone()).ok()?;
+    let machined = job.part.left_by(&compiled.report.contour, job.stock)?;
     Some(deviation::ply(surface, &machined))
 }
 

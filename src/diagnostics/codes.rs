@@ -145,6 +145,8 @@ codes! {
     ImpossibleSurface = "VC0246", Error, "impossible surface";
     /// Things in a file of triangles that are left out, or decided on.
     MeshPartlyRead = "VC0247", Warning, "mesh or STEP file read only in part";
+    /// Cuts that cannot follow the part as they are to.
+    CannotFollow = "VC0248", Error, "cuts that cannot follow the part";
 
     /// A job that leaves nothing to cut.
     NothingToCut = "VC0301", Error, "nothing to cut";

@@ -1,11 +1,14 @@
-//! What straight cuts leave over a part that changes along y.
+//! What cuts leave over a part that changes along y.
 //!
-//! They leave the same height at every y, so they cannot go below the part's shadow. What lies between shadow and part is left
-//! whatever they do; it shows how well straight cuts suit the part.
+//! They leave the same height at every y, with the spine that they follow taken off, so they cannot go below the part's shadow. What
+//! lies between shadow and part is left whatever they do; it shows how well such cuts suit the part.
 
+use vcutc_backend_api::ir::Stock;
+use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 use vcutc_job::Part;
-use vcutc_surface::residual::{Machined, Standing, Volume};
+use vcutc_surface::residual::{Standing, Volume};
+use vcutc_surface::spine::Rising;
 
 /// What is left over a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,17 +17,46 @@ pub struct LeftOver {
     pub all: Standing,
     /// What of it lies below the shadow.
     pub shaded: Volume,
+    /// What cuts that are infinitely close would leave at most, where level ones leave much more than they would along a spine.
+    pub follow: Option<Compared>,
+}
+
+/// How high material stays above a part at most, as a grid of its heights shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compared {
+    pub level: Length,
+    pub along: Length,
+}
+
+/// Level cuts leave much more where they leave so many times as much, and that is more than so many mm.
+const MUCH: (f64, f64) = (2.0, 1.0);
+
+impl Compared {
+    fn of(part: &Part) -> Option<Self> {
+        let surface = part.surface().filter(|_| part.spine().is_none())?;
+        let (times, least) = MUCH;
+        let level = surface.left_by_straight_cuts();
+        let along = surface.spine(Rising::Freely)?.leaves;
+        (level > times * along && level > least).then(|| Self {
+            level: Length::mm(level),
+            along: Length::mm(along),
+        })
+    }
 }
 
 impl LeftOver {
     /// What cuts leave that end at this contour, from left to right; none over a profile.
-    pub(crate) fn of(part: &Part, contour: &[Point2]) -> Option<Self> {
-        let surface = part.surface()?;
+    pub(crate) fn of(part: &Part, contour: &[Point2], stock: Stock) -> Option<Self> {
+        let surface = part.levelled()?;
         let shadow = part.tessellated(Part::TOLERANCE)?;
-        let below = |corners: &[Point2]| Machined::new(corners.to_vec()).ok();
+        let below = |corners: &[Point2]| part.left_by(corners, stock);
         // Checking a job refuses surfaces that are too tangled for this.
         let all = surface.standing(&below(contour)?).ok()??;
         let shaded = surface.standing(&below(shadow.points())?).ok()??.volume;
-        Some(Self { all, shaded })
+        Some(Self {
+            all,
+            shaded,
+            follow: Compared::of(part),
+        })
     }
 }

@@ -6,7 +6,7 @@ pub mod processes;
 pub mod times;
 
 use crate::checks::Checks;
-use crate::left_over::LeftOver;
+use crate::left_over::{Compared, LeftOver};
 use crate::ways::Comparison;
 use vcutc_backend_api::ir::Site;
 use vcutc_backend_api::script::duration_words;
@@ -84,7 +84,7 @@ pub(crate) fn with_surface(
     left_over: Option<&LeftOver>,
     tracked: &[Tracked],
 ) -> Vec<String> {
-    let Some(LeftOver { all, shaded }) = left_over else {
+    let Some(LeftOver { all, shaded, follow }) = left_over else {
         return lines;
     };
     let Over { height, place } = all.highest;
@@ -106,11 +106,21 @@ pub(crate) fn with_surface(
     lines.push(row(
         "shadow",
         &format!(
-            "{} of that lie below the part's shadow along y, where straight cuts do not get; area and scallop are measured from \
-             the shadow",
+            "{} of that lie below the part's shadow along y, where the cuts do not get; area and scallop are measured from the shadow",
             litres(*shaded)
         ),
     ));
+    if let Some(Compared { level, along }) = follow {
+        lines.push(row(
+            "follow",
+            &format!(
+                "there up to {:.2} mm stay above the part; cuts of `rough vcut` that rise and fall with it, `follow = spine`, leave about \
+                 {:.2} mm",
+                level.to_mm(),
+                along.to_mm()
+            ),
+        ));
+    }
     lines
 }
 

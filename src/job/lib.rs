@@ -5,6 +5,7 @@
 
 mod blades;
 pub mod description;
+pub mod follow;
 pub mod operation;
 mod places;
 pub mod sema;

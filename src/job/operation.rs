@@ -10,16 +10,19 @@ pub mod planned;
 pub mod planning;
 pub mod search;
 
+use super::follow::Follow;
 use super::{BladeRef, Setup, Sourced};
 use core::any::Any;
 use core::fmt::Debug;
 use planned::PlannedOperation;
 use planning::PlanningJob;
 use search::SearchSpace;
+use std::sync::Arc;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_cancellation::{Effort, Wanted};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::Span;
+use vcutc_geometry::spine::Spine;
 use vcutc_simulation::surface::Surface;
 
 /// An operation as the job asks for it.
@@ -51,6 +54,17 @@ pub trait Operation: OperationValue + Any + Debug + Send + Sync {
     fn takes_off(&self) -> Option<Sourced<Length>> {
         None
     }
+
+    /// How its cuts follow a part that changes along y; none where that is nothing that it has to choose.
+    fn follows(&self) -> Option<Sourced<Follow>> {
+        Some(Sourced {
+            value: Follow::Straight,
+            span: None,
+        })
+    }
+
+    /// Makes its cuts along a spine: those of all operations of a job follow the part alike.
+    fn go_along(&mut self, _spine: &Arc<Spine>) {}
 
     /// What its open parameters are to make least.
     fn aim(&self) -> Aim {

@@ -15,6 +15,7 @@ pub mod eval;
 pub mod field_ranges;
 pub mod fields;
 mod files;
+mod follow;
 mod frame;
 mod functions;
 mod gather;
@@ -265,7 +266,19 @@ fn whole(
         (machine, _) => machine,
     };
     let (name, stock) = (name?, stock?);
-    let ways = ways?;
+    let mut ways = ways?;
+    let place = all
+        .profile
+        .or(all.surface)
+        .map_or(stock.span, |placed| placed.place.whole);
+    let machine = machine?;
+    let asked = follow::Asked {
+        part: part?,
+        place,
+        stock: stock.node,
+        machine: machine.as_ref(),
+    };
+    let part = follow::decide(asked, &mut ways, &mut session.reports)?;
     let open = ways.iter().enumerate().filter(|(_, ways)| ways.are_several());
     let open = open.map(|(operation, ways)| OpenChoice {
         operation,
@@ -276,13 +289,10 @@ fn whole(
         name_span: name.span,
         stock: stock.node,
         stock_span: stock.span,
-        part: part?,
-        profile_span: all
-            .profile
-            .or(all.surface)
-            .map_or(stock.span, |placed| placed.place.whole),
+        part,
+        profile_span: place,
         open: open.collect(),
         operations: ways.into_iter().map(|ways| ways.into_first().operation).collect(),
-        machine: machine?,
+        machine,
     })
 }

@@ -92,7 +92,7 @@ pub(super) fn clear(program: &VerifiedProgram, rigs: &Rigs<'_>, ends: &[Joints])
         })
         .peekable();
     let mut found: Option<Sweep> = None;
-    prove::accompanied(program, &mut |op, surface| {
+    prove::accompanied(program, &[], &mut |op, surface| {
         if let Some(turn) = turns.next_if(|turn| turn.op == op) {
             judge(&turn, surface, &mut found);
         }

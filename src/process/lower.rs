@@ -2,8 +2,12 @@
 
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::ir::{Action, Cell, Program, Site, SourceRef, Stock};
+use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_job::{BladeRef, CheckedJob, Machine, PlannedJob, PlannedOperation};
+
+/// How far the tip may leave the way where one piece of a chain goes on into the next, so that the machine need not stop at each.
+pub const BLEND: Length = Length::mm(0.005);
 
 /// Writes the plan down as a program.
 #[must_use]

@@ -88,6 +88,23 @@ impl Holder {
         orientation(held * about_its_axis)
     }
 
+    /// The posture that cuts a flank along a way that rises by `slope` with y. Seen along y the flanks keep the swing, so seen
+    /// along the way they open to `tan(a) = tan(swing) / cos(mu)`: the level posture of that swing, pitched about x by
+    /// `mu = atan(slope)`.
+    #[must_use]
+    pub fn cutting_along(self, flank: Flank, feed: Feed, slope: f64) -> Orientation {
+        if slope == 0.0 {
+            return self.cutting(flank, feed);
+        }
+        let pitch = libm::atan(slope);
+        let opened = Self {
+            swing: Angle::rad(libm::atan(self.swing.tan() / libm::cos(pitch))),
+            ..self
+        };
+        let [w, x, y, z] = opened.cutting(flank, feed).quaternion();
+        orientation(DQuat::from_rotation_x(pitch) * DQuat::from_xyzw(x, y, z, w))
+    }
+
     /// The posture by way of which a turn is made that would otherwise come near half a revolution.
     #[must_use]
     pub fn by_way_of(self, from: Orientation, to: Orientation) -> Option<Orientation> {

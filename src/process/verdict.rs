@@ -195,6 +195,17 @@ pub fn explained(asked: &dyn Operation, finding: Finding) -> Diagnostic {
             format!("the blade meets material at {}", point(at)),
         ),
         CutFault::Overcut { at, depth } => overcut(asked, finding, at, depth),
+        CutFault::Strays { y, by } => Diagnostic::new(
+            Code::Internal,
+            format!(
+                "{} leaves its spine by {} mm, which is a fault of the compiler",
+                place(&finding),
+                show(by.to_mm())
+            ),
+            span,
+            format!("at y {} mm", show(y.to_mm())),
+        )
+        .help("please report the job together with this message"),
         CutFault::Stays { at, height, limit } => {
             let (what, label) = stays_words(at, height, limit);
             let place = place(&finding);

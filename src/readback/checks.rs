@@ -431,6 +431,13 @@ impl Read<'_> {
                 let (what, label) = verdict::strip_words(fault);
                 (format!("at {place}, {what}"), label)
             }
+            CutFault::Strays { y, by } => (
+                format!(
+                    "{place} leaves the spine that all cuts follow by {} mm",
+                    show(by.to_mm())
+                ),
+                format!("at y {} mm", show(y.to_mm())),
+            ),
             CutFault::Stays { at, height, limit } => {
                 let (what, label) = verdict::stays_words(at, height, limit);
                 (format!("beside {place}, {what}"), label)

@@ -66,9 +66,11 @@ pub fn lattice(material: &Material<'_>, ids: Prefix) -> String {
 
 /// The title of a picture of the section. Over a part that changes along y, sections are about its shadow.
 fn titled(material: &Material<'_>, what: &str) -> String {
-    let shadow = match material.job.part.surface() {
-        Some(_) => ", over the shadow of the part",
-        None => "",
+    let part = &material.job.part;
+    let shadow = match (part.surface(), part.spine()) {
+        (Some(_), Some(_)) => ", over the shadow of the part along the spine of the cuts",
+        (Some(_), None) => ", over the shadow of the part",
+        (None, _) => "",
     };
     format!("{}: {what}{shadow}", material.plan.name)
 }

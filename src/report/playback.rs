@@ -26,6 +26,7 @@ use vcutc_machine::kinematics::linkage::Linkage;
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_motion::rigs::Rigs;
 use vcutc_motion::solve::Reached;
+use vcutc_process::verdict;
 
 /// Most ops that are played, some 100,000 cuts: pages with more would be too large for browsers.
 pub const MOST_OPS: usize = 400_000;
@@ -34,6 +35,8 @@ pub const MOST_OPS: usize = 400_000;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Playback<'a> {
     pub stock: Stock,
+    /// Places along y, each with how much higher the section of the work stands there than it is drawn.
+    spine: Vec<[f64; 2]>,
     /// The part's contour, from left to right, in W.
     pub part: &'a [Point2],
     /// The blades of the program, of which the first is at hand when it starts.
@@ -67,6 +70,23 @@ pub struct Cell<'a> {
     pub track: Track,
 }
 
+/// Places of a spine that are drawn: more could not be distinguished.
+const MOST_PLACES: usize = 40;
+
+/// The spine of a plan's cuts, as it is drawn; level where they are.
+fn spine(plan: &PlannedJob) -> Vec<[f64; 2]> {
+    let depth = plan.stock.depth.to_mm();
+    match plan.surface.as_ref().and_then(|surface| surface.spine()) {
+        None => vec![[0.0, 0.0], [depth, 0.0]],
+        Some(spine) => {
+            let places = spine.knots().len().min(MOST_PLACES) - 1;
+            let place = |number: usize| depth * number as f64 / places as f64;
+            let places = (0..=places).map(place);
+            places.map(|y| [y, spine.rise(y)]).collect()
+        }
+    }
+}
+
 impl<'a> Playback<'a> {
     #[must_use]
     pub fn of(plan: &'a PlannedJob, compiled: &'a Compiled) -> Self {
@@ -77,11 +97,12 @@ impl<'a> Playback<'a> {
         };
         Self {
             stock: program.stock,
+            spine: spine(plan),
             part: plan.profile.points(),
             blades: &program.blades,
             changes: changes(program),
             operations: program.operations.len(),
-            taken: Taken::of(compiled.program.verified()),
+            taken: Taken::of(compiled.program.verified(), &verdict::bounds(plan)),
             orientations: &program.orientations,
             timeline: Timeline::of(program, &compiled.op_times),
             cell,

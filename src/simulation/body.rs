@@ -9,9 +9,13 @@
 //! where any of it does. While the blade turns, or its tip goes on an arc, the way is cut into spans: the cylinders of the middle
 //! of a span, grown by how far any of their points gets in half of it, contain all that the body covers meanwhile ([`turn`]).
 //! Moves of all axes have no straight way and are not looked at.
+//!
+//! Where cuts follow a spine, the work is its section raised by the spine at every y. It lies below a plane that touches the spine
+//! below the blade and is raised above it wherever the body is ([`slant`]); seen along that plane, all of this holds as before.
 
 mod section;
 mod shadow;
+mod slant;
 mod stage;
 #[cfg(test)]
 mod tests;
@@ -21,6 +25,7 @@ use super::course::{Course, Way};
 use super::prove::{Bound, Passes, accompanied};
 use super::surface::Surface;
 use section::{Ceiling, Near, Section};
+use slant::{Backbone, Slant};
 use stage::{Axis, Cylinder};
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{Action, BodyStage, CutKind, OpId, OperationId, Program, Site, Stock, ToolId};
@@ -104,7 +109,7 @@ pub fn clears(
     let way = Way { from, to };
     Cylinder::all(body).into_iter().all(|cylinder| {
         let nearest = cylinder
-            .shadow(Axis::of(held), way, stock)
+            .shadow(Axis::of(held), way, stock, Slant::default())
             .and_then(|shadow| shadow.nearest_above(section));
         nearest.is_none_or(|(_, gap)| gap >= -TOUCH)
     })
@@ -119,7 +124,7 @@ pub fn watched(verified: &VerifiedProgram, bounds: &[Bound<'_>], watch: &mut dyn
     }
     let mut watcher = Watcher::new(program, bounds, watch);
     let mut segments = program.segments();
-    accompanied(verified, &mut |_, surface| {
+    accompanied(verified, bounds, &mut |_, surface| {
         if let Some(segment) = segments.next() {
             watcher.motion(&segment, surface);
         }
@@ -133,6 +138,8 @@ struct Watcher<'p> {
     /// Of each blade.
     stages: Vec<Vec<Cylinder>>,
     ceiling: Ceiling,
+    /// What the cuts follow, all alike.
+    backbone: Option<Backbone<'p>>,
     found: Bodies,
     watch: &'p mut dyn FnMut(Contact),
 }
@@ -146,6 +153,10 @@ impl<'p> Watcher<'p> {
             bounds,
             stages: stages.collect(),
             ceiling: Ceiling::of(program.stock),
+            backbone: bounds
+                .iter()
+                .find_map(|bound| bound.spine)
+                .map(|spine| Backbone::new(spine, program)),
             found: Bodies::default(),
             watch,
         }
@@ -169,6 +180,7 @@ impl<'p> Watcher<'p> {
             stock: self.program.stock,
             surface,
             ceiling: &self.ceiling,
+            backbone: self.backbone,
         };
         let Some(near) = self.nearest(&course, segment.before.tool, during, &mut section) else {
             return;
@@ -231,7 +243,7 @@ impl<'p> Watcher<'p> {
     fn in_part(&self, (operation, tool): (OperationId, ToolId), near: Near) -> Option<Length> {
         let cylinder = self.stages.get(usize::from(tool.0))?.get(near.stage)?;
         let part = self.bounds.get(usize::from(operation.0))?.part;
-        let shadow = cylinder.shadow(near.axis, near.way, self.program.stock)?;
+        let shadow = cylinder.shadow(near.axis, near.way, self.program.stock, near.slant)?;
         let (_, gap) = shadow.nearest_above(part.points())?;
         (gap < -TOUCH).then(|| Length::mm(-gap))
     }

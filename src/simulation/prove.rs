@@ -17,9 +17,11 @@
 //!
 //! On a piece of a chain the blade itself is followed, with its thickness and the chain's blend ([`piece`]).
 
+mod along;
 mod entry;
 mod findings;
 mod flank;
+mod overcut;
 mod piece;
 mod strip;
 #[cfg(test)]
@@ -30,9 +32,9 @@ use super::cross_section::{CrossSection, Guard, Taken};
 use super::disc::PassFault;
 use super::sides::ThickFlank;
 use super::surface::{Side, Single, Surface, Vee};
+use along::AlongSpine;
 use core::num::NonZeroU32;
 pub use entry::below_top;
-use entry::deepest_entry;
 pub(super) use entry::merge_heights;
 pub use findings::Findings;
 use findings::{is_longer, note};
@@ -50,6 +52,7 @@ use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
+use vcutc_geometry::spine::Spine;
 
 /// What an operation must stay out of.
 #[derive(Clone, Copy, Debug)]
@@ -64,6 +67,10 @@ pub struct Bound<'p> {
     pub aside: Length,
     /// What discs of the operation are taken for; none where it has none.
     pub passes: Option<Passes>,
+    /// What its cuts follow, with which taken off the part is what it is here; none where they are level.
+    pub spine: Option<&'p Spine>,
+    /// How much lower than their tips say flanks of level cuts have to come out.
+    pub lower: Length,
 }
 
 /// Something wrong with a cut.
@@ -94,6 +101,8 @@ impl<'p> Bound<'p> {
             edge: None,
             aside: Length::ZERO,
             passes: None,
+            spine: None,
+            lower: Length::ZERO,
         }
     }
 }
@@ -117,6 +126,13 @@ pub enum CutFault {
         at: Point2,
         /// How deep, along z.
         depth: Length,
+    },
+    /// A cut leaves the spine that all cuts of its operation follow.
+    Strays {
+        /// Where along y.
+        y: Length,
+        /// How far the tip is off, or the end of the edge.
+        by: Length,
     },
     /// A pass of a disc does not do what it is for.
     Strip(PassFault),
@@ -167,10 +183,14 @@ const fn is_piece(op: &Op) -> bool {
 }
 
 /// Shows the surface before every op as the cuts before it have left it. A chip counts as material until all of its flanks are
-/// cut.
-pub fn accompanied(program: &VerifiedProgram, show: &mut dyn FnMut(OpId, &mut Surface)) {
+/// cut; so do those of cuts along spines that `bounds` do not know.
+pub fn accompanied(
+    program: &VerifiedProgram,
+    bounds: &[Bound<'_>],
+    show: &mut dyn FnMut(OpId, &mut Surface),
+) {
     let untouched = Surface::untouched(program.program().stock);
-    let mut player = Player::new(untouched, program.program(), &[]);
+    let mut player = Player::new(untouched, program.program(), with_spines(bounds));
     player.play(program, &mut |op, section| show(op, section.surface()));
 }
 
@@ -178,10 +198,11 @@ pub fn accompanied(program: &VerifiedProgram, show: &mut dyn FnMut(OpId, &mut Su
 /// one takes, and the machined surface.
 pub fn watched(
     program: &VerifiedProgram,
+    bounds: &[Bound<'_>],
     show: &mut dyn FnMut(OpId, &mut Surface, Vec<Taken>),
 ) -> (Vec<Taken>, Surface) {
     let untouched = Surface::untouched(program.program().stock);
-    let mut player = Player::new(untouched, program.program(), &[]);
+    let mut player = Player::new(untouched, program.program(), with_spines(bounds));
     player.section.keep_taken();
     player.play(program, &mut |op, section| {
         let taken = section.taken();
@@ -190,10 +211,20 @@ pub fn watched(
     (player.section.taken(), player.section.into_surface())
 }
 
+/// What to know of operations to tell what their cuts take: where none follows a spine, nothing.
+fn with_spines<'b, 'p>(bounds: &'b [Bound<'p>]) -> &'b [Bound<'p>] {
+    if bounds.iter().any(|bound| bound.spine.is_some()) {
+        bounds
+    } else {
+        &[]
+    }
+}
+
 /// Depth below which an overcut is rounding: a nanometre.
 const OVERCUT: f64 = 1e-6;
 
 /// A cut of one flank, as the program states it.
+#[derive(Clone, Debug)]
 struct Cut {
     operation: OperationId,
     layer: NonZeroU32,
@@ -282,6 +313,8 @@ struct Player<'p> {
     kept: BTreeMap<OperationId, Guard<'p>>,
     /// The part that each operation with chains or narrow flanks must stay out of, up to the stock's top.
     parts: BTreeMap<OperationId, Vec<Point2>>,
+    /// Cuts along a spine.
+    along: AlongSpine,
 }
 
 /// A V by its layer and its cut.
@@ -328,6 +361,7 @@ impl<'p> Player<'p> {
             longest_edge: 0.0,
             counted: None,
             layers: BTreeMap::new(),
+            along: AlongSpine::default(),
         }
     }
 
@@ -358,15 +392,9 @@ impl<'p> Player<'p> {
             self.single(cut, geometry);
             return;
         }
-        let blocked_at = if let Some(run) = self.section.surface().flank_from(cut.tip, side, geometry.slope) {
-            self.use_edge(run.reach * geometry.edge_per_height, cut);
-            run.blocked_at
-        } else {
-            self.section
-                .surface()
-                .obstacle(Vee::one(cut.tip, side, geometry.slope))
-        };
-        self.note_blocked(blocked_at, cut);
+        let bound = self.bounds.get(usize::from(cut.operation.0));
+        let lower = bound.map_or(0.0, |bound| bound.lower.to_mm());
+        self.come_out(cut, side, geometry, lower);
         let place = (cut.layer, cut.cut);
         // The verifier has made sure that both flanks are there, once each.
         match self.half_done.take(place) {
@@ -376,9 +404,25 @@ impl<'p> Player<'p> {
             }
             Some(other) => {
                 let vee = Vee::one(cut.tip, side, geometry.slope).with(side.opposite(), other);
-                self.release(cut, vee);
+                self.release(cut, vee, Length::ZERO);
             }
         }
+    }
+
+    /// Where a flank that may lie so much lower comes out.
+    fn come_out(&mut self, cut: &Cut, side: Side, geometry: FlankGeometry, lower: f64) {
+        let tip = Point2 {
+            z: cut.tip.z - lower,
+            ..cut.tip
+        };
+        let surface = self.section.surface();
+        let blocked_at = if let Some(run) = surface.flank_from(tip, side, geometry.slope) {
+            self.use_edge(run.reach * geometry.edge_per_height, cut);
+            run.blocked_at
+        } else {
+            surface.obstacle(Vee::one(tip, side, geometry.slope))
+        };
+        self.note_blocked(blocked_at, cut);
     }
 
     /// A cut of one flank.
@@ -404,7 +448,7 @@ impl<'p> Player<'p> {
                 self.note_blocked(run.blocked_at, cut);
             }
         }
-        self.release(cut, vee);
+        self.release(cut, vee, Length::ZERO);
     }
 
     /// Notes how much edge a flank uses.
@@ -451,8 +495,8 @@ impl<'p> Player<'p> {
         Some(limit.map_or(blade, |limit| limit.min(blade)).to_mm())
     }
 
-    /// Takes the chip of a cut out, all of whose flanks are cut.
-    fn release(&mut self, cut: &Cut, vee: Vee) {
+    /// Takes the chip of a cut out, all of whose flanks are cut, each up to `below` lower than it says.
+    fn release(&mut self, cut: &Cut, vee: Vee, below: Length) {
         self.section.release(vee);
         let released = vee;
         let index = usize::from(cut.operation.0);
@@ -461,7 +505,7 @@ impl<'p> Player<'p> {
         };
         let vee = Vee {
             tip: Point2 {
-                z: vee.tip.z - bound.drop.to_mm(),
+                z: vee.tip.z - (bound.drop + below).to_mm(),
                 ..vee.tip
             },
             ..vee
@@ -564,10 +608,12 @@ impl<'p> Player<'p> {
         if joint == Joint::Stop && self.counted.replace(segment.op.site) != Some(segment.op.site) {
             *self.layers.entry((operation, layer)).or_default() += 1;
         }
-        let passes = self
-            .bounds
-            .get(usize::from(operation.0))
-            .and_then(|bound| bound.passes);
+        let bound = self.bounds.get(usize::from(operation.0));
+        if let (Some(spine), Some(straight)) = (bound.and_then(|bound| bound.spine), blade.straight()) {
+            self.follow(segment, spine, straight);
+            return;
+        }
+        let passes = bound.and_then(|bound| bound.passes);
         if let Some(Passes::Tracks(_)) = passes {
             return;
         }
@@ -594,11 +640,13 @@ impl<'p> Player<'p> {
             self.flanks = flanks(self.program, tool);
         }
         if before.is_none_or(|(before, _)| before != operation) {
+            self.note_half_done();
             self.half_done = HalfDone::default();
         }
     }
 
     fn finish(mut self) -> Replay {
+        self.note_half_done();
         self.note_idle_slits();
         let (overcut, traceless) = (self.overcut(), self.traceless);
         let deepest = match (overcut, traceless) {
@@ -618,42 +666,5 @@ impl<'p> Player<'p> {
                 .collect(),
             tracked: Vec::new(),
         }
-    }
-
-    /// The deepest entry of any operation into its bound, and how deep that is.
-    fn overcut(&self) -> Option<(Finding, f64)> {
-        let top = self.program.stock.height.to_mm();
-        let guarded = (0..).map(OperationId).zip(self.bounds.iter().zip(&self.guards));
-        let entries = guarded.map(|(operation, (bound, guard))| {
-            let corners: Vec<Point2> = guard.corners().collect();
-            (operation, deepest_entry(&corners, &below_top(bound.part, top)))
-        });
-        let (operation, (at, gap)) = entries.min_by(|(_, (_, a)), (_, (_, b))| a.total_cmp(b))?;
-        if gap >= -OVERCUT {
-            return None;
-        }
-        let depth = Length::mm(-gap);
-        let finding = self.cut_through(operation, at, CutFault::Overcut { at, depth })?;
-        Some((finding, -gap))
-    }
-
-    /// The cut of an operation whose V passes lowest through a point's x.
-    fn cut_through(&self, operation: OperationId, at: Point2, fault: CutFault) -> Option<Finding> {
-        let program = self.program;
-        let tools = (0..).map(ToolId).take(self.program.blades.len());
-        let flanks: Vec<_> = tools.map(|tool| flanks(self.program, tool)).collect();
-        let mut lowest: Option<(f64, Cut)> = None;
-        let cuts = Cut::all(self.program).map(|(_, cut)| cut);
-        for cut in cuts.filter(|cut| cut.operation == operation) {
-            let of_blade = flanks.get(usize::from(cut.tool.0));
-            let Some(geometry) = of_blade.and_then(|flanks| flanks.get(cut.held.0 as usize)) else {
-                continue;
-            };
-            let height = Vee::one(cut.tip, cut.side(), geometry.slope).height(at.x);
-            if lowest.as_ref().is_none_or(|(known, _)| height < *known) {
-                lowest = Some((height, cut));
-            }
-        }
-        lowest.map(|(_, cut)| cut.finding(program, fault))
     }
 }

@@ -107,7 +107,7 @@ fn no_point_of_the_disc_enters_the_part_and_all_of_it_is_covered() {
         let highest = lowest.iter().copied().fold(0.0, f64::max);
         assert!(highest < 0.125, "{profile}: {highest}");
         // Who replays without asking what is wrong sees the same surface, as pictures do.
-        let (_, left) = watched(compiled.program.verified(), &mut |_, _, _| {});
+        let (_, left) = watched(compiled.program.verified(), &[], &mut |_, _, _| {});
         for corner in left.corners() {
             assert!(corner.z <= part(corner.x) + 0.125, "{corner:?}");
         }
@@ -247,7 +247,7 @@ fn strips_pass_the_hub_of_a_disc_that_leans_to_the_side() {
     }
     let mut chips = Vec::new();
     let mut op_before = None;
-    let (last, _) = watched(compiled.program.verified(), &mut |op, _, taken| {
+    let (last, _) = watched(compiled.program.verified(), &[], &mut |op, _, taken| {
         if let Some(before) = op_before.replace(op) {
             chips.push((before, taken));
         }

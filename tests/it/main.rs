@@ -89,6 +89,8 @@ mod serial_arm;
 mod shop;
 mod skim;
 #[cfg(feature = "krl")]
+#[cfg(feature = "krl")]
+mod spine;
 mod status;
 #[cfg(feature = "krl")]
 mod surfaces;

@@ -11,6 +11,7 @@ use vcutc::geometry::curve::Point2;
 use vcutc::picture::strips::Strips;
 use vcutc::picture::thin::Thinned;
 use vcutc::picture::{PAGE_WIDTH, PHONE_WIDTH, Prefix, contour, joints, lattice};
+use vcutc::process::verdict;
 use vcutc::report::{Material, pictures};
 use vcutc::simulation::cross_section::Taken;
 use vcutc::simulation::prove;
@@ -116,7 +117,9 @@ fn chips_add_up_to_what_is_removed() {
         let material = Material::of(&outcome).unwrap();
         let program = material.compiled.program.verified();
         let mut all = Vec::new();
-        let (last, _) = prove::watched(program, &mut |_, _, taken| all.extend(taken));
+        let (last, _) = prove::watched(program, &verdict::bounds(material.plan), &mut |_, _, taken| {
+            all.extend(taken)
+        });
         all.extend(last);
         let (mut chips, mut count) = (0.0, 0);
         for taken in all {

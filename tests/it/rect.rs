@@ -440,7 +440,7 @@ fn pictures_and_playback_take_what_the_proof_takes() {
     ] {
         let outcome = compiled(job(profile, more), "kuka");
         let material = Material::of(&outcome).unwrap();
-        let taken = Taken::of(material.compiled.program.verified()).unwrap();
+        let taken = Taken::of(material.compiled.program.verified(), &[]).unwrap();
         let counts = planned(&outcome).plan.counts();
         assert_eq!(taken.slits.len(), counts.slits, "{more}");
         assert!(taken.chips.len() >= counts.strips, "{more}");

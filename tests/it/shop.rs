@@ -25,11 +25,15 @@ pub(crate) const CHANGING_CELLS: &[(&str, &str)] = &[
     ("changing_gantry", "gcode"),
 ];
 
-/// What a machine of the shop cannot hold the blade for: half a turn of a single edge about itself.
-pub(crate) const NOT_ON: &[(&str, &str)] = &[("spoiler_rae2822.vcut", "gantry")];
+/// What a machine of the shop cannot hold the blade for: half a turn of a single edge about itself, and a blade that is pitched.
+pub(crate) const NOT_ON: &[(&str, &str)] = &[
+    ("spoiler_rae2822.vcut", "gantry"),
+    ("crown.vcut", "gantry"),
+    ("shell.vcut", "changing_gantry"),
+];
 
 /// What a dialect of G-code has no words for: chains that go on without a stop.
-pub(crate) const NOT_IN: &[(&str, &str)] = &[("finished_dome.vcut", "fanuc")];
+pub(crate) const NOT_IN: &[(&str, &str)] = &[("finished_dome.vcut", "fanuc"), ("crown.vcut", "fanuc")];
 
 /// The dialects of G-code, each with the options that a gantry under such a control has. M codes of Fanuc and Heidenhain
 /// controls are their builder's.

@@ -99,6 +99,15 @@ impl Program {
         self.blades.get(usize::from(id.0))
     }
 
+    /// The longest edge of its straight blades.
+    #[must_use]
+    pub fn longest_edge(&self) -> Length {
+        let blades = self.blades.iter().filter_map(Blade::straight);
+        blades
+            .map(|blade| blade.cutting_length)
+            .fold(Length::ZERO, Length::max)
+    }
+
     /// The blades that an operation cuts with.
     pub fn blades_of(&self, operation: OperationId) -> impl Iterator<Item = &Blade> {
         let tools = self

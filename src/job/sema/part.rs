@@ -15,10 +15,13 @@ pub(crate) use section::Section;
 pub(crate) use strip::{REACHES, SAME, Strip};
 
 use std::sync::Arc;
+use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::Span;
 use vcutc_geometry::curve::{Curve, Point2};
 use vcutc_geometry::profile::{Profile, ProfileError};
+use vcutc_geometry::spine::Spine;
+use vcutc_surface::residual::Machined;
 use vcutc_surface::surface::Surface;
 
 /// The part across the stock.
@@ -41,8 +44,18 @@ enum Shape {
 #[derive(Clone, Debug)]
 pub struct Shaded {
     surface: Surface,
-    /// Its greatest height over each x.
+    /// How cuts follow it; none where they are level.
+    followed: Option<Followed>,
+    /// Its greatest height over each x, with the spine taken off.
     shadow: Profile,
+}
+
+/// How all cuts follow a surface alike.
+#[derive(Clone, Debug)]
+struct Followed {
+    spine: Arc<Spine>,
+    /// The surface with the spine taken off.
+    levelled: Surface,
 }
 
 impl Shaded {
@@ -51,12 +64,26 @@ impl Shaded {
     pub const fn surface(&self) -> &Surface {
         &self.surface
     }
+
+    /// The spine of all cuts that rough the surface; none where they are level.
+    #[must_use]
+    pub fn spine(&self) -> Option<&Arc<Spine>> {
+        self.followed.as_ref().map(|followed| &followed.spine)
+    }
+
+    /// The surface as it is seen across the cuts: with their spine taken off.
+    #[must_use]
+    pub fn levelled(&self) -> &Surface {
+        self.followed
+            .as_ref()
+            .map_or(&self.surface, |followed| &followed.levelled)
+    }
 }
 
-/// The shadow follows from the surface. A surface of a million triangles is not compared with itself.
+/// The shadow follows from surface and spine. A surface of a million triangles is not compared with itself.
 impl PartialEq for Shaded {
     fn eq(&self, other: &Self) -> bool {
-        core::ptr::eq(self, other) || self.surface == other.surface
+        core::ptr::eq(self, other) || (self.spine() == other.spine() && self.surface == other.surface)
     }
 }
 
@@ -92,9 +119,33 @@ impl Part {
     pub(crate) fn of_surface(surface: Surface, shadow: Profile) -> Self {
         let width = surface.plan().width.to_mm();
         Self {
-            shape: Shape::Surface(Arc::new(Shaded { surface, shadow })),
+            shape: Shape::Surface(Arc::new(Shaded {
+                surface,
+                followed: None,
+                shadow,
+            })),
             width,
         }
+    }
+
+    /// The same part, with all cuts that rough it along a spine; none where it is no surface, or its shadow cannot be told.
+    pub(crate) fn along(&self, spine: Arc<Spine>, stock: Stock) -> Option<Self> {
+        let Shape::Surface(shaded) = &self.shape else {
+            return None;
+        };
+        let levelled = shaded.surface.levelled(&spine).ok()?;
+        let shadow = levelled.shadow().ok()?;
+        let shadow = shadow.raised(levelled.accuracy().tolerance, stock.height);
+        // Where the spine rises above the part, cuts go down to the bottom of the stock where the spine is lowest, and no further.
+        let shadow = shadow.not_below(Length::ZERO);
+        Some(Self {
+            shape: Shape::Surface(Arc::new(Shaded {
+                surface: shaded.surface.clone(),
+                followed: Some(Followed { spine, levelled }),
+                shadow,
+            })),
+            width: self.width,
+        })
     }
 
     /// The surface of a part that changes along y.
@@ -106,7 +157,35 @@ impl Part {
         }
     }
 
-    /// The same, to be kept.
+    /// The same as cuts see it: with their spine taken off.
+    #[must_use]
+    pub fn levelled(&self) -> Option<&Surface> {
+        match &self.shape {
+            Shape::Surface(shaded) => Some(shaded.levelled()),
+            Shape::Profile(_) => None,
+        }
+    }
+
+    /// The spine of the cuts that rough a part; none where they are level.
+    #[must_use]
+    pub fn spine(&self) -> Option<&Arc<Spine>> {
+        match &self.shape {
+            Shape::Surface(shaded) => shaded.spine(),
+            Shape::Profile(_) => None,
+        }
+    }
+
+    /// What cuts leave that end at this contour, seen with their spine taken off, from left to right; none where that is none.
+    #[must_use]
+    pub fn left_by(&self, contour: &[Point2], stock: Stock) -> Option<Machined> {
+        let machined = Machined::new(contour.to_vec()).ok()?;
+        Some(match self.spine() {
+            None => machined,
+            Some(spine) => machined.along(Arc::clone(spine), stock.height),
+        })
+    }
+
+    /// The same with its shadow, and the spine of the cuts that rough it, to be kept.
     #[must_use]
     pub fn shared_surface(&self) -> Option<Arc<Shaded>> {
         match &self.shape {
@@ -125,7 +204,8 @@ impl Part {
     }
 
     /// The part's polyline, within a tolerance; none where a curve asks for too many points for that. Of a surface its shadow
-    /// along y, the greatest height over each x: straight cuts that keep clear of that keep clear of the part.
+    /// along y, the greatest height over each x, with the spine of its cuts taken off: cuts that keep clear of that keep clear of the
+    /// part.
     #[must_use]
     pub fn tessellated(&self, tolerance: Length) -> Option<Profile> {
         let mut points = Vec::new();

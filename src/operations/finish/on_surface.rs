@@ -33,6 +33,7 @@ pub(crate) fn planned(
         asked: asked.clone(),
         plan,
         shadow: (*ground.job.profile).clone(),
+        spine: ground.job.part.spine().cloned(),
     };
     Ok(Laid {
         planned: Box::new(planned),

@@ -8,11 +8,17 @@ use crate::refused::{Refused, Why};
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::Span;
 use vcutc_geometry::offset::offset_up;
+use vcutc_job::follow::Follow;
 use vcutc_job::operation::{Ground, Laid, Operation, Unplanned};
 use vcutc_job::{BladeRef, Setup, Sourced};
 use vcutc_simulation::disc::Disc;
 
 impl Operation for FinishDisc {
+    /// Its tracks go where the part does.
+    fn follows(&self) -> Option<Sourced<Follow>> {
+        None
+    }
+
     fn setup(&self) -> &Setup {
         &self.setup
     }

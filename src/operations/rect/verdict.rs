@@ -31,6 +31,7 @@ pub(crate) fn explain(planned: &Planned, finding: Finding, count: usize) -> Diag
         CutFault::NotFreed { .. }
         | CutFault::Blocked { .. }
         | CutFault::Overcut { .. }
+        | CutFault::Strays { .. }
         | CutFault::Stays { .. }
         | CutFault::Strip(_) => explained(asked, finding),
     };

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::source::Span;
 use vcutc_geometry::curve::Point2;
+use vcutc_job::follow::{Along, Follow};
 use vcutc_job::{Auto, Bounds, Order, Setup, Sourced, StraightBlade, words};
 
 /// V-shaped roughing. Ranges given here are checked.
@@ -44,6 +45,10 @@ pub struct RoughVcut {
     pub sequence: Sourced<Auto<Sequence>>,
     /// Distance of the blade's middle plane from the material that stays; `auto` is half the blade's thickness.
     pub standoff: Sourced<Auto<Length>>,
+    /// How the cuts follow a part that changes along y. Default `straight`.
+    pub follow: Sourced<Follow>,
+    /// What that came to; none where the cuts are level.
+    pub along: Option<Along>,
 }
 
 /// Tips that a job gives.

@@ -89,7 +89,7 @@ fn sampled(verified: &VerifiedProgram, points: &[[f64; 3]]) -> Vec<Met> {
     let program = verified.program();
     let segments: Vec<Segment<'_>> = program.segments().collect();
     let mut found = Vec::new();
-    accompanied(verified, &mut |id, surface| {
+    accompanied(verified, &[], &mut |id, surface| {
         let segment = segments[id.0 as usize];
         if let Some(gap) = segment
             .line()

@@ -7,7 +7,9 @@ mod tips;
 
 use crate::asked::{Avoid, Formulas, Lattice, Objective, Residual, RoughVcut, Sequence};
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::Order;
+use vcutc_job::follow::Follow;
 use vcutc_job::operation::Operation;
 use vcutc_job::sema::field_ranges::{DISTANCE, OVERLAP, SIZE, SWING};
 use vcutc_job::sema::fields::{BlockSpec, Fields, Inner, Takes, block, points, value};
@@ -52,6 +54,7 @@ pub const SPEC: BlockSpec = BlockSpec {
         setup::EXTENSION,
         setup::RUN_OUT_FIELD,
         value("standoff", "auto").within(DISTANCE).or_auto(),
+        value("follow", "spine").takes(Takes::Words(|| words_of(Follow::WORDS))),
     ],
     inner: Inner::Refused,
 };
@@ -86,6 +89,29 @@ impl Kind for Vcut {
     }
 }
 
+/// Narrower flanks along a spine.
+fn narrower_along(operation: &RoughVcut) -> Diagnostic {
+    let head = operation.setup.head_span;
+    let place = operation.avoid.span.unwrap_or(head);
+    let word = operation.follow.value.word();
+    Diagnostic::new(
+        Code::CannotFollow,
+        format!("`avoid = swing` does not go with `follow = {word}`"),
+        place,
+        "narrower flanks are cut straight only",
+    )
+    .and(
+        operation.follow.span.unwrap_or(head),
+        "these cuts rise and fall with the part",
+    )
+    .help("delete `avoid`, or cut straight")
+    .fix(
+        "raise tips where Vs do not fit: `lift`",
+        place,
+        Avoid::Lift.word(),
+    )
+}
+
 fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> {
     let Written {
         block,
@@ -116,6 +142,7 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
     let order = reader.auto_choice(&fields, "order", Order::WORDS);
     let sequence = reader.auto_choice(&fields, "sequence", Sequence::WORDS);
     let standoff = reader.auto(&fields, "standoff");
+    let follow = reader.choice(&fields, "follow", Follow::WORDS);
     let operation = RoughVcut {
         setup: setup?,
         blade: blade?,
@@ -134,7 +161,12 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
         order: order?,
         sequence: sequence?,
         standoff: standoff?,
+        follow: follow?.unwrap_or(default(Follow::Straight)),
+        along: None,
     };
+    if operation.avoid.value == Avoid::Swing && operation.follow.value != Follow::Straight {
+        return Err(session.reports.push(narrower_along(&operation)));
+    }
     match given? {
         Some(given) => tips::over(given, operation, &fields, &mut session.reports),
         None => Ok(operation),

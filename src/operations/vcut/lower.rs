@@ -10,9 +10,13 @@
 //! the plan. From one run to the next the blade goes over the safe plane, or where the plan says so beside the work: across
 //! at the higher of both tips, and straight down to the lower one.
 //!
+//! Along a spine a cut is a chain through its stations, and all places beside the work are as much higher or lower as the spine is
+//! there.
+//!
 //! From home the blade comes by a move of all axes, which alone can say how the arm is to stand there; everything after it
 //! moves on straight lines.
 
+mod course;
 mod postures;
 #[cfg(test)]
 mod tests;
@@ -20,15 +24,18 @@ mod tests;
 use crate::plan::route::{self, Heading, Run};
 use crate::plan::{PlannedCut, PlannedVcut, Way};
 use core::num::NonZeroU32;
+use course::Course;
 use postures::Postures;
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{
-    Action, FeedId, Flank, OperationId, OperationKind, RateId, Site, SourceRef, Switch,
+    Action, FeedId, Flank, Joint, OperationId, OperationKind, OrientationId, RateId, Site, SourceRef, Switch,
 };
 use vcutc_backend_api::units::Angle;
 use vcutc_geometry::grid;
+use vcutc_geometry::spine::Station;
 use vcutc_job::{Direction, Order};
+use vcutc_process::lower::BLEND;
 use vcutc_process::posture::{Feed, Holder};
 
 /// What programs call it.
@@ -94,6 +101,14 @@ enum Place {
     Beside(Feed),
 }
 
+/// How the blade is held at the stations of a flank with that feed and swing.
+struct Along {
+    flank: Flank,
+    feed: Feed,
+    swing: Angle,
+    held: Vec<(Orientation, OrientationId)>,
+}
+
 struct Writer<'b> {
     builder: &'b mut ProgramBuilder,
     operation: OperationId,
@@ -103,9 +118,10 @@ struct Writer<'b> {
     cut_feed: FeedId,
     travel_feed: FeedId,
     rate: RateId,
-    /// y of the tip before the stock and behind it.
-    front: f64,
-    back: f64,
+    /// The way of the tip from before the stock to behind it.
+    course: Course,
+    /// How the blade is held along flanks, each computed once.
+    along: Vec<Along>,
     safe: f64,
     at: Place,
     tip: Point3,
@@ -142,8 +158,8 @@ impl<'b> Writer<'b> {
             cut_feed,
             travel_feed,
             rate,
-            front: -extension,
-            back: grid::up(stock.depth.to_mm() + extension),
+            course: Course::of(asked, stock, planned.parameters.extension),
+            along: Vec::new(),
             safe,
             at: Place::Above,
             tip: Point3::new(0.0, -extension, safe),
@@ -252,8 +268,17 @@ impl<'b> Writer<'b> {
             (Place::Beside(_), Entrance::Level) => self.go_level(pass, feed),
             (Place::Beside(_), Entrance::Over | Entrance::Straight) => self.go_beside(pass, feed),
         }
+        match self.course.stations(feed) {
+            None => self.cut_level(pass, feed),
+            Some(stations) => self.cut_along(pass, feed, &stations),
+        }
+        self.last = Some(pass.site);
+        self.at = Place::Beside(feed.reversed());
+    }
+
+    fn cut_level(&mut self, pass: Pass, feed: Feed) {
         let end = Point3 {
-            y: self.far(feed),
+            y: self.course.end(feed.reversed()).y,
             ..self.tip
         };
         self.builder.op(
@@ -265,8 +290,76 @@ impl<'b> Writer<'b> {
             },
         );
         self.tip = end;
-        self.last = Some(pass.site);
-        self.at = Place::Beside(feed.reversed());
+    }
+
+    /// A cut from station to station of its spine, from the first of which the blade begins.
+    fn cut_along(&mut self, pass: Pass, feed: Feed, stations: &[Station]) {
+        self.builder.blend(BLEND);
+        let held = self.held_along(pass, feed, stations);
+        let last = stations.len() - 1;
+        for (number, (station, (posture, orientation))) in stations.iter().zip(held).enumerate().skip(1) {
+            let to = Point3::new(pass.x, station.y, grid::nearest(pass.z + station.rise));
+            let action = Action::Follow {
+                to,
+                orientation,
+                via: None,
+                feed: self.cut_feed,
+                rate: self.rate,
+                joint: if number == last {
+                    Joint::Stop
+                } else {
+                    Joint::Through
+                },
+            };
+            self.builder.op(pass.site, action);
+            self.tip = to;
+            self.held = Some(posture);
+        }
+    }
+
+    /// How the blade is held at each station.
+    fn held_along(
+        &mut self,
+        pass: Pass,
+        feed: Feed,
+        stations: &[Station],
+    ) -> Vec<(Orientation, OrientationId)> {
+        let is_same =
+            |known: &&Along| (known.flank, known.feed, known.swing) == (pass.flank, feed, pass.swing);
+        if let Some(known) = self.along.iter().find(is_same) {
+            return known.held.clone();
+        }
+        let held = stations.iter().map(|station| {
+            let posture = self
+                .postures
+                .cutting_along(pass.swing, pass.flank, feed, station.slope);
+            (posture, self.builder.orientation(posture))
+        });
+        let held: Vec<(Orientation, OrientationId)> = held.collect();
+        self.along.push(Along {
+            flank: pass.flank,
+            feed,
+            swing: pass.swing,
+            held: held.clone(),
+        });
+        held
+    }
+
+    /// Where a pass starts.
+    fn start(&self, pass: Pass, feed: Feed) -> Point3 {
+        let beside = self.course.end(feed);
+        let z = if beside.rise == 0.0 {
+            pass.z
+        } else {
+            grid::nearest(pass.z + beside.rise)
+        };
+        Point3::new(pass.x, beside.y, z)
+    }
+
+    /// How the blade is held there.
+    fn posture(&self, pass: Pass, feed: Feed) -> Orientation {
+        let slope = self.course.end(feed).slope;
+        self.postures.cutting_along(pass.swing, pass.flank, feed, slope)
     }
 
     /// From above the work to the start of a cut.
@@ -278,8 +371,12 @@ impl<'b> Writer<'b> {
             }
             Site::Program | Site::Operation(_) | Site::Layer { .. } | Site::Cut { .. } => pass.site,
         };
-        let above = Point3::new(pass.x, self.near(feed), self.safe);
-        self.travel(way, above, self.postures.cutting(pass.swing, pass.flank, feed));
+        let start = self.start(pass, feed);
+        let above = Point3 {
+            z: self.safe,
+            ..start
+        };
+        self.travel(way, above, self.posture(pass, feed));
         if self.running == Switch::Off {
             // The generator starts at the safe plane over the first cut and runs until the operation's end: it must be up
             // before the blade enters, and idling between layers costs nothing but waiting for it again would.
@@ -287,17 +384,13 @@ impl<'b> Writer<'b> {
             self.builder.op(way, Action::AwaitReady);
             self.running = Switch::On;
         }
-        self.lower(pass);
+        self.lower(pass.site, start);
     }
 
     /// Straight down to the start of a cut.
-    fn lower(&mut self, pass: Pass) {
-        let start = Point3 {
-            z: pass.z,
-            ..self.tip
-        };
+    fn lower(&mut self, site: Site, start: Point3) {
         self.builder.op(
-            pass.site,
+            site,
             Action::Approach {
                 to: start,
                 feed: self.travel_feed,
@@ -308,28 +401,32 @@ impl<'b> Writer<'b> {
 
     /// From beside the work to the start of a cut on the same side.
     fn go_beside(&mut self, pass: Pass, feed: Feed) {
-        let start = Point3::new(pass.x, self.near(feed), pass.z);
-        let posture = self.postures.cutting(pass.swing, pass.flank, feed);
+        let start = self.start(pass, feed);
+        self.go_to(pass.site, start, self.posture(pass, feed));
+    }
+
+    fn go_to(&mut self, site: Site, start: Point3, posture: Orientation) {
         if start == self.tip {
-            self.pass_between(pass.site, posture);
-            self.turn(pass.site, posture);
+            self.pass_between(site, posture);
+            self.turn(site, posture);
         } else {
-            self.travel(pass.site, start, posture);
+            self.travel(site, start, posture);
         }
     }
 
     /// From beside the work to the start of a cut of another run on the same side.
     fn go_level(&mut self, pass: Pass, feed: Feed) {
-        if pass.z > self.tip.z {
-            self.rise(pass.site, pass.z);
+        let start = self.start(pass, feed);
+        if start.z > self.tip.z {
+            self.rise(pass.site, start.z);
         }
-        let level = Pass {
-            z: self.tip.z.max(pass.z),
-            ..pass
+        let level = Point3 {
+            z: self.tip.z.max(start.z),
+            ..start
         };
-        self.go_beside(level, feed);
-        if pass.z < self.tip.z {
-            self.lower(pass);
+        self.go_to(pass.site, level, self.posture(pass, feed));
+        if start.z < self.tip.z {
+            self.lower(pass.site, start);
         }
     }
 
@@ -395,18 +492,5 @@ impl<'b> Writer<'b> {
             },
         );
         self.tip = to;
-    }
-
-    /// Where a cut with that feed starts.
-    const fn near(&self, feed: Feed) -> f64 {
-        match feed {
-            Feed::Forward => self.front,
-            Feed::Backward => self.back,
-        }
-    }
-
-    /// Where a cut with that feed ends.
-    const fn far(&self, feed: Feed) -> f64 {
-        self.near(feed.reversed())
     }
 }

@@ -4,13 +4,17 @@ use crate::asked::{Avoid, Objective, Residual, RoughVcut};
 use crate::choice;
 use crate::plan::PlannedVcut;
 use core::any::Any;
+use std::sync::Arc;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_cancellation::Effort;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
+use vcutc_geometry::spine::Spine;
+use vcutc_job::follow::{Along, Follow};
 use vcutc_job::operation::less::Leaves;
 use vcutc_job::operation::{Aim, Ground, Laid, Operation, Settled, Swing, Unplanned, Variant, Variation};
 use vcutc_job::{Auto, BladeRef, Order, PlannedOperation, Setup, Sourced};
+use vcutc_process::lower::BLEND;
 
 /// By how many degrees the swing is made smaller, one after the other.
 const SMALLER: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
@@ -54,7 +58,7 @@ impl RoughVcut {
 
     /// None where they may be narrower already, or tips are given.
     pub(crate) fn with_narrower_flanks(&self) -> Option<Variant> {
-        if self.avoid.value == Avoid::Swing || self.tips.is_some() {
+        if self.avoid.value == Avoid::Swing || self.tips.is_some() || self.along.is_some() {
             return None;
         }
         let mut operation = self.clone();
@@ -107,6 +111,7 @@ impl Operation for RoughVcut {
         self.order.forget_place(place);
         self.sequence.forget_place(place);
         self.standoff.forget_place(place);
+        self.follow.forget_place(place);
         let limits = &mut self.limits;
         limits.swing.forget_places(place);
         limits.layer.forget_places(place);
@@ -133,6 +138,15 @@ impl Operation for RoughVcut {
             lift: Residual::Lift,
         };
         leaves.less(self, least)
+    }
+
+    fn follows(&self) -> Option<Sourced<Follow>> {
+        Some(self.follow)
+    }
+
+    fn go_along(&mut self, spine: &Arc<Spine>) {
+        let angle = self.setup.rake.value - self.blade.half_apex.value;
+        self.along = Some(Along::new(spine, self.blade.cutting_length.value, angle, BLEND));
     }
 
     fn aim(&self) -> Aim {

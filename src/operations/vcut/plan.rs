@@ -38,6 +38,7 @@ use parameters::VcutParameters;
 use refusal::Refused;
 use residual::Strategies;
 use route::Run;
+use std::borrow::Cow;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_geometry::cone;
@@ -148,6 +149,11 @@ pub fn lay_out(
 ) -> Result<LaidOut, Box<Refused>> {
     let Work { before, bound } = work;
     let clearance = cone::clearance(bound, parameters.flanks.slope);
+    // Level cuts lie within the stock anyhow.
+    let clearance = match asked.along {
+        None => clearance,
+        Some(_) => clearance.not_below(parameters.lowest - parameters.drop),
+    };
     let layout = lattice::Layout::new(job.stock, parameters.lattice, &parameters, &clearance);
     if let Some(tips) = &asked.tips {
         if tips.tips.len() > cuts_left || given::passed_corners(tips, &parameters) > MOST_PASSED {
@@ -262,6 +268,17 @@ impl PlannedVcut {
     #[must_use]
     pub fn is_found_by_simulation(&self) -> bool {
         self.decisions.iter().any(|decision| decision.field == PARAMETERS)
+    }
+
+    /// The plan with level cuts.
+    #[must_use]
+    pub fn level(&self) -> Cow<'_, Self> {
+        if self.asked.along.is_none() {
+            return Cow::Borrowed(self);
+        }
+        let mut level = self.clone();
+        level.asked.along = None;
+        Cow::Owned(level)
     }
 
     /// The swings of the Vs that have narrower flanks than the others.

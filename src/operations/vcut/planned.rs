@@ -81,8 +81,9 @@ impl PlannedOperation for PlannedVcut {
 
     fn bound(&self) -> Bound<'_> {
         Bound {
-            drop: self.parameters.drop,
+            drop: self.parameters.drop - self.parameters.below,
             aside: self.parameters.standoff,
+            spine: self.asked.along.as_ref().map(|along| &*along.spine),
             edge: self.asked.limits.edge.map(|limit| limit.value),
             ..Bound::of(&self.bound)
         }

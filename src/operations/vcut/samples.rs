@@ -11,6 +11,7 @@ use vcutc_backend_api::ir::{Edges, Stock};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_geometry::curve::Point2;
+use vcutc_job::follow::Follow;
 use vcutc_job::{Auto, CheckedJob, Direction, Order, Part, PlannedJob, Setup, Sourced, StraightBlade};
 
 /// A value that the job gives, at no place.
@@ -79,6 +80,8 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
             order: given(Auto::Given(Order::Point)),
             sequence: given(Auto::Given(Sequence::Rows)),
             standoff: given(Auto::Auto),
+            follow: given(Follow::Straight),
+            along: None,
         })],
         machine: None,
     }

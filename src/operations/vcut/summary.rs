@@ -10,6 +10,7 @@ use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::number::show;
 use vcutc_job::Auto;
 use vcutc_job::description::{ParameterFigure, degrees, millimetres, number, word};
+use vcutc_job::follow::Follow;
 use vcutc_simulation::report::Report;
 
 /// `scallop <= 5.2 mm (chosen, for the job sets none: ...)`: the limit as the job may say it, and where it is from.
@@ -47,10 +48,34 @@ pub(crate) fn summary(vcut: &PlannedVcut, report: &Report) -> Vec<(&'static str,
         lines.push(("bound by", format!("{}{spent}", reasons.join(", "))));
     }
     lines.extend(avoided(vcut).map(|avoided| ("avoid", avoided)));
+    lines.extend(followed(&vcut.asked).map(|followed| ("follow", followed)));
     for decision in &vcut.decisions {
         lines.push(("compared", format!("{}: {}", decision.field, compared(decision))));
     }
     lines
+}
+
+/// `along a spine that rises by up to 12.5 mm, in 42 pieces; heights are above it`, where cuts are not level.
+fn followed(asked: &RoughVcut) -> Option<String> {
+    if asked.follow.value == Follow::Straight {
+        return None;
+    }
+    let Some(along) = &asked.along else {
+        return Some("straight: cuts that rise and fall would hardly leave less, or the machine cannot pitch the blade".to_owned());
+    };
+    let spine = &along.spine;
+    let [first, _] = spine.end_slopes();
+    let rise = spine.highest(0.0, spine.depth());
+    Some(match spine.knots().len() - 1 {
+        1 => format!(
+            "pitched by {:.2} deg, cuts rise by {rise:.2} mm towards {}y; heights are above the lower end",
+            libm::atan(first.abs()).to_degrees(),
+            if first > 0.0 { "+" } else { "-" },
+        ),
+        pieces => format!(
+            "along a spine that rises by up to {rise:.2} mm, in {pieces} pieces; heights are above the spine"
+        ),
+    })
 }
 
 /// `7 Vs with narrower flanks, down to 0 deg`, where the job asks for them.
@@ -84,11 +109,12 @@ fn scallop_spent(vcut: &PlannedVcut, report: &Report) -> Option<String> {
     let (height, allowance, standoff) = (
         hundredths(report.scallop.height),
         hundredths(vcut.asked.allowance.value),
-        hundredths(found.drop),
+        hundredths(found.drop - found.below),
     );
+    let bends = hundredths(found.below);
     let shown = |hundredths: f64| format!("{:.2}", hundredths / 100.0);
     let of = format!("{} of {} mm", shown(height), show(limit.value.to_mm()));
-    let cusp = height - allowance - standoff;
+    let cusp = height - allowance - standoff - bends;
     // On slopes the nearest point of the part is nearer than the one below.
     if cusp < 0.0 {
         return Some(of);
@@ -99,6 +125,9 @@ fn scallop_spent(vcut: &PlannedVcut, report: &Report) -> Option<String> {
     }
     if standoff > 0.0 {
         parts.push(format!("standoff {}", shown(standoff)));
+    }
+    if bends > 0.0 {
+        parts.push(format!("bends {}", shown(bends)));
     }
     parts.push(format!("cusp {}", shown(cusp)));
     Some(format!("{of} = {}", parts.join(" + ")))
@@ -185,6 +214,10 @@ pub(crate) fn parameters(vcut: &PlannedVcut) -> Vec<ParameterFigure> {
     if asked.avoid.value == Avoid::Swing {
         let avoid = word(asked.avoid.value.word());
         all.push(ParameterFigure::fixed("avoid", &asked.avoid, avoid));
+    }
+    if asked.follow.value != Follow::Straight {
+        let follow = word(asked.follow.value.word());
+        all.push(ParameterFigure::fixed("follow", &asked.follow, follow));
     }
     all.extend(speeds(asked));
     all

@@ -40,7 +40,9 @@ pub(crate) fn explain(
         }
         CutFault::Blocked { at } => blocked(&vcut.asked, finding, at),
         CutFault::Overcut { at, depth } => overcut(&vcut.asked, finding, at, depth),
-        CutFault::Strip(_) | CutFault::Stays { .. } => explained(&vcut.asked, finding),
+        CutFault::Strays { .. } | CutFault::Strip(_) | CutFault::Stays { .. } => {
+            explained(&vcut.asked, finding)
+        }
     }
 }
 

@@ -58,7 +58,9 @@ pub fn judged(
     }
     let dropper = Dropper::new(part);
     // Checking a job refuses surfaces that are too tangled, or have no height somewhere.
-    let (Ok(moves), Ok(sections)) = (Moves::new(&dropper), Sections::of(part)) else {
+    let spine = bounds.iter().find_map(|bound| bound.spine);
+    let sections = Sections::of(part, spine, program.longest_edge());
+    let (Ok(moves), Ok(sections)) = (Moves::new(&dropper), sections) else {
         return Vec::new();
     };
     let judged = operations.into_iter().filter_map(|(operation, tracks)| {

@@ -9,6 +9,7 @@ use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
+use vcutc_geometry::spine::Spine;
 use vcutc_simulation::contour::farthest;
 use vcutc_simulation::cross_section::{CrossSection, Guard};
 use vcutc_simulation::disc::{Disc, Hold, PassFault, Stretch};
@@ -31,6 +32,10 @@ pub struct Sections(Vec<Section>);
 struct Section {
     y: f64,
     part: Profile,
+    /// How high what roughing left stands above its section, in mm.
+    rise: f64,
+    /// The part as it lies in that section: lower by as much.
+    seen: Profile,
 }
 
 /// What tracks do in all sections.
@@ -69,17 +74,25 @@ pub struct Left {
 }
 
 impl Sections {
-    /// Of a surface.
+    /// Of a surface, roughed by cuts that follow a spine, or level ones. Straight blades of them have edges up to that length.
     ///
     /// # Errors
     /// Where the surface has no height.
-    pub fn of(surface: &surface::Surface) -> Result<Self, Uncovered> {
+    pub fn of(surface: &surface::Surface, spine: Option<&Spine>, longest: Length) -> Result<Self, Uncovered> {
+        // What stands higher hangs on more and is thicker, so where the work may be it is taken to be.
+        let above = spine.map_or(0.0, |spine| spine.left_above(longest));
+        let rise = |y: f64| spine.map_or(0.0, |spine| spine.rise(y)) + above;
         let depth = surface.plan().depth.to_mm();
         let count = (depth / APART).ceil().clamp(1.0, MOST - 1.0);
         let at = |number: u32| depth * f64::from(number) / count;
         let sections = (0..=count as u32).map(|number| {
             let y = at(number);
-            surface.section(y).map(|part| Section { y, part })
+            surface.section(y).map(|part| Section {
+                y,
+                rise: rise(y),
+                seen: part.lowered(Length::mm(rise(y))),
+                part,
+            })
         });
         Ok(Self(sections.collect::<Result<_, _>>()?))
     }
@@ -90,9 +103,9 @@ impl Sections {
         self.0.len()
     }
 
-    /// The part in each of them, with its y in mm.
+    /// The part in each of them as it lies in what roughing left, with its y in mm.
     pub fn parts(&self) -> impl Iterator<Item = (f64, &Profile)> {
-        self.0.iter().map(|section| (section.y, &section.part))
+        self.0.iter().map(|section| (section.y, &section.seen))
     }
 
     /// Passes the disc on all ways, in turn, over what was left before.
@@ -138,13 +151,14 @@ impl Section {
         let guard = Guard::new(&self.part);
         let mut faults: Vec<Fault> = Vec::new();
         for (track, way) in ways.iter().enumerate() {
-            let Some((pass, centre)) = way.pass(self.y, disc, skin, &guard) else {
+            let Some((mut pass, centre)) = way.pass(self.y, disc, skin, &guard) else {
                 // It does not come so far, so what stands there hangs on.
                 if faults.is_empty() {
                     faults.push(self.missed(track, way));
                 }
                 continue;
             };
+            pass.centre.z -= self.rise;
             let found = work.skim(disc, &pass).faults;
             if faults.is_empty() {
                 faults.extend(found.into_iter().map(|fault| Fault {
@@ -182,14 +196,14 @@ impl Section {
 
     fn left(&self, after: &Surface) -> Left {
         let corners: Vec<Point2> = after.corners().collect();
-        let (from, to) = self.part.span();
-        let most = farthest(&corners, &self.part);
+        let (from, to) = self.seen.span();
+        let most = farthest(&corners, &self.seen);
         let under = vcutc_simulation::report::area_under(&corners);
         Left {
             y: self.y,
-            at: most.peak,
+            at: Point2::new(most.peak.x, most.peak.z + self.rise),
             height: most.height,
-            area: under - self.part.area_below(from, to).to_mm2(),
+            area: under - self.seen.area_below(from, to).to_mm2(),
             length: self.part.arc_length().to_mm(),
         }
     }

@@ -8,6 +8,10 @@ use crate::pictures::{SurfaceMap, SurfaceSections};
 pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     let part = SurfaceMap::of_part(&subject.material)?;
     let residual = SurfaceMap::of_residual(&subject.material)?;
+    let alike = match subject.material.job.part.spine() {
+        None => "The cuts are the same at every y",
+        Some(_) => "The cuts rise and fall along one spine, and seen along it they are the same at every y",
+    };
     let is_finished = !subject.material.compiled.report.tracked.is_empty();
     let heights = figure(
         &Ids {
@@ -25,10 +29,11 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
         },
         Zoom::Free,
         &format!(
-            "How high material stands straight above the part after {}: {}. The cuts are the same at every y: besides \
+            "How high material stands straight above the part after {}: {}. {}: besides \
              scallops, material stays where the part lies below its shadow.{}",
             if is_finished { "roughing" } else { "all cuts" },
             residual.figures(),
+            alike,
             if is_finished {
                 " What the tracks of finishing take off of that is not shown; the figures of the deviation say what they leave."
             } else {
@@ -37,6 +42,10 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
         ),
         &|ids| residual.draw(ids),
     );
+    let off = match subject.material.job.part.spine() {
+        None => "",
+        Some(_) => ", with the spine of the cuts taken off",
+    };
     let sections = SurfaceSections::of(&subject.material).map(|sections| {
         let places: Vec<f64> = sections.places().collect();
         slide(
@@ -46,8 +55,10 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
             },
             &places,
             sections.shown(),
-            "The section of the part at the y of the slider. The machined contour is the same at every y and lies above the shadow, the \
-             greatest height of the part along y.",
+            &format!(
+                "The section of the part at the y of the slider{off}. The machined contour is the same at every y and lies above the \
+                 shadow, the greatest height of the part along y."
+            ),
             &|ids| sections.draw(ids),
         )
     });

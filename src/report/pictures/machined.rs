@@ -6,6 +6,7 @@ use vcutc_backend_api::ir::{Action, Op, Site};
 use vcutc_geometry::curve::Point2;
 use vcutc_picture::contour;
 use vcutc_picture::thin::Thinned;
+use vcutc_process::verdict;
 use vcutc_simulation::cross_section;
 use vcutc_simulation::prove;
 
@@ -51,7 +52,8 @@ pub(super) fn machined(material: &Material<'_>) -> Machined {
     };
     let ops = &program.program().ops;
     let mut last: Option<&Op> = None;
-    let (taken, surface) = prove::watched(program, &mut |op, surface, taken| {
+    let bounds = verdict::bounds(material.plan);
+    let (taken, surface) = prove::watched(program, &bounds, &mut |op, surface, taken| {
         if let Some(op) = last {
             view.take(op, taken);
         }

@@ -6,7 +6,7 @@ use vcutc_backend_api::units::Length;
 use vcutc_picture::Prefix;
 use vcutc_picture::plan_map::{self, Heading, PlanMap};
 use vcutc_surface::map::{Cells, Map};
-use vcutc_surface::residual::{Machined, Over};
+use vcutc_surface::residual::Over;
 use vcutc_surface::surface::Surface;
 
 /// The height of the part (`picture::plan_map`); none of a part that is a profile.
@@ -51,9 +51,12 @@ impl SurfaceMap {
     /// What the cuts leave above the part. None where there is no map of its height.
     #[must_use]
     pub fn of_residual(material: &Material<'_>) -> Option<Self> {
-        let surface = material.job.part.surface()?;
+        let surface = material.job.part.levelled()?;
         let (size, cells) = laid_out(surface);
-        let machined = Machined::new(corners(material)).ok()?;
+        let machined = material
+            .job
+            .part
+            .left_by(&corners(material), material.job.stock)?;
         // What tracks on the surface take off, sections alone know.
         let is_finished = !material.compiled.report.tracked.is_empty();
         let (title, what) = if is_finished {

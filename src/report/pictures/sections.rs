@@ -12,6 +12,7 @@ const COUNT: u32 = 41;
 #[derive(Clone, Debug)]
 pub struct SurfaceSections {
     title: String,
+    subtitle: &'static str,
     stock: [f64; 2],
     machined: Vec<[f64; 2]>,
     shadow: Vec<[f64; 2]>,
@@ -22,12 +23,16 @@ impl SurfaceSections {
     /// The sections of a part, from the front of the stock to its back; none of a part that is a profile.
     #[must_use]
     pub fn of(material: &Material<'_>) -> Option<Self> {
-        let surface = material.job.part.surface()?;
+        let surface = material.job.part.levelled()?;
         let stock = material.plan.stock;
         let places = (0..COUNT).map(|number| stock.depth.to_mm() * f64::from(number) / f64::from(COUNT - 1));
         let parts = places.map(|y| Some((y, pairs(surface.section(y).ok()?.points()))));
         Some(Self {
             title: format!("{}: sections of the part", material.plan.name),
+            subtitle: match material.job.part.spine() {
+                None => "what the cuts leave above the part",
+                Some(_) => "what the cuts leave above the part, with the spine of the cuts taken off",
+            },
             stock: [stock.width.to_mm(), stock.height.to_mm()],
             machined: pairs(&corners(material)),
             shadow: pairs(material.plan.profile.points()),
@@ -53,7 +58,7 @@ impl SurfaceSections {
             heading: Heading {
                 ids,
                 title: &self.title,
-                subtitle: "what the cuts leave above the part",
+                subtitle: self.subtitle,
             },
             stock: self.stock,
             machined: &self.machined,

@@ -21,6 +21,7 @@ use vcutc_simulation::cross_section::Crack;
 pub(super) fn text(playback: &Playback<'_>) -> String {
     let value = json!({
         "stock": stock(playback.stock),
+        "spine": playback.spine,
         "part": playback.part.iter().map(corner).collect::<Vec<_>>(),
         "blades": playback.blades.iter().map(blade).collect::<Vec<_>>(),
         "changes": playback.changes.iter().map(|(op, tool)| json!([op, tool.0])).collect::<Vec<_>>(),
@@ -198,6 +199,7 @@ mod tests {
         let mut axes = model.axes.clone();
         axes[0].name = name.to_owned();
         let playback = Playback {
+            spine: vec![[0.0, 0.0], [10.0, 0.0]],
             stock: Stock {
                 width: Length::mm(1.0),
                 depth: Length::mm(1.0),

@@ -7,7 +7,7 @@ use vcutc_backend_api::ir::{Action, OpId};
 use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_geometry::curve::Point2;
 use vcutc_simulation::cross_section::{self, Crack};
-use vcutc_simulation::prove;
+use vcutc_simulation::prove::{self, Bound};
 
 /// All slits, and all chips in the order in which they come free. Lengths are in mm, in W.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,13 +20,13 @@ pub struct Taken {
 impl Taken {
     /// Of a program; none where it has Vs only.
     #[must_use]
-    pub fn of(program: &VerifiedProgram) -> Option<Self> {
+    pub fn of(program: &VerifiedProgram, bounds: &[Bound<'_>]) -> Option<Self> {
         let ops = &program.program().ops;
         let has_chains = ops.iter().any(|op| matches!(op.action, Action::Follow { .. }));
         has_chains.then(|| {
             let mut all = Self::default();
             let mut last = None;
-            let (taken, _) = prove::watched(program, &mut |op: OpId, _, taken| {
+            let (taken, _) = prove::watched(program, bounds, &mut |op: OpId, _, taken| {
                 all.add(last, taken);
                 last = Some(op.0 as usize);
             });

@@ -4,6 +4,7 @@
 //! bodies pass far above what stands below them, and nothing else has to be looked at then.
 
 use super::shadow::Shadow;
+use super::slant::{Backbone, Slant};
 use super::stage::{Axis, Cylinder};
 use crate::course::Way;
 use crate::surface::Surface;
@@ -19,6 +20,7 @@ pub(super) struct Near {
     pub(super) gap: f64,
     pub(super) axis: Axis,
     pub(super) way: Way,
+    pub(super) slant: Slant,
 }
 
 /// The section as it is at a moment.
@@ -26,6 +28,8 @@ pub(super) struct Section<'s> {
     pub(super) stock: Stock,
     pub(super) surface: &'s mut Surface,
     pub(super) ceiling: &'s Ceiling,
+    /// Along which the section stands, where it does not stand level.
+    pub(super) backbone: Option<Backbone<'s>>,
 }
 
 impl Section<'_> {
@@ -33,10 +37,20 @@ impl Section<'_> {
     /// much. None where all of them pass beside it.
     pub(super) fn nearest(&mut self, stages: &[Cylinder], axis: Axis, way: Way, within: f64) -> Option<Near> {
         let mut nearest: Option<Near> = None;
+        let highest = self.highest();
+        let slant = match &self.backbone {
+            None => Slant::default(),
+            Some(backbone) => {
+                let low = stages
+                    .iter()
+                    .map(|stage| stage.below(highest + within.min(0.0), way.lowest(), axis.rise()));
+                backbone.slant(&low.collect::<Vec<_>>(), axis, way)
+            }
+        };
         for (stage, cylinder) in stages.iter().enumerate() {
             let within = nearest.map_or(within, |near| near.gap);
-            let low = cylinder.below(self.ceiling.highest() + within, way.lowest(), axis.rise());
-            let Some(shadow) = low.shadow(axis, way, self.stock) else {
+            let low = cylinder.below(highest + within, way.lowest(), axis.rise());
+            let Some(shadow) = low.shadow(axis, way, self.stock, slant) else {
                 continue;
             };
             if let Some((at, gap)) = self.gap(&shadow, within).filter(|&(_, gap)| gap < within) {
@@ -46,10 +60,16 @@ impl Section<'_> {
                     gap,
                     axis,
                     way,
+                    slant,
                 });
             }
         }
         nearest
+    }
+
+    /// How high the work is at most.
+    pub(super) fn highest(&self) -> f64 {
+        self.ceiling.highest() + self.backbone.map_or(0.0, |backbone| backbone.highest())
     }
 
     /// How far a shadow stays above the section, unless it plainly is farther than so much.

@@ -1,7 +1,8 @@
 //! The lower edge of what a moving cylinder covers of the x-z plane, exactly.
 //!
 //! Seen along y, a disc of radius `r` square to the unit vector `u` is the ellipse whose farthest point in direction `n` is
-//! `r sqrt(|n|^2 - (n . u)^2)` away from its middle. A cylinder about `u` is that ellipse moved along `(u_x, u_z)`, and a way
+//! `r sqrt(|n|^2 - (n . u)^2)` away from its middle; seen along `(0, 1, m)`, `n = (n_x, -m n_z, n_z)` takes the place of
+//! `(n_x, 0, n_z)`, and `u_z - m u_y` that of `u_z`. A cylinder about `u` is that ellipse moved along `(u_x, u_z)`, and a way
 //! of the blade moves it once more. The lower edge of the sum is convex: arcs of the ellipse, and between them the two
 //! straight pieces in order of their slopes. So the point nearest above a straight piece of the section is where both have
 //! the same slope, or at an end.
@@ -13,24 +14,25 @@ use vcutc_geometry::curve::Point2;
 pub(super) struct Ellipse {
     /// `r^2 (1 - u_x^2)`: the square of half its width.
     xx: f64,
-    /// `-r^2 u_x u_z`.
+    /// `-r^2 u_x u_z'`, with `u_z' = u_z - m u_y`.
     xz: f64,
-    /// `r^2 (1 - u_z^2)`: the square of half its height.
+    /// `r^2 (1 + m^2 - u_z'^2)`: the square of half its height.
     zz: f64,
-    /// `r^2 |u_y|`: the root of the determinant.
+    /// `r^2 |u_y + m u_z|`: the root of the determinant.
     area: f64,
 }
 
 impl Ellipse {
-    /// Of a disc of that radius square to a unit vector.
-    pub(super) fn of_disc(radius: f64, [x, y, z]: [f64; 3]) -> Self {
+    /// Of a disc of that radius square to a unit vector, seen along y, or along a way that rises with it by a slope.
+    pub(super) fn of_disc(radius: f64, [x, y, z]: [f64; 3], slope: f64) -> Self {
         let square = radius * radius;
+        let lies = y + slope * z;
         Self {
             // Of a unit vector, so that nothing is lost where x or z is nearly 1.
             xx: square * (y * y + z * z),
-            xz: -square * x * z,
-            zz: square * (x * x + y * y),
-            area: square * y.abs(),
+            xz: -square * x * (z - slope * y),
+            zz: square * (x * x * (1.0 + slope * slope) + lies * lies),
+            area: square * lies.abs(),
         }
     }
 

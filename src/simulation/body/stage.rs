@@ -1,8 +1,9 @@
 //! A stage of a body as the blade is held, cut off where it cannot come near the work.
 
 use super::shadow::{Ellipse, Shadow};
+use super::slant::Slant;
 use crate::course::Way;
-use vcutc_backend_api::geometry::Orientation;
+use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{BodyStage, Stock};
 use vcutc_geometry::curve::Point2;
 
@@ -78,18 +79,27 @@ impl Cylinder {
         (from <= to).then_some(Self { from, to, ..self })
     }
 
+    /// How far any of its points is from the tip along y at most.
+    pub(super) fn reach_along(self, axis: Axis) -> f64 {
+        let [_, y, _] = axis.0;
+        self.to * y.abs() + self.radius
+    }
+
     /// What it covers of the section on a way of the tip with the blade held like this: all of it that comes over the stock
-    /// at some place of the way.
-    pub(super) fn shadow(self, axis: Axis, way: Way, stock: Stock) -> Option<Shadow> {
+    /// at some place of the way, seen along a slant.
+    pub(super) fn shadow(self, axis: Axis, way: Way, stock: Stock, slant: Slant) -> Option<Shadow> {
         let over = self.over_stock(axis, way, stock)?;
-        let [x, _, z] = axis.0;
-        let start = Point2::new(way.from.x + over.from * x, way.from.z + over.from * z);
+        let [x, y, z] = axis.0;
+        let rise = z - slant.slope * y;
+        let above = |tip: Point3| tip.z - slant.height(tip.y);
+        let start = Point2::new(way.from.x + over.from * x, above(way.from) + over.from * rise);
         let length = over.to - over.from;
         let along = [
-            Point2::new(length * x, length * z),
-            Point2::new(way.to.x - way.from.x, way.to.z - way.from.z),
+            Point2::new(length * x, length * rise),
+            Point2::new(way.to.x - way.from.x, above(way.to) - above(way.from)),
         ];
-        Some(Shadow::new(Ellipse::of_disc(over.radius, axis.0), start, along))
+        let ellipse = Ellipse::of_disc(over.radius, axis.0, slant.slope);
+        Some(Shadow::new(ellipse, start, along))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Shadows against the numbers of the design and against points sampled in space.
 
 use super::shadow::Shadow;
+use super::slant::Slant;
 use super::stage::{Axis, Cylinder};
 use crate::course::Way;
 use crate::course::samples::height;
@@ -15,6 +16,8 @@ const STOCK: Stock = Stock {
     depth: Length::mm(1000.0),
     height: Length::mm(60.0),
 };
+
+const LEVEL: Slant = Slant::of(0.0, 0.0);
 
 /// The axis of a blade that cuts a right flank towards +y (`docs/process.md`, "One V-cut").
 fn axis(swing: f64, rake: f64) -> Axis {
@@ -42,7 +45,7 @@ fn cut(x: f64, z: f64) -> Way {
 fn shadow(from: f64, radius: f64, swing: f64, rake: f64) -> Shadow {
     let held = axis(swing, rake);
     let stage = cylinder(from, radius).below(STOCK.height.to_mm(), 0.0, held.rise());
-    stage.shadow(held, cut(0.0, 0.0), STOCK).unwrap()
+    stage.shadow(held, cut(0.0, 0.0), STOCK, LEVEL).unwrap()
 }
 
 #[test]
@@ -61,7 +64,9 @@ fn a_disc_alone_reaches_as_far_aside_as_computed_apart() {
             radius: Length::mm(radius),
         });
         let disc = Cylinder::all(&stages)[0];
-        let shadow = disc.shadow(axis(swing, rake), cut(0.0, 0.0), STOCK).unwrap();
+        let shadow = disc
+            .shadow(axis(swing, rake), cut(0.0, 0.0), STOCK, LEVEL)
+            .unwrap();
         assert!(
             (shadow.span().1 - aside).abs() < 5e-3,
             "{swing} {rake}: {:?}",
@@ -80,7 +85,9 @@ fn a_stage_begins_where_the_planar_formula_says() {
         "{lowest:?}"
     );
     let stage = cylinder(40.0, 8.0).below(STOCK.height.to_mm(), 10.0, axis(0.0, 60.0).rise());
-    let slit = stage.shadow(axis(0.0, 60.0), cut(50.0, 10.0), STOCK).unwrap();
+    let slit = stage
+        .shadow(axis(0.0, 60.0), cut(50.0, 10.0), STOCK, LEVEL)
+        .unwrap();
     let wall = [Point2::new(52.0, 50.0), Point2::new(60.0, 50.0)];
     let (at, gap) = slit.nearest_above(&wall).unwrap();
     assert!(
@@ -97,9 +104,9 @@ fn what_passes_before_the_stock_or_behind_it_is_not_over_it() {
         from: Point3::new(50.0, y, 0.0),
         to: Point3::new(60.0, y, 0.0),
     };
-    assert!(stage.shadow(held, at(-5.1), STOCK).is_none());
-    assert!(stage.shadow(held, at(1005.1), STOCK).is_none());
-    assert!(stage.shadow(held, at(-4.9), STOCK).is_some());
+    assert!(stage.shadow(held, at(-5.1), STOCK, LEVEL).is_none());
+    assert!(stage.shadow(held, at(1005.1), STOCK, LEVEL).is_none());
+    assert!(stage.shadow(held, at(-4.9), STOCK, LEVEL).is_some());
 }
 
 #[test]
@@ -111,13 +118,13 @@ fn a_leaning_stage_counts_as_far_as_it_is_over_the_stock() {
         from: Point3::new(50.0, 990.0, 0.0),
         to: Point3::new(50.0, 990.0, 0.0),
     };
-    assert!(stage.shadow(held, behind, STOCK).is_none());
+    assert!(stage.shadow(held, behind, STOCK, LEVEL).is_none());
     // From before the stock: from where it enters on.
     let before = Way {
         from: Point3::new(50.0, -40.0, 0.0),
         to: Point3::new(50.0, -40.0, 0.0),
     };
-    let lowest = stage.shadow(held, before, STOCK).unwrap().lowest().z;
+    let lowest = stage.shadow(held, before, STOCK, LEVEL).unwrap().lowest().z;
     let half = 0.5_f64.sqrt();
     assert!((lowest - (40.0 - half - half)).abs() < 1e-9, "{lowest}");
 }
@@ -158,17 +165,23 @@ proptest! {
         rake in 30.0..=90.0_f64,
         tip in (0.0..100.0_f64, 0.0..40.0_f64),
         heights in prop::collection::vec(0.0..60.0_f64, 11),
+        slope in prop_oneof![Just(0.0), -1.0..1.0_f64],
     ) {
+        let slant = Slant::of(slope, 0.0);
         let line: Vec<Point2> = (0_u32..).zip(&heights).map(|(i, &z)| Point2::new(10.0 * f64::from(i), z)).collect();
         let held = axis(swing, rake);
         let stages = [(from, radius), (from + length, 1.0)].map(|(from, radius)| BodyStage {
             from: Length::mm(from),
             radius: Length::mm(radius),
         });
-        let shadow = Cylinder::all(&stages)[0].shadow(held, cut(tip.0, tip.1), STOCK).unwrap();
+        // A way along the slant, all along the stock.
+        let mut way = cut(tip.0, tip.1);
+        way.from.z += slope * way.from.y;
+        way.to.z += slope * way.to.y;
+        let shadow = Cylinder::all(&stages)[0].shadow(held, way, STOCK, slant).unwrap();
         let found = shadow.nearest_above(&line).map(|(_, gap)| gap);
-        let over = skin(from, from + length, radius, held).into_iter().filter_map(|[x, _, z]| {
-            Some(tip.1 + z - height(&line, tip.0 + x)?)
+        let over = skin(from, from + length, radius, held).into_iter().filter_map(|[x, y, z]| {
+            Some(tip.1 + z - slope * y - height(&line, tip.0 + x)?)
         });
         let sampled = over.fold(f64::INFINITY, f64::min);
         match found {
@@ -203,7 +216,7 @@ proptest! {
             (Point3::new(0.0, STOCK.depth.to_mm() - y, 0.0), Axis([held.0[0], -held.0[1], held.0[2]])),
         ] {
             let held = Axis([x, along, z]);
-            let shadow = Cylinder::all(&stages)[0].shadow(held, Way { from: tip, to: tip }, STOCK);
+            let shadow = Cylinder::all(&stages)[0].shadow(held, Way { from: tip, to: tip }, STOCK, LEVEL);
             for [x, y, z] in skin(from, from + length, radius, held) {
                 if (0.0..=STOCK.depth.to_mm()).contains(&(tip.y + y)) {
                     let shadow = shadow.as_ref();
@@ -226,10 +239,10 @@ proptest! {
         let at = |(x, z): (f64, f64)| Point3::new(x, 500.0, z);
         let way = Way { from: at(ends.0), to: at(ends.1) };
         let stage = cylinder(from, radius).below(STOCK.height.to_mm(), 0.0, held.rise());
-        let whole = stage.shadow(held, way, STOCK).unwrap();
+        let whole = stage.shadow(held, way, STOCK, LEVEL).unwrap();
         let places = (0..=2000_u32).map(|i| {
             let share = f64::from(i) / 2000.0;
-            stage.shadow(held, way.part(share, share), STOCK).unwrap()
+            stage.shadow(held, way.part(share, share), STOCK, LEVEL).unwrap()
         });
         let lowest = places
             .filter(|shadow| (shadow.span().0..=shadow.span().1).contains(&x))

@@ -28,7 +28,7 @@ pub(super) fn entry(course: &Course, stages: &[Cylinder], section: &mut Section<
         let lowest = stretch.way.lowest() - stretch.tip_off;
         let low = stages
             .iter()
-            .map(|stage| stage.below(section.ceiling.highest(), lowest, least_rise));
+            .map(|stage| stage.below(section.highest(), lowest, least_rise));
         let low: Vec<Cylinder> = low.collect();
         let farthest = low.iter().map(|stage| stage.reach()).fold(0.0, f64::max);
         let off = stretch.off(farthest);

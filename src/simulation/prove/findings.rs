@@ -11,6 +11,8 @@ pub struct Findings {
     pub blocked: Option<(usize, Finding)>,
     /// The deepest overcut.
     pub overcut: Option<Finding>,
+    /// How many cuts leave their spine, and the one that does so farthest.
+    pub strays: Option<(usize, Finding)>,
     /// How many faults passes of a disc have, and the first of them.
     pub strips: Option<(usize, Finding)>,
     /// In how many sections too much stays beside tracks on a surface, and the most of that.
@@ -21,7 +23,7 @@ impl Findings {
     pub fn iter(&self) -> impl Iterator<Item = (usize, Finding)> {
         let overcut = self.overcut.map(|finding| (1, finding));
         let cuts = self.not_freed.into_iter().chain(self.blocked).chain(overcut);
-        cuts.chain(self.strips).chain(self.stays)
+        cuts.chain(self.strays).chain(self.strips).chain(self.stays)
     }
 }
 
@@ -46,9 +48,11 @@ pub(super) fn note(
 pub(super) fn is_longer(a: &Finding, b: &Finding) -> bool {
     let needed = |finding: &Finding| match finding.fault {
         CutFault::NotFreed { needed, .. } => needed.to_mm(),
-        CutFault::Blocked { .. } | CutFault::Overcut { .. } | CutFault::Strip(_) | CutFault::Stays { .. } => {
-            0.0
-        }
+        CutFault::Blocked { .. }
+        | CutFault::Overcut { .. }
+        | CutFault::Strays { .. }
+        | CutFault::Strip(_)
+        | CutFault::Stays { .. } => 0.0,
     };
     needed(a) > needed(b) + 1e-6
 }

@@ -6,7 +6,7 @@ use vcutc_backend_api::units::Angle;
 use vcutc_backend_api::verify::UPRIGHT;
 
 /// How a posture's flank lies in the x-z plane.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct FlankGeometry {
     /// Rise over x; infinite for a wall.
     pub(super) slope: f64,

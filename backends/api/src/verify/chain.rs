@@ -14,7 +14,7 @@ pub const LARGEST_SWEEP: Angle = Angle::deg(340.0);
 pub const LARGEST_KINK: Angle = Angle::deg(0.5);
 
 /// How far the way may lie out of the plane of a straight blade.
-pub const LARGEST_SLIP: Angle = Angle::deg(0.05);
+pub const LARGEST_SLIP: Angle = Angle::deg(0.45);
 
 /// Shorter pieces have no direction that could be relied on.
 const SHORTEST: Length = Length::mm(1e-3);

@@ -10,6 +10,7 @@ use vcutc_backend_api::units::{Angle, Length};
 use vcutc_backend_api::verify::LARGEST_KINK;
 use vcutc_geometry::grid;
 use vcutc_process::beside::Stand;
+use vcutc_process::lower::BLEND;
 use vcutc_process::posture::Feed;
 use vcutc_process::tracks::entry::{deepest, turns};
 use vcutc_process::tracks::way::{Way, pose_of};
@@ -24,11 +25,7 @@ use vcutc_surface::track::{Demand, Layer, NoTrack, Stop};
 /// How deep the disc may enter the part between two poses, along z: far below what a scallop is. A judgement, from no source.
 pub(crate) const GOUGE: Length = Length::mm(0.02);
 
-/// How far the tip may leave the way where one piece goes on into the next, so that the machine need not stop at each pose. It counts
-/// as entry, so what is left of [`GOUGE`] decides how close poses lie.
-pub(crate) const BLEND: Length = Length::mm(0.005);
-
-/// What entry the moves are laid for: the blend comes on top, the more the steeper the part is.
+/// What entry the moves are laid for: the blend ([`BLEND`]) comes on top, the more the steeper the part is.
 const MOVES: Length = Length::mm(0.013);
 
 /// How fast the lead may change along a track.

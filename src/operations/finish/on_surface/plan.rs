@@ -17,7 +17,7 @@ use vcutc_backend_api::ir::Blade;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::profile::Profile;
 use vcutc_job::operation::Ground;
-use vcutc_job::{Auto, Direction};
+use vcutc_job::{Auto, BladeRef, Direction};
 use vcutc_process::posture::Feed;
 use vcutc_process::tracks::entry::solid;
 use vcutc_process::tracks::sections::{Fault, Left, Sections};
@@ -92,6 +92,20 @@ pub(super) const fn held_to(asked: &FinishDisc) -> Tracks {
 /// Plans the tracks.
 ///
 /// # Errors
+/// The longest edge of the straight blades that rough the part.
+fn longest_edge(ground: &Ground<'_>) -> Length {
+    let blades = ground
+        .job
+        .operations
+        .iter()
+        .flat_map(|operation| operation.blades());
+    let edges = blades.filter_map(|blade| match blade {
+        BladeRef::Straight(blade) => Some(blade.cutting_length.value),
+        BladeRef::Disc(_) | BladeRef::Crusher(_) => None,
+    });
+    edges.fold(Length::ZERO, Length::max)
+}
+
 /// Why there is no plan; where several leads were tried, what is wrong with the greatest.
 pub(super) fn plan(
     asked: &FinishDisc,
@@ -110,8 +124,9 @@ pub(super) fn plan(
     let dropper = Dropper::new(surface);
     let normals = Normals::new(surface);
     // Checking a job refuses surfaces that are too tangled, or have no height somewhere.
-    let (Ok(moves), Ok(sections), Some(disc)) = (Moves::new(&dropper), Sections::of(surface), solid(&blade))
-    else {
+    let spine = ground.job.part.spine().map(|spine| &**spine);
+    let sections = Sections::of(surface, spine, longest_edge(ground));
+    let (Ok(moves), Ok(sections), Some(disc)) = (Moves::new(&dropper), sections, solid(&blade)) else {
         return Err(Refusal::Nothing);
     };
     let planner = Planner {

@@ -1,11 +1,11 @@
 //! Tracks on a surface as the stages after planning see them.
 
-use super::lay::BLEND;
 use super::plan::{PlannedTracks, held_to};
 use crate::asked::FinishDisc;
 use crate::lower::KIND;
 use crate::words::{self, Chosen};
 use core::num::NonZeroU32;
+use std::sync::Arc;
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::ir::{Site, SourceRef};
 use vcutc_backend_api::units::{Angle, Area, Duration, Length};
@@ -13,11 +13,13 @@ use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::number::show;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
+use vcutc_geometry::spine::Spine;
 use vcutc_job::PlannedOperation;
 use vcutc_job::description::{ParameterFigure, ParameterTable};
 use vcutc_job::operation::{Operation, Trials, WorksThere};
 use vcutc_job::planned::{CutShape, Estimate, PlannedTip, TipOrigin};
 use vcutc_process::beside::{Drive, Stage, Writer};
+use vcutc_process::lower::BLEND;
 use vcutc_process::verdict::explained;
 use vcutc_simulation::prove::{Bound, Finding, Passes};
 use vcutc_simulation::report::{Report, area_under};
@@ -27,8 +29,9 @@ use vcutc_simulation::report::{Report, area_under};
 pub struct PlannedOnSurface {
     pub asked: FinishDisc,
     pub plan: PlannedTracks,
-    /// The greatest height of the part over each x.
+    /// The greatest height of the part over each x, with the spine of the cuts before taken off.
     pub shadow: Profile,
+    pub spine: Option<Arc<Spine>>,
 }
 
 impl PlannedOnSurface {
@@ -72,14 +75,16 @@ impl PlannedOperation for PlannedOnSurface {
 
     /// Where each track is highest, for there it touches the part's shadow, which pictures of sections show.
     fn tips(&self) -> Vec<PlannedTip> {
+        let rise = |y: f64| self.spine.as_ref().map_or(0.0, |spine| spine.rise(y));
         let tips = self.plan.tracks.iter().map(|track| {
             let [aside, _, up] = track.pose.axis.to_array();
+            let rise = rise(track.highest.y);
             PlannedTip {
                 layer: 1,
-                tip: Point2::new(track.pose.centre.x, track.pose.centre.z),
+                tip: Point2::new(track.pose.centre.x, track.pose.centre.z - rise),
                 origin: TipOrigin::Lattice,
                 shape: CutShape::Track {
-                    contact: Point2::new(track.highest.x, track.highest.z),
+                    contact: Point2::new(track.highest.x, track.highest.z - rise),
                     lead: self.plan.lead,
                     roll: Angle::rad(libm::atan2(-aside, up)),
                 },

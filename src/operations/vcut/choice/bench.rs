@@ -10,14 +10,15 @@ use vcutc_cancellation::Wanted;
 use vcutc_geometry::offset::offset_up;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::PlannedOperation;
+use vcutc_job::follow::Along;
 use vcutc_job::search::RouteSet;
 use vcutc_job::{CheckedJob, PlanningJob};
 use vcutc_process::lower::alone;
 use vcutc_simulation::contour::farthest;
-use vcutc_simulation::prove::replay_on;
+use vcutc_simulation::prove::{Bound, replay_on};
 use vcutc_simulation::report::area_under;
 use vcutc_simulation::surface::Surface;
-use vcutc_simulation::timing::total;
+use vcutc_simulation::timing::{timing, total};
 
 /// What a plan comes to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,7 +58,7 @@ pub(super) struct Bench<'j> {
 impl<'j> Bench<'j> {
     pub(super) fn new(job: PlanningJob<'j>, asked: &RoughVcut, before: Surface, latitude: RouteSet) -> Self {
         Self {
-            bound: offset_up(&job.profile, asked.allowance.value),
+            bound: bound(&job, asked),
             job,
             before,
             latitude,
@@ -96,7 +97,9 @@ impl<'j> Bench<'j> {
     pub(super) fn weigh(&self, laid: LaidOut) -> Contender {
         let vcut = &laid.vcut;
         let cuts = vcut.cuts.len();
-        let Some(program) = program(&self.job, vcut) else {
+        // Along a spine all sections are alike: what is right of a level cut, with as much more room, is right of it.
+        let level = vcut.level();
+        let Some(program) = program(&self.job, &level) else {
             return Contender {
                 laid,
                 standing: Standing::Impossible,
@@ -109,8 +112,13 @@ impl<'j> Bench<'j> {
                 residual: Area::ZERO,
             };
         };
-        let replay = replay_on(self.before.clone(), &program, &[PlannedOperation::bound(vcut)]);
-        let time = total(&program);
+        let bound = Bound {
+            drop: vcut.parameters.drop,
+            lower: vcut.parameters.flanks.lower,
+            ..PlannedOperation::bound(&*level)
+        };
+        let replay = replay_on(self.before.clone(), &program, &[bound]);
+        let time = as_long_as_its_way(vcut, &program);
         let failing = replay.findings.iter().map(|(count, _)| count).sum();
         let corners: Vec<_> = replay.surface.corners().collect();
         let part = self.job.profile.area_below(0.0, self.job.stock.width.to_mm());
@@ -132,6 +140,13 @@ impl<'j> Bench<'j> {
     }
 }
 
+/// The part with an operation's allowance. Where the way rises, its ball is taken for one that is as high as the ellipse that it
+/// makes across the cuts: over a slope `m` of the spine that is `sqrt(1 + m^2)` times as high as wide.
+fn bound(job: &PlanningJob<'_>, asked: &RoughVcut) -> Profile {
+    let steepness = asked.along.as_ref().map_or(1.0, Along::steepness);
+    offset_up(&job.profile, asked.allowance.value * steepness)
+}
+
 /// An operation as a program of its own.
 fn program(job: &CheckedJob, vcut: &PlannedVcut) -> Option<VerifiedProgram> {
     verify(alone(job, vcut)).ok()
@@ -139,5 +154,16 @@ fn program(job: &CheckedJob, vcut: &PlannedVcut) -> Option<VerifiedProgram> {
 
 /// How long an operation takes; none where the compiler is at fault, which the proof of the whole then shows.
 pub(super) fn time(job: &CheckedJob, vcut: &PlannedVcut) -> Option<Duration> {
-    program(job, vcut).map(|program| total(&program))
+    program(job, &vcut.level()).map(|program| as_long_as_its_way(vcut, &program))
+}
+
+/// How long an operation takes whose cuts were made level: along their spine they take longer as that is longer.
+fn as_long_as_its_way(vcut: &PlannedVcut, level: &VerifiedProgram) -> Duration {
+    match &vcut.asked.along {
+        None => total(level),
+        Some(along) => {
+            let timing = timing(level).all;
+            timing.total() + timing.cutting * (along.spine.lengthening() - 1.0)
+        }
+    }
 }

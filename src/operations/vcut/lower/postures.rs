@@ -42,6 +42,15 @@ impl Postures {
         }
     }
 
+    /// As [`Holder::cutting_along`] at that swing.
+    pub(super) fn cutting_along(&self, swing: Angle, flank: Flank, feed: Feed, slope: f64) -> Orientation {
+        if slope == 0.0 {
+            return self.cutting(swing, flank, feed);
+        }
+        let holder = Holder { swing, ..self.holder };
+        holder.cutting_along(flank, feed, slope)
+    }
+
     /// As [`Holder::by_way_of`].
     pub(super) fn by_way_of(&mut self, from: Orientation, to: Orientation) -> Option<Orientation> {
         let known = self.ways.iter().find(|way| (way.0, way.1) == (from, to));

@@ -13,6 +13,8 @@
 
 use crate::asked::Lattice;
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_geometry::curve::Point2;
+use vcutc_simulation::surface::Vee;
 
 /// The flanks of a V in numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +25,8 @@ pub struct Flanks {
     pub reach: Length,
     /// Edge length that one millimetre of vertical reach takes: `1 / (cos(swing) sin(rake - half_apex))`.
     pub edge_per_reach: f64,
+    /// How much lower than their tips say flanks may lie against what others have left, where they follow a spine.
+    pub lower: Length,
 }
 
 impl Flanks {
@@ -34,7 +38,24 @@ impl Flanks {
             slope: 1.0 / swing.tan(),
             reach: cutting_length * vertical,
             edge_per_reach: 1.0 / vertical,
+            lower: Length::ZERO,
         }
+    }
+
+    /// The reach that a lattice may need at most where flanks lie as low as they may.
+    #[must_use]
+    pub fn reach_in_lattice(&self) -> Length {
+        (self.reach - self.lower).max(Length::ZERO)
+    }
+
+    /// A V for those that ask how far its flanks have to reach: as low as it may lie.
+    #[must_use]
+    pub fn lowest(&self, vee: Vee) -> Vee {
+        let tip = Point2 {
+            z: vee.tip.z - self.lower.to_mm(),
+            ..vee.tip
+        };
+        Vee { tip, ..vee }
     }
 }
 

@@ -44,8 +44,13 @@ pub struct VcutParameters {
     pub extension: Length,
     /// Distance of the blade's middle plane from the material that stays.
     pub standoff: Length,
-    /// How much higher the tip runs than the V its material side makes: `standoff / sin(swing)`.
+    /// How much higher the tip runs than the lowest V that its material side may make: `standoff / sin(swing)`, and along a spine
+    /// more ([`VcutParameters::below`]).
     pub drop: Length,
+    /// How far flanks that follow a spine may lie below the Vs of their tips.
+    pub below: Length,
+    /// No tip lies lower than this, where cuts go on down beyond the stock.
+    pub lowest: Length,
     /// Slope and reach of the flanks.
     pub flanks: Flanks,
     /// How high above the tip material may stand while the blade moves or turns beside it: the blade leans over the work.
@@ -378,12 +383,34 @@ pub(super) fn usable_edge(asked: &RoughVcut) -> Length {
 }
 
 fn flanks_at(asked: &RoughVcut, swing: Angle) -> Flanks {
-    Flanks::new(
+    let flanks = Flanks::new(
         usable_edge(asked),
         asked.blade.half_apex.value,
         asked.setup.rake.value,
         swing,
-    )
+    );
+    let lower = asked
+        .along
+        .as_ref()
+        .map_or(0.0, |along| along.deviation(flanks.slope).both());
+    Flanks {
+        lower: Length::mm(lower),
+        ..flanks
+    }
+}
+
+/// How far flanks at a slope lie below the Vs of their tips, where they follow a spine.
+fn below(asked: &RoughVcut, flanks: &Flanks) -> Length {
+    let along = asked.along.as_ref();
+    Length::mm(along.map_or(0.0, |along| along.deviation(flanks.slope).below))
+}
+
+/// How much higher the tip runs than the V that its material side may make.
+fn drop_at(asked: &RoughVcut, standoff: Length, flanks: &Flanks, swing: Angle) -> Length {
+    match &asked.along {
+        None => standoff / swing.sin(),
+        Some(along) => standoff * along.steepness() / swing.sin() + below(asked, flanks),
+    }
 }
 
 /// What follows from lattice, swing, layer and step, and from the overhang of the edge at that swing.
@@ -407,8 +434,9 @@ fn complete(
     // Between the tips of the layer above, teeth stand up to this much above the tips of this one.
     let teeth = layer + step * (flanks.slope / 2.0);
     let extension = resolve_extension(asked, edge, lean.overhang(teeth), diagnostics)?;
+    let beyond = Beyond::of(asked, extension);
     // Who gives a shorter extension than the teeth ask for, as [Cui 5] does, accepts that the blade brushes them.
-    let clear_height = lean.clear_height(extension).max(teeth);
+    let clear_height = (lean.clear_height(extension) - beyond.falls).max(teeth);
     Some(VcutParameters {
         lattice,
         overlap,
@@ -417,7 +445,9 @@ fn complete(
         step,
         extension,
         standoff,
-        drop: standoff / swing.sin(),
+        drop: drop_at(asked, standoff, &flanks, swing),
+        below: below(asked, &flanks),
+        lowest: beyond.sinks,
         flanks,
         clear_height,
         binding,
@@ -429,11 +459,13 @@ fn complete(
 /// cuts use it.
 fn edge_overhang(asked: &RoughVcut, swing: Angle) -> Length {
     let (length, half_apex) = (asked.blade.cutting_length.value, asked.blade.half_apex.value);
-    let cutting = length * (asked.setup.rake.value - half_apex).cos();
+    // Pitched, an edge reaches farther by as much of it as stands up.
+    let pitched = length * pitch(asked).sin();
+    let cutting = length * (asked.setup.rake.value - half_apex).cos() + pitched;
     match asked.setup.direction().value {
         Direction::Alternate => {
             let holder = Holder {
-                swing,
+                swing: pitched_swing(asked, swing),
                 rake: asked.setup.rake.value,
                 edges: asked.blade.edges,
             };
@@ -441,10 +473,37 @@ fn edge_overhang(asked: &RoughVcut, swing: Angle) -> Length {
                 Avoid::Lift => holder.turning_overhang(length, half_apex),
                 Avoid::Swing => holder.overhang_up_to_its_swing(length, half_apex),
             };
-            cutting.max(turning)
+            cutting.max(turning + pitched)
         }
         // The blade turns above the work only.
         Direction::Forward | Direction::Backward => cutting,
+    }
+}
+
+/// How far cuts along a spine go down beyond the stock.
+#[derive(Clone, Copy, Default)]
+struct Beyond {
+    /// From the side of the stock on.
+    falls: Length,
+    /// Below the lowest place of the spine over the stock.
+    sinks: Length,
+}
+
+impl Beyond {
+    fn of(asked: &RoughVcut, extension: Length) -> Self {
+        let Some(along) = &asked.along else {
+            return Self::default();
+        };
+        let (spine, extension) = (&along.spine, extension.to_mm());
+        let ends = [(0.0, -extension), (spine.depth(), spine.depth() + extension)];
+        let fall = ends.map(|(side, end)| spine.rise(side) - spine.rise(end));
+        let sink = ends.map(|(_, end)| -spine.rise(end));
+        let most = |lengths: [f64; 2]| Length::mm(lengths.into_iter().fold(0.0, f64::max));
+        Self {
+            falls: most(fall),
+            // Rounded to the grid.
+            sinks: most(sink) + Length::mm(2.0 * grid::SPACING),
+        }
     }
 }
 
@@ -460,9 +519,21 @@ struct Lean {
 impl Lean {
     fn new(asked: &RoughVcut, swing: Angle) -> Self {
         let (blade, rake) = (&asked.blade, asked.setup.rake.value);
-        Self {
+        let level = Self {
             half_width: blade.cutting_length.value * (blade.half_apex.value.sin() / rake.sin()),
             per_height: rake.cos().max(0.0) / (rake.sin() * swing.cos()),
+        };
+        let pitch = pitch(asked);
+        if pitch == Angle::ZERO {
+            return level;
+        }
+        // Pitched towards the work, by less than 90 degrees in all: STEEPEST is 45 and rakes of daggers are above that.
+        let lean = Angle::rad(libm::atan(level.per_height)) + pitch;
+        let most = Angle::deg(85.0);
+        let lean = lean.min(most);
+        Self {
+            half_width: level.half_width / lean.cos(),
+            per_height: lean.tan(),
         }
     }
 
@@ -475,6 +546,30 @@ impl Lean {
     fn clear_height(&self, extension: Length) -> Length {
         let upright = 1e-9;
         Length::mm((extension - self.half_width).to_mm().max(0.0) / self.per_height.max(upright))
+    }
+}
+
+/// The steepest pitch of the blade at the sides of the stock.
+fn pitch(asked: &RoughVcut) -> Angle {
+    let Some(along) = &asked.along else {
+        return Angle::ZERO;
+    };
+    let steepest = along
+        .spine
+        .end_slopes()
+        .map(f64::abs)
+        .into_iter()
+        .fold(0.0, f64::max);
+    Angle::rad(libm::atan(steepest))
+}
+
+/// Half the angle of a V, seen along a pitched way, that has this swing seen along y: `tan(a) = tan(swing) / cos(pitch)`.
+fn pitched_swing(asked: &RoughVcut, swing: Angle) -> Angle {
+    let pitch = pitch(asked);
+    if pitch == Angle::ZERO {
+        swing
+    } else {
+        Angle::rad(libm::atan(swing.tan() / pitch.cos()))
     }
 }
 

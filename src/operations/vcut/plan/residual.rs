@@ -336,7 +336,7 @@ impl<'p> LayerPlanner<'p> {
     /// anyway.
     fn comes_free(&mut self, tip: Point2) -> bool {
         let reach = self.parameters.flanks.reach.to_mm();
-        let vee = self.vee(tip);
+        let vee = self.parameters.flanks.lowest(self.vee(tip));
         let runs = [Side::Left, Side::Right].map(|side| self.surface.flank(vee, side));
         if runs
             .iter()

@@ -3,6 +3,7 @@
 /**
  * @typedef {object} Program
  * @property {Vector} stock width, depth, height in mm
+ * @property {[number, number][]} spine places along y, each with how much higher the section stands there
  * @property {[number, number][]} part corners of the part's contour
  * @property {Blade[]} blades the first is at hand at the start
  * @property {[number, number][]} changes ops that change the blade, and the blade after each
@@ -77,6 +78,7 @@ function unpack(raw) {
   const seconds = new Float64Array(bytesOf(columns.seconds));
   return {
     stock: raw.stock,
+    spine: raw.spine,
     part: raw.part,
     blades: raw.blades,
     changes: raw.changes,

@@ -52,22 +52,36 @@ class Triangles {
 }
 
 /**
- * The body below a contour, along y.
+ * The body below a contour, along a spine: at each of its places the contour is as much higher, but no higher than the stock.
  * @param {Point[]} contour from left to right
- * @param {number} depth
+ * @param {[number, number][]} spine places along y, each with its rise
+ * @param {number} top
  */
-function extruded(contour, depth) {
+function swept(contour, spine, top) {
   const mesh = new Triangles();
+  const at = (/** @type {Point} */ { x, z }, /** @type {[number, number]} */ [y, rise]) =>
+    /** @type {Vector} */ ([x, y, Math.min(z + rise, top)]);
+  const foot = (/** @type {Point} */ { x }, /** @type {[number, number]} */ [y]) => /** @type {Vector} */ ([x, y, 0]);
+  const [front, back] = [spine[0], last(spine)];
+  for (let k = 1; k < spine.length; k += 1) {
+    const [from, to] = [spine[k - 1], spine[k]];
+    const slope = (to[1] - from[1]) / (to[0] - from[0]);
+    for (let i = 1; i < contour.length; i += 1) {
+      const [a, b] = [contour[i - 1], contour[i]];
+      const along = b.x - a.x;
+      mesh.quad([at(a, from), at(b, from), at(b, to), at(a, to)], [a.z - b.z, -slope * along, along]);
+    }
+    for (const [end, side] of /** @type {[Point, number][]} */ ([[contour[0], -1], [last(contour), 1]])) {
+      mesh.quad([foot(end, from), at(end, from), at(end, to), foot(end, to)], [side, 0, 0]);
+    }
+  }
   for (let i = 1; i < contour.length; i += 1) {
     const [a, b] = [contour[i - 1], contour[i]];
-    mesh.quad([[a.x, 0, a.z], [b.x, 0, b.z], [b.x, depth, b.z], [a.x, depth, a.z]], [a.z - b.z, 0, b.x - a.x]);
-    mesh.quad([[a.x, 0, 0], [b.x, 0, 0], [b.x, 0, b.z], [a.x, 0, a.z]], [0, -1, 0]);
-    mesh.quad([[a.x, depth, 0], [b.x, depth, 0], [b.x, depth, b.z], [a.x, depth, a.z]], [0, 1, 0]);
+    mesh.quad([foot(a, front), foot(b, front), at(b, front), at(a, front)], [0, -1, 0]);
+    mesh.quad([foot(a, back), foot(b, back), at(b, back), at(a, back)], [0, 1, 0]);
   }
   const [first, end] = [contour[0], last(contour)];
-  mesh.quad([[first.x, 0, 0], [first.x, 0, first.z], [first.x, depth, first.z], [first.x, depth, 0]], [-1, 0, 0]);
-  mesh.quad([[end.x, 0, 0], [end.x, 0, end.z], [end.x, depth, end.z], [end.x, depth, 0]], [1, 0, 0]);
-  mesh.quad([[first.x, 0, 0], [end.x, 0, 0], [end.x, depth, 0], [first.x, depth, 0]], [0, 0, -1]);
+  mesh.quad([foot(first, front), foot(end, front), foot(end, back), foot(first, back)], [0, 0, -1]);
   return mesh.done();
 }
 

@@ -36,8 +36,9 @@ class Scene {
     this.workpiece = workpiece;
     const { program } = timeline;
     const part = program.part.map(([x, z]) => ({ x, z }));
-    this.stock = canvas.mesh(extruded(workpiece.surface.corners(), program.stock[1]));
-    this.part = canvas.mesh(extruded(part, program.stock[1]));
+    const { spine, stock } = program;
+    this.stock = canvas.mesh(swept(workpiece.surface.corners(), spine, stock[2]));
+    this.part = canvas.mesh(swept(part, spine, stock[2]));
     this.tube = canvas.mesh(unitTube());
     this.ball = canvas.mesh(unitBall());
     this.box = canvas.mesh(unitBox());
@@ -71,7 +72,8 @@ class Scene {
 
   /** The stock's mesh anew, after chips came free. */
   cut() {
-    this.canvas.refill(this.stock, extruded(this.workpiece.surface.corners(), this.timeline.program.stock[1]));
+    const { spine, stock } = this.timeline.program;
+    this.canvas.refill(this.stock, swept(this.workpiece.surface.corners(), spine, stock[2]));
   }
 
   /**

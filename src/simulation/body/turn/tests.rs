@@ -2,6 +2,7 @@
 
 use super::entry;
 use crate::body::section::{Ceiling, Section};
+use crate::body::slant::Backbone;
 use crate::body::stage::Cylinder;
 use crate::course::samples::{STOCK, courses, height};
 use crate::surface::{Surface, Vee};
@@ -9,6 +10,30 @@ use proptest::prelude::*;
 use vcutc_backend_api::ir::BodyStage;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
+use vcutc_geometry::spine::{Knot, Spine};
+
+/// A spine over the depth of the stock, whose pieces turn by shares of what they may.
+fn bent(slope: f64, bends: &[f64]) -> Spine {
+    let depth = STOCK.depth.to_mm();
+    let apart = depth / (bends.len() + 1) as f64;
+    let mut angle = libm::atan(slope);
+    let mut rises = vec![0.0_f64];
+    for bend in bends.iter().chain([&0.0]) {
+        rises.push(rises[rises.len() - 1] + apart * libm::tan(angle));
+        angle += 0.95 * bend * Spine::LARGEST_BEND;
+    }
+    let least = rises.iter().copied().fold(f64::INFINITY, f64::min);
+    let last = rises.len() - 1;
+    let knots = rises.iter().enumerate().map(|(number, rise)| Knot {
+        y: if number == last {
+            depth
+        } else {
+            apart * number as f64
+        },
+        rise: rise - least,
+    });
+    Spine::new(knots.collect()).unwrap()
+}
 
 proptest! {
     #[test]
@@ -17,7 +42,10 @@ proptest! {
         (from, radius) in (20.0..60.0_f64, 1.0..12.0_f64),
         tips in prop::collection::vec((0.0..100.0_f64, 5.0..60.0_f64), 0..6),
         blend in prop_oneof![Just(0.0), 0.01..1.0_f64],
+        bends in prop::option::of((-0.3..0.3_f64, prop::collection::vec(-1.0..=1.0_f64, 9))),
     ) {
+        let spine = bends.map(|(slope, bends)| bent(slope, &bends));
+        let rise = |y: f64| spine.as_ref().map_or(0.0, |spine| spine.rise(y));
         let mut surface = Surface::untouched(STOCK);
         for (x, z) in tips {
             surface.release(Vee::even(Point2::new(x, z), 1.3));
@@ -25,7 +53,8 @@ proptest! {
         let corners: Vec<Point2> = surface.corners().collect();
         let stages = Cylinder::all(&[BodyStage { from: Length::mm(from), radius: Length::mm(radius) }]);
         let ceiling = Ceiling::of(STOCK);
-        let mut section = Section { stock: STOCK, surface: &mut surface, ceiling: &ceiling };
+        let backbone = spine.as_ref().map(Backbone::exact);
+        let mut section = Section { stock: STOCK, surface: &mut surface, ceiling: &ceiling, backbone };
         let found = entry(&sample.course(Length::mm(blend)), &stages, &mut section);
         let mut deepest = f64::NEG_INFINITY;
         for share in (0..=150_u32).map(|i| f64::from(i) / 150.0) {
@@ -36,7 +65,8 @@ proptest! {
                     let off = sample.seen(share, skin);
                     let [x, y, z]: [f64; 3] = core::array::from_fn(|i| tip[i] + off[i]);
                     if (0.0..=100.0).contains(&y) {
-                        deepest = deepest.max(height(&corners, x).map_or(f64::NEG_INFINITY, |top| top - z + blend));
+                        let top = height(&corners, x).map_or(f64::NEG_INFINITY, |top| top + rise(y));
+                        deepest = deepest.max(top - z + blend);
                     }
                 }
             }

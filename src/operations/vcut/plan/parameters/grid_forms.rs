@@ -11,7 +11,7 @@ use vcutc_job::Auto;
 /// Whether a blade reaches what a lattice needs, wherever rounding puts its tips.
 pub(super) fn fits(lattice: Lattice, layer: Length, step: Length, flanks: &Flanks) -> bool {
     let needed = |layer: Length, step: Length| blade_reach::needed_reach(lattice, layer, step, flanks.slope);
-    let layers = around(layer, grid::SPACING);
+    let layers = around(layer + flanks.lower, grid::SPACING);
     let steps = around(step, grid::SPACING * tips_per_step(lattice));
     let worst = layers
         .iter()
@@ -94,7 +94,7 @@ pub fn largest_layers(asked: &RoughVcut, parameters: &VcutParameters, lattices: 
 }
 
 fn at_overlap(flanks: &Flanks, lattice: Lattice, overlap: f64, room: Option<Length>) -> Length {
-    let by_reach = blade_reach::largest_layer(lattice, overlap, flanks.reach);
+    let by_reach = blade_reach::largest_layer(lattice, overlap, flanks.reach_in_lattice());
     let by_scallop =
         room.map(|room| blade_reach::largest_layer_for_scallop(lattice, overlap, flanks.slope, room));
     let closed_form = by_scallop.map_or(by_reach, |layer| layer.min(by_reach));
@@ -104,7 +104,8 @@ fn at_overlap(flanks: &Flanks, lattice: Lattice, overlap: f64, room: Option<Leng
 }
 
 fn at_step(flanks: &Flanks, lattice: Lattice, step: Length, room: Option<Length>) -> Option<Length> {
-    let by_reach = blade_reach::largest_layer_at_step(lattice, step, flanks.slope, flanks.reach)?;
+    let reach = flanks.reach_in_lattice();
+    let by_reach = blade_reach::largest_layer_at_step(lattice, step, flanks.slope, reach)?;
     let closed_form = match room {
         None => by_reach,
         Some(room) => {

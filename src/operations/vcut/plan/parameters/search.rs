@@ -53,6 +53,8 @@ pub(super) fn lattices(asked: &RoughVcut) -> Vec<Lattice> {
     match (asked.lattice.value, asked.formulas.value) {
         (Auto::Given(lattice), Formulas::Paper | Formulas::Exact) => vec![lattice],
         (Auto::Auto, Formulas::Paper) => vec![Lattice::Orthogonal],
+        // What interlaced lattices are good for, flanks that just pass older tips, a spine does not leave them.
+        (Auto::Auto, Formulas::Exact) if asked.along.is_some() => vec![Lattice::Orthogonal, Lattice::Free],
         (Auto::Auto, Formulas::Exact) => vec![Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free],
     }
 }
@@ -119,7 +121,7 @@ fn work(job: &PlanningJob<'_>, asked: &RoughVcut, swing: Range<Angle>, standoff:
         depth: stock.depth,
         area: job.area_to_remove(),
         clearance: asked.setup.clearance.value,
-        cutting_length: asked.blade.cutting_length.value,
+        cutting_length: asked.blade.cutting_length.value - edge_along_a_spine(asked, swing.most),
         half_apex: asked.blade.half_apex.value,
         rake: asked.setup.rake.value,
         allowance: asked.allowance.value,
@@ -129,6 +131,12 @@ fn work(job: &PlanningJob<'_>, asked: &RoughVcut, swing: Range<Angle>, standoff:
         travel_feed: asked.setup.travel_feed.value,
         reorient_rate: asked.setup.reorient_rate.value,
     }
+}
+
+/// The edge that flanks may need on top because they follow a spine, at a swing.
+fn edge_along_a_spine(asked: &RoughVcut, swing: Angle) -> Length {
+    let flanks = flanks_at(asked, swing);
+    (flanks.lower * flanks.edge_per_reach).min(asked.blade.cutting_length.value / 2.0)
 }
 
 /// How far the edge lies over the work at either end of some swings.
@@ -285,7 +293,7 @@ impl Rounding<'_> {
             return keeps(layer);
         }
         let best = self.best.layer.to_mm();
-        let reach = blade_reach::largest_layer(self.best.lattice, self.overlap(), flanks.reach);
+        let reach = blade_reach::largest_layer(self.best.lattice, self.overlap(), flanks.reach_in_lattice());
         let (down, up) = match self.asked.step.value {
             // The paper's formulas may promise more than the blade reaches on this lattice.
             Auto::Auto => (best.min(reach.to_mm()), best.min(reach.to_mm())),

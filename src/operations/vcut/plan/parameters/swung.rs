@@ -4,7 +4,7 @@
 use super::super::blade_reach;
 use super::grid_forms::{fits, largest_fitting, open_overlaps, tips_per_step, widest_step};
 use super::search::Chosen;
-use super::{Flanks, VcutParameters, complete, edge_overhang, flanks_at, resolve_standoff};
+use super::{Flanks, VcutParameters, complete, drop_at, edge_overhang, flanks_at, resolve_standoff};
 use crate::asked::{Lattice, RoughVcut};
 use core::cell::OnceCell;
 use vcutc_backend_api::units::{Angle, Length};
@@ -40,7 +40,7 @@ impl<'s> Swung<'s> {
     /// How much higher the tip runs than the V that may be made.
     #[must_use]
     pub fn drop(&self) -> Length {
-        self.standoff / self.swing.sin()
+        drop_at(self.asked, self.standoff, &self.flanks, self.swing)
     }
 
     /// How many columns there are in a step, those of all layers together.
@@ -52,7 +52,7 @@ impl<'s> Swung<'s> {
     /// The largest layer that the blade reaches at an overlap.
     #[must_use]
     pub fn layer_at_overlap(&self, overlap: f64) -> Length {
-        let closed_form = blade_reach::largest_layer(self.lattice, overlap, self.flanks.reach);
+        let closed_form = blade_reach::largest_layer(self.lattice, overlap, self.flanks.reach_in_lattice());
         largest_fitting(self.lattice, closed_form, &self.flanks, |layer| {
             self.widest_step(layer, overlap)
         })
@@ -69,7 +69,7 @@ impl<'s> Swung<'s> {
     /// The largest layer that the blade reaches at a step, if there is any.
     #[must_use]
     pub fn layer_at_step(&self, step: Length) -> Option<Length> {
-        let (slope, reach) = (self.flanks.slope, self.flanks.reach);
+        let (slope, reach) = (self.flanks.slope, self.flanks.reach_in_lattice());
         let closed_form = blade_reach::largest_layer_at_step(self.lattice, step, slope, reach)?;
         let layer = largest_fitting(self.lattice, closed_form, &self.flanks, |_| step);
         fits(self.lattice, layer, step, &self.flanks).then_some(layer)

@@ -120,7 +120,8 @@ impl<'p> Survey<'p> {
     fn measure(&mut self, stretch: usize, range: &Range<usize>) -> Vec<Chip> {
         let cuts = self.terrain.cuts.get(range.clone()).unwrap_or_default();
         let mut chip = |vee: Vee| {
-            let [left, right] = [Side::Left, Side::Right].map(|side| self.surface.flank(vee, side));
+            let lowest = self.terrain.parameters.flanks.lowest(vee);
+            let [left, right] = [Side::Left, Side::Right].map(|side| self.surface.flank(lowest, side));
             Chip {
                 stretch,
                 vee,

@@ -1,0 +1,72 @@
+//! How cuts follow a part that changes along y.
+
+use std::sync::Arc;
+use vcutc_backend_api::units::{Angle, Length};
+use vcutc_geometry::spine::{Deviation, Spine};
+
+/// How cuts follow the part along y.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Follow {
+    /// They are level.
+    Straight,
+    /// They rise or fall at one slope, the same for all of them.
+    Pitched,
+    /// They rise and fall along a polyline, the same for all of them.
+    Spine,
+    /// The first of these that leaves hardly more than the best.
+    Auto,
+}
+
+crate::words! {
+    Follow { Straight = "straight", Pitched = "pitched", Spine = "spine", Auto = "auto" }
+}
+
+/// The spine of the cuts of an operation, and how its blade keeps to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Along {
+    /// The spine.
+    pub spine: Arc<Spine>,
+    /// How far flanks lie off the Vs of their tips where the blade is where it is to be.
+    deviation: Deviation,
+    /// How far any place of the edge may be from where it is to be, in mm.
+    off: f64,
+}
+
+/// What rounding of places and postures moves an edge by, in mm.
+const ROUNDED: f64 = 0.003;
+
+impl Along {
+    /// Of a blade with an edge of that length, at an angle to its way (rake less half apex), that may leave the way by `blend`.
+    ///
+    /// Seen along the work, such an edge reaches `L cos(angle)` ahead of its tip where the way is level, and up to
+    /// `L sin(angle) sin(mu)` more where it rises by `mu`. The other edge of the blade lies nearer.
+    #[must_use]
+    pub fn new(spine: &Arc<Spine>, edge: Length, angle: Angle, blend: Length) -> Self {
+        let pitch = Angle::rad(libm::atan(spine.steepest()));
+        let overhang = edge * (angle.cos().abs() + angle.sin() * pitch.sin());
+        // Turning on its way from one place to the next, the end of the edge leaves its chord by an eighth of the turn squared.
+        let turn = Spine::LARGEST_BEND;
+        Self {
+            spine: Arc::clone(spine),
+            deviation: spine.deviation(overhang.to_mm()),
+            off: edge.to_mm() * turn * turn / 8.0 + blend.to_mm() + ROUNDED,
+        }
+    }
+
+    /// How far flanks that rise by `slope` across the cuts may lie off the Vs of their tips.
+    #[must_use]
+    pub fn deviation(&self, slope: f64) -> Deviation {
+        let along = self.spine.steepest();
+        let off = self.off * (1.0 + slope * slope + along * along).sqrt();
+        Deviation {
+            above: self.deviation.above + off,
+            below: self.deviation.below + off,
+        }
+    }
+
+    /// How much more of a distance counts along z than where cuts are level.
+    #[must_use]
+    pub fn steepness(&self) -> f64 {
+        libm::hypot(1.0, self.spine.steepest())
+    }
+}

@@ -1,0 +1,512 @@
+//! Cuts along spines: what their programs do to the stock, by the blade in space and by dexels, which know neither spines nor
+//! sections; and programs that were changed.
+
+use crate::pipeline::{Files, compile};
+use proptest::prelude::*;
+use vcutc::diagnostics::{Code, has_errors};
+use vcutc::driver::Outcome;
+use vcutc::job::PlannedJob;
+use vcutc::process::verdict::replay;
+use vcutc::simulation::prove::{CutFault, Findings};
+use vcutc_backend_api::ir::{Action, Joint, Op, Program, Site, Straight};
+use vcutc_backend_api::verify::verify;
+
+const WIDTH: f64 = 100.0;
+const DEPTH: f64 = 150.0;
+const HEIGHT: f64 = 70.0;
+const ALLOWANCE: f64 = 0.4;
+
+const REST: &str = "job \"shell\"
+stock { size = (100 mm, 150 mm, 70 mm) }
+blade dagger {
+  cutting_length = 25 mm
+  half_apex      = 7.13 deg
+  thickness      = 1.2 mm
+  edges          = double
+}
+";
+
+fn rough(more: &str) -> String {
+    format!(
+        "rough vcut {{
+  blade     = dagger
+  rake      = 60 deg
+  allowance = {ALLOWANCE} mm
+  feed      {{ cut = 200 mm/s, travel = 200 mm/s, reorient = 90 deg/s }}
+  clearance = 10 mm
+  {more}
+}}
+"
+    )
+}
+
+/// Everything given, so that nothing is searched.
+const GIVEN: &str = "lattice = orthogonal\n  swing = 40 deg\n  layer = 8 mm\n  step = 9 mm\n  order = point\n  sequence = rows\n  \
+                     residual = mixed";
+
+fn compiled(surface: &str, more: &str) -> Outcome {
+    let text = format!("{REST}surface {{ {surface} }}\n{}", rough(more));
+    compile("job.vcut", &Files::default().with("job.vcut", text))
+}
+
+/// A part as the test knows it: a sum of waves across and along, and something that is no such sum.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    across: f64,
+    along: f64,
+    slope: f64,
+    twist: f64,
+}
+
+impl Part {
+    fn height(self, x: f64, y: f64) -> f64 {
+        let (u, v) = (x - WIDTH / 2.0, y - DEPTH / 2.0);
+        38.0 - u * u / self.across - v * v / self.along + v * self.slope + u * v / self.twist
+    }
+
+    fn surface(self) -> String {
+        let [u, v] = ["(x - 50 mm)", "(y - 75 mm)"];
+        let Self {
+            across,
+            along,
+            slope,
+            twist,
+        } = self;
+        format!(
+            "z(x, y) = 38 mm - {u}^2 / ({across} mm) - {v}^2 / ({along} mm) + {v} * ({slope}) + {u} * {v} / ({twist} mm)"
+        )
+    }
+}
+
+/// The blade in a place: its tip, its two edges (of unit length), and the normal of its plane.
+#[derive(Clone, Copy)]
+struct Held {
+    tip: [f64; 3],
+    edges: [[f64; 3]; 2],
+    normal: [f64; 3],
+}
+
+impl Held {
+    fn at(&self, [lead, share]: [f64; 2], aside: f64) -> [f64; 3] {
+        let [one, other] = self.edges;
+        core::array::from_fn(|i| {
+            self.tip[i] + lead * (share * one[i] + (1.0 - share) * other[i]) + aside * self.normal[i]
+        })
+    }
+}
+
+/// One flank of a V: the blade from before the stock to behind it, as a controller takes it from place to place.
+struct Flank {
+    site: Site,
+    held: Vec<Held>,
+}
+
+fn blade_of(program: &Program) -> Straight {
+    program.blades[0].straight().unwrap()
+}
+
+fn flanks(program: &Program, apart: f64) -> Vec<Flank> {
+    let ends = blade_of(program).edge_ends();
+    let long = blade_of(program).cutting_length.to_mm();
+    let mut flanks: Vec<Flank> = Vec::new();
+    let mut goes_on = false;
+    for segment in program.segments() {
+        let (Action::Follow { joint, .. }, Some(line)) = (segment.op.action, segment.line()) else {
+            continue;
+        };
+        if !goes_on {
+            flanks.push(Flank {
+                site: segment.op.site,
+                held: Vec::new(),
+            });
+        }
+        goes_on = joint == Joint::Through;
+        let count = ((line.to.tip.y - line.from.tip.y).abs() / apart).ceil().max(1.0);
+        for step in 0..=(count as u32) {
+            let frame = line.frame_at(program, f64::from(step) / count).unwrap();
+            let matrix = frame.orientation.matrix();
+            let seen = |vector: [f64; 3]| matrix.map(|row| row.iter().zip(vector).map(|(a, b)| a * b).sum());
+            flanks.last_mut().unwrap().held.push(Held {
+                tip: frame.origin.to_array(),
+                edges: ends.map(|end| seen(end.map(|part| part / long))),
+                normal: matrix.map(|row| row[1]),
+            });
+        }
+    }
+    flanks
+}
+
+/// How far above the part the blade stays, where it is over the stock: along z, at points of both its sides.
+fn least_gap(flanks: &[Flank], blade: Straight, height: &dyn Fn(f64, f64) -> f64) -> f64 {
+    let (long, half) = (blade.cutting_length.to_mm(), blade.thickness.to_mm() / 2.0);
+    let mut least = f64::INFINITY;
+    for held in flanks.iter().flat_map(|flank| &flank.held) {
+        for lead in (0..=10).map(|i| long * f64::from(i) / 10.0) {
+            for share in [0.0, 0.5, 1.0] {
+                for aside in [-half, half] {
+                    let [x, y, z] = held.at([lead, share], aside);
+                    if (0.0..=WIDTH).contains(&x) && (0.0..=DEPTH).contains(&y) {
+                        least = least.min(z - height(x, y));
+                    }
+                }
+            }
+        }
+    }
+    least
+}
+
+/// Where the leading edge cuts a section, from the tip to the end of the edge.
+fn cut_in(flank: &Flank, y: f64, long: f64) -> Vec<[f64; 2]> {
+    let (first, last) = (flank.held.first().unwrap(), flank.held.last().unwrap());
+    let sense = (last.tip[1] - first.tip[1]).signum();
+    let ahead = |held: &Held| usize::from(held.edges[1][1] * sense > held.edges[0][1] * sense);
+    let place = |held: &Held, lead: f64| {
+        let edge = held.edges[ahead(held)];
+        let point: [f64; 3] = core::array::from_fn(|i| held.tip[i] + lead * edge[i]);
+        point
+    };
+    let count = (long / 0.1).round() as u32;
+    let leads = (0..=count).map(|i| long * f64::from(i) / f64::from(count));
+    let cut = leads.map(|lead| {
+        let next = flank
+            .held
+            .partition_point(|held| place(held, lead)[1] * sense < y * sense)
+            .clamp(1, flank.held.len() - 1);
+        let [a, b] = [&flank.held[next - 1], &flank.held[next]].map(|held| place(held, lead));
+        let share = ((y - a[1]) / (b[1] - a[1])).clamp(0.0, 1.0);
+        [a[0] + (b[0] - a[0]) * share, a[2] + (b[2] - a[2]) * share]
+    });
+    cut.collect()
+}
+
+const DEXEL: f64 = 0.1;
+
+/// A section of the stock in columns.
+struct Dexels(Vec<f64>);
+
+impl Dexels {
+    fn new() -> Self {
+        Self(vec![HEIGHT; (WIDTH / DEXEL).round() as usize + 1])
+    }
+
+    fn height(&self, x: f64) -> f64 {
+        let column = (x / DEXEL).round();
+        if column < 0.0 || column as usize >= self.0.len() {
+            return f64::NEG_INFINITY;
+        }
+        self.0[column as usize]
+    }
+
+    /// How much more edge a flank would have needed to come out, at least along z; and where it does come out.
+    fn exit(&self, cut: &[[f64; 2]]) -> (f64, usize) {
+        let room = |[x, z]: [f64; 2]| self.height(x) - z;
+        let last = cut.len() - 1;
+        match cut.iter().position(|&point| room(point) <= 0.3) {
+            Some(out) => (0.0, out),
+            None => (room(cut[last]), last),
+        }
+    }
+
+    /// Takes out what lies above two flanks up to where they come out.
+    fn release(&mut self, sides: [&[[f64; 2]]; 2]) {
+        for side in sides {
+            for pair in side.windows(2) {
+                let [[a, low], [b, high]] = [pair[0], pair[1]];
+                let (from, to) = (a.min(b), a.max(b));
+                for column in (from / DEXEL).ceil() as i64..=(to / DEXEL).floor() as i64 {
+                    let Ok(column) = usize::try_from(column) else {
+                        continue;
+                    };
+                    let x = column as f64 * DEXEL;
+                    let z = low + (high - low) * (x - a) / (b - a);
+                    if let Some(top) = self.0.get_mut(column) {
+                        *top = top.min(z);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// What is left in a section after all cuts; fails where a flank does not come out.
+fn left_in(flanks: &[Flank], y: f64, blade: Straight) -> Dexels {
+    let long = blade.cutting_length.to_mm();
+    let mut dexels = Dexels::new();
+    let mut half: Vec<(Site, Vec<[f64; 2]>)> = Vec::new();
+    for flank in flanks {
+        let mut cut = cut_in(flank, y, long);
+        let (missing, out) = dexels.exit(&cut);
+        assert!(missing <= 0.0, "{:?} lacks {missing} mm at y {y}", flank.site);
+        cut.truncate(out + 1);
+        match half.iter().position(|(site, _)| *site == flank.site) {
+            Some(other) => {
+                let (_, other) = half.swap_remove(other);
+                dexels.release([&other, &cut]);
+            }
+            None => half.push((flank.site, cut)),
+        }
+    }
+    assert!(half.is_empty());
+    dexels
+}
+
+/// That a job is proven, that nothing of it enters the part, that all chips come out, and that what is left in sections is what the
+/// program is said to leave.
+fn is_right(outcome: &Outcome, height: &dyn Fn(f64, f64) -> f64) {
+    assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
+    let compiled = outcome.compiled.as_ref().unwrap();
+    let program = compiled.program.verified().program();
+    let blade = blade_of(program);
+    let flanks = flanks(program, 0.5);
+    assert!(!flanks.is_empty());
+    let gap = least_gap(&flanks, blade, height);
+    // Formulas are met within 10 um.
+    assert!(gap >= ALLOWANCE - 0.011, "{gap}");
+    let spine = outcome.job.as_ref().unwrap().part.spine().unwrap().clone();
+    let off = spine.deviation(blade.cutting_length.to_mm()).both() + 0.1;
+    let contour = &compiled.report.contour;
+    for y in [0.05, 31.0, 75.0, 118.3, DEPTH - 0.05] {
+        let dexels = left_in(&flanks, y, blade);
+        for pair in contour.windows(2) {
+            let [a, b] = [pair[0], pair[1]];
+            let x = f64::midpoint(a.x, b.x);
+            let said = f64::midpoint(a.z, b.z) + spine.rise(y);
+            let left = dexels.height(x);
+            // Half a column on a flank of 40 degrees.
+            let room = off + 0.15;
+            assert!(
+                left <= said + room && left >= said.min(HEIGHT) - room,
+                "x {x} y {y}: {left} left, {said} said"
+            );
+            assert!(
+                left >= height((x / DEXEL).round() * DEXEL, y) + ALLOWANCE - 0.15,
+                "x {x} y {y}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_dome_is_roughed_along_its_spine() {
+    let part = Part {
+        across: 200.0,
+        along: 1200.0,
+        slope: 0.0,
+        twist: 1e9,
+    };
+    let height = |x: f64, y: f64| part.height(x, y);
+    let outcome = compiled(&part.surface(), &format!("{GIVEN}\n  follow = spine"));
+    is_right(&outcome, &height);
+    // Straight cuts leave the fall of the part along y, 4.7 mm; these hardly anything of it.
+    let left = |more: &str| {
+        let outcome = compiled(&part.surface(), &format!("{GIVEN}\n  {more}"));
+        let compiled = outcome.compiled.as_ref().unwrap();
+        compiled.left_over.unwrap().shaded.to_litres()
+    };
+    let (straight, along) = (left("follow = straight"), left("follow = spine"));
+    assert!(along < straight / 10.0, "{along} {straight}");
+}
+
+#[test]
+fn a_slope_is_roughed_by_pitched_cuts() {
+    let part = Part {
+        across: 400.0,
+        along: 1e9,
+        slope: 0.18,
+        twist: 1e9,
+    };
+    let outcome = compiled(&part.surface(), &format!("{GIVEN}\n  follow = pitched"));
+    is_right(&outcome, &|x, y| part.height(x, y));
+    let spine = outcome.job.as_ref().unwrap().part.spine().unwrap().clone();
+    assert!(
+        (spine.end_slopes()[0] - 0.18).abs() < 1e-3,
+        "{:?}",
+        spine.end_slopes()
+    );
+}
+
+#[test]
+fn cuts_follow_as_little_as_does() {
+    let follow = |part: Part, more: &str| {
+        let outcome = compiled(&part.surface(), &format!("{GIVEN}\n  follow = auto\n  {more}"));
+        assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
+        let knots = outcome
+            .job
+            .as_ref()
+            .unwrap()
+            .part
+            .spine()
+            .map(|spine| spine.knots().len());
+        knots.unwrap_or(0)
+    };
+    let part = Part {
+        across: 300.0,
+        along: 1e9,
+        slope: 0.0,
+        twist: 1e9,
+    };
+    assert_eq!(follow(part, ""), 0);
+    assert_eq!(follow(Part { slope: 0.1, ..part }, ""), 2);
+    let dome = Part {
+        along: 1500.0,
+        ..part
+    };
+    assert!(follow(dome, "") > 2);
+    // What falls by 3.75 mm needs nothing to follow where 12 mm may stay.
+    assert_eq!(follow(dome, "limits { scallop <= 12 mm }"), 0);
+}
+
+/// Parts that fall along y by no more than spines may.
+fn parts() -> impl Strategy<Value = Part> {
+    let across = prop_oneof![150.0..1000.0_f64, -1000.0..-400.0_f64];
+    let along = prop_oneof![700.0..4000.0_f64, -4000.0..-700.0_f64];
+    let twist = prop_oneof![Just(1e9), 1500.0..5000.0_f64, -5000.0..-1500.0_f64];
+    (across, along, -0.1..0.1_f64, twist).prop_map(|(across, along, slope, twist)| Part {
+        across,
+        along,
+        slope,
+        twist,
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(6))]
+
+    #[test]
+    fn programs_along_spines_do_what_they_are_said_to_do(
+        part in parts(), swing in 30.0..50.0_f64, layer in 5.0..8.0_f64, step in 6.0..10.0_f64,
+        residual in prop_oneof![Just("mixed"), Just("lift")], single: bool,
+    ) {
+        let edges = if single { "single" } else { "double" };
+        let text = format!(
+            "{}surface {{ {} }}\n{}",
+            REST.replace("double", edges),
+            part.surface(),
+            rough(&format!(
+                "lattice = orthogonal\n  swing = {swing:.3} deg\n  layer = {layer:.3} mm\n  step = {step:.3} mm\n  order = point\n  \
+                 sequence = rows\n  residual = {residual}\n  follow = spine"
+            )),
+        );
+        let outcome = compile("job.vcut", &Files::default().with("job.vcut", text));
+        // Some lattices ask for more than the blade has; the proof says so.
+        let is_refused = outcome.diagnostics.iter().any(|diagnostic| {
+            matches!(diagnostic.code, Code::ChipNotFreed | Code::BladeBlocked | Code::NothingToCut)
+        });
+        if !is_refused && outcome.job.as_ref().unwrap().part.spine().is_some() {
+            is_right(&outcome, &|x, y| part.height(x, y));
+        }
+    }
+}
+
+fn findings(plan: &PlannedJob, program: &Program) -> Findings {
+    let program = verify(program.clone()).unwrap_or_else(|faults| panic!("{faults:?}"));
+    replay(plan, &program).findings
+}
+
+/// The ops of one cut.
+fn of_cut(op: &Op, layer: u32, cut: u32) -> bool {
+    matches!(op.site, Site::Cut { layer: l, cut: c, .. } if (l.get(), c.get()) == (layer, cut))
+}
+
+#[test]
+fn changed_programs_are_found() {
+    let part = Part {
+        across: 200.0,
+        along: 1200.0,
+        slope: 0.0,
+        twist: 1e9,
+    };
+    let outcome = compiled(&part.surface(), &format!("{GIVEN}\n  follow = spine"));
+    let plan = outcome.plan.as_ref().unwrap();
+    let program = outcome
+        .compiled
+        .as_ref()
+        .unwrap()
+        .program
+        .verified()
+        .program()
+        .clone();
+    assert_eq!(findings(plan, &program), Findings::default());
+    // One knot 0.004 mm lower: as much as chains may bend.
+    let mut one_knot = program.clone();
+    let knots = one_knot.ops.iter_mut().filter(|op| of_cut(op, 2, 5));
+    let mut knots = knots.filter_map(|op| match &mut op.action {
+        Action::Follow { to, .. } => Some(to),
+        _ => None,
+    });
+    knots.nth(3).unwrap().z -= 0.004;
+    let (count, finding) = findings(plan, &one_knot).strays.unwrap();
+    assert_eq!((count, finding.layer.get(), finding.cut.get()), (1, 2, 5));
+    let CutFault::Strays { by, .. } = finding.fault else {
+        panic!("{finding:?}")
+    };
+    assert!((by.to_mm() - 0.004).abs() < 1e-3, "{by:?}");
+    // All of one cut lower, its ways too.
+    let lowered = |by: f64| {
+        let mut lower = program.clone();
+        for op in lower.ops.iter_mut().filter(|op| of_cut(op, 2, 5)) {
+            match &mut op.action {
+                Action::Follow { to, .. } | Action::Travel { to, .. } | Action::Approach { to, .. } => {
+                    to.z -= by
+                }
+                _ => {}
+            }
+        }
+        findings(plan, &lower)
+    };
+    assert!(lowered(6.0).overcut.is_some() || lowered(6.0).not_freed.is_some());
+    // The second flank of a V is left out.
+    let mut half = program.clone();
+    let is_piece = |op: &Op| matches!(op.action, Action::Follow { .. }) && of_cut(op, 1, 3);
+    let first = half.ops.iter().position(is_piece).unwrap();
+    let ends = half.ops[first..]
+        .iter()
+        .position(|op| {
+            matches!(
+                op.action,
+                Action::Follow {
+                    joint: Joint::Stop,
+                    ..
+                }
+            )
+        })
+        .unwrap();
+    let mut passed = false;
+    let mut number = 0;
+    half.ops.retain(|op| {
+        let keep = !(passed && is_piece(op));
+        passed |= number == first + ends;
+        number += 1;
+        keep
+    });
+    let broken = verify(half);
+    // The way back does not fit any more, or the V has one flank.
+    if let Ok(program) = broken {
+        let (_, finding) = replay(plan, &program).findings.not_freed.unwrap();
+        assert!(matches!(finding.fault, CutFault::NotFreed { needed, .. } if !needed.is_finite()));
+    }
+}
+
+#[test]
+fn what_cannot_be_followed_is_refused() {
+    let codes = |text: String| {
+        let outcome = compile("job.vcut", &Files::default().with("job.vcut", text));
+        outcome
+            .diagnostics
+            .iter()
+            .map(|diagnostic| diagnostic.code)
+            .collect::<Vec<_>>()
+    };
+    let follow = |word: &str| rough(&format!("{GIVEN}\n  follow = {word}"));
+    let profile = "profile { start (0 mm, 30 mm), line to (100 mm, 20 mm) }\n";
+    let dome = "surface { z(x, y) = 38 mm - (y - 75 mm)^2 / 1200 mm }\n";
+    assert_eq!(
+        codes(format!("{REST}{profile}{}", follow("spine"))),
+        [Code::CannotFollow]
+    );
+    assert_eq!(codes(format!("{REST}{profile}{}", follow("auto"))), []);
+    let narrower = rough(&format!("{GIVEN}\n  follow = spine\n  avoid = swing"));
+    assert_eq!(codes(format!("{REST}{dome}{narrower}")), [Code::CannotFollow]);
+    let two = format!("{REST}{dome}{}{}", follow("spine"), follow("straight"));
+    assert_eq!(codes(two), [Code::CannotFollow]);
+}
