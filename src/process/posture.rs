@@ -318,6 +318,64 @@ mod tests {
         }
     }
 
+    /// Numbers of pitched cuts that were computed by independent scripts: rake 60 deg, swing 35 deg, at slopes of 0, 5 and 10 deg.
+    #[test]
+    fn pitched_blades_are_held_as_published() {
+        let holder = Holder {
+            swing: Angle::deg(35.0),
+            rake: Angle::deg(60.0),
+            edges: Edges::Double,
+        };
+        for (pitch, opened, turn) in [
+            (0.0, 35.0, 89.626_709),
+            (5.0, 35.102_702, 89.771_567),
+            (10.0, 35.413_183, 90.210_619),
+        ] {
+            let slope = Angle::deg(pitch).tan();
+            let held = |flank, feed| holder.cutting_along(flank, feed, slope);
+            let right = held(Flank::Right, Feed::Forward);
+            // Seen along the way, the plane leans by the opened swing.
+            let m = right.matrix();
+            let normal = DVec3::new(m[0][1], m[1][1], m[2][1]);
+            let way = DVec3::new(0.0, libm::cos(slope.atan()), libm::sin(slope.atan()));
+            assert!(normal.dot(way).abs() < 1e-12);
+            let lean = libm::asin(normal.dot(DVec3::X)).to_degrees();
+            assert!(
+                (90.0 - lean - opened).abs() < 1e-6 || (lean - (90.0 - opened)).abs() < 1e-6,
+                "{lean}"
+            );
+            // Seen along y its flank rises by cot(35 deg) all the same.
+            let rise = -normal.x / normal.z;
+            assert!((rise - 1.0 / Angle::deg(35.0).tan()).abs() < 1e-12, "{rise}");
+            let turned = held(Flank::Left, Feed::Forward).angle_to(held(Flank::Right, Feed::Backward));
+            assert!((turned.to_deg() - turn).abs() < 1e-6, "{turned:?}");
+        }
+        let m = holder
+            .cutting_along(Flank::Right, Feed::Forward, Angle::deg(5.0).tan())
+            .matrix();
+        let shank = [-m[0][2], -m[1][2], -m[2][2]];
+        for (ours, published) in shank.into_iter().zip([0.498_002_57, 0.436_346_20, 0.749_396_72]) {
+            assert!((ours - published).abs() < 1e-8, "{shank:?}");
+        }
+    }
+
+    /// An edge of 40 mm reaches 28.76 mm ahead where it goes down by 11.3 deg, so that in a valley of radius 1000 mm a flank lies
+    /// 0.4137 mm below the V of its tip.
+    #[test]
+    fn a_pitched_edge_reaches_as_far_ahead_as_published() {
+        let holder = Holder {
+            swing: Angle::deg(35.0),
+            rake: Angle::deg(60.0),
+            edges: Edges::Double,
+        };
+        let slope = -Angle::deg(11.3).tan();
+        let m = holder.cutting_along(Flank::Right, Feed::Forward, slope).matrix();
+        let (sine, cosine) = libm::sincos(Angle::deg(7.13).to_rad());
+        let ahead = [-1.0, 1.0].map(|side| 40.0 * (m[1][0] * side * sine - m[1][2] * cosine));
+        let ahead = ahead.into_iter().fold(0.0, f64::max);
+        assert!((ahead * ahead / 2000.0 - 0.4137).abs() < 2e-4, "{ahead}");
+    }
+
     proptest! {
         #[test]
         fn follows_the_formula(swing in 1.0..80.0_f64, rake in 10.0..=90.0_f64, right: bool, forward: bool) {

@@ -325,6 +325,31 @@ fn a_slope_is_roughed_by_pitched_cuts() {
     );
 }
 
+/// A sum of a wave across and one along: what stays is what stays of the wave across alone, but for what the blade lies off its spine,
+/// which tips keep clear of, and for the knots.
+#[test]
+fn a_sum_of_two_waves_is_left_like_the_wave_across() {
+    let across = "30 mm + 8 mm * sin(x / 30 mm * 57.3 deg)";
+    let along = "+ 5 mm * cos(y / 60 mm * 57.3 deg)";
+    let left = |part: String, more: &str| {
+        let text = format!("{REST}{part}\n{}", rough(&format!("{GIVEN}\n  {more}")));
+        let outcome = compile("job.vcut", &Files::default().with("job.vcut", text));
+        assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
+        let compiled = outcome.compiled.as_ref().unwrap();
+        let spine = outcome.job.as_ref().unwrap().part.spine().cloned();
+        let blade = blade_of(compiled.program.verified().program());
+        let off = spine.map_or(0.0, |spine| spine.deviation(blade.cutting_length.to_mm()).both());
+        (compiled.report.scallop.height.to_mm(), off)
+    };
+    let (profile, _) = left(format!("profile {{ z(x) = {across} }}"), "");
+    let (surface, off) = left(
+        format!("surface {{ z(x, y) = {across} {along} }}"),
+        "follow = spine",
+    );
+    assert!(off > 0.01, "{off}");
+    assert!(surface <= profile + 1.5 * off + 0.3, "{surface} {profile} {off}");
+}
+
 #[test]
 fn cuts_follow_as_little_as_does() {
     let follow = |part: Part, more: &str| {
