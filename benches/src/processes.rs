@@ -1,4 +1,5 @@
-//! Jobs that are roughed by the faster of two processes, and the same ones by V cuts alone.
+//! Jobs that are roughed by the faster of two processes, and the same ones by V cuts alone; and a dome that is roughed by level
+//! cuts, and by cuts that follow it.
 
 /// A part: its name, width and height of its stock in mm, and its profile.
 type Part = (&'static str, u32, u32, &'static str);
@@ -49,5 +50,18 @@ pub fn text((_, width, height, profile): Part, roughing: Roughing) -> String {
     format!(
         "job \"bench\"\nstock {{ size = ({width} mm, 400 mm, {height} mm) }}\nprofile {{ {profile} }}\n\
          blade dagger {{ cutting_length = 20 mm, half_apex = 7.13 deg, thickness = 0.5 mm, edges = double }}\n{wheel}\n{operation}\n"
+    )
+}
+
+/// A dome of 600 x 1000 mm with 10 000 cuts or so, all given, that follow it in a way: `straight` or `spine`.
+#[must_use]
+pub fn dome(follow: &str) -> String {
+    format!(
+        "job \"bench\"\nstock {{ size = (600 mm, 1000 mm, 160 mm) }}\n\
+         surface {{ z(x, y) = 100 mm - (x - 300 mm)^2 / 3000 mm - (y - 500 mm)^2 / 6000 mm }}\n\
+         blade dagger {{ cutting_length = 20 mm, half_apex = 7.13 deg, thickness = 0.5 mm, edges = double }}\n\
+         rough vcut {{ blade = dagger, rake = 60 deg, clearance = 10 mm\n  lattice = orthogonal, swing = 40 deg, layer = 1.2 mm, step = 4 mm\n  \
+         order = point, sequence = rows, residual = lift, follow = {follow}\n  \
+         feed {{ cut = 150 mm/s, travel = 300 mm/s, reorient = 40 deg/s }} }}\n"
     )
 }

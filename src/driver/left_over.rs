@@ -36,7 +36,7 @@ impl Compared {
         let surface = part.surface().filter(|_| part.spine().is_none())?;
         let (times, least) = MUCH;
         let level = surface.left_by_straight_cuts();
-        let along = surface.spine(Rising::Freely)?.leaves;
+        let along = part.fitted(Rising::Freely)?.leaves;
         (level > times * along && level > least).then(|| Self {
             level: Length::mm(level),
             along: Length::mm(along),

@@ -337,7 +337,8 @@ mod tests {
             // Seen along the way, the plane leans by the opened swing.
             let m = right.matrix();
             let normal = DVec3::new(m[0][1], m[1][1], m[2][1]);
-            let way = DVec3::new(0.0, libm::cos(slope.atan()), libm::sin(slope.atan()));
+            let (rise, level) = libm::sincos(Angle::deg(pitch).to_rad());
+            let way = DVec3::new(0.0, level, rise);
             assert!(normal.dot(way).abs() < 1e-12);
             let lean = libm::asin(normal.dot(DVec3::X)).to_degrees();
             assert!(

@@ -5,12 +5,11 @@ use super::report::{Checked, Reports};
 use crate::follow::Follow;
 use crate::ways::Ways;
 use crate::{Machine, Operation, Sourced};
-use std::sync::Arc;
 use vcutc_backend_api::ir::{AxisKind, Stock};
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_surface::spine::{Fitted, Rising};
+use vcutc_surface::spine::Rising;
 use vcutc_surface::surface::Surface;
 
 /// By how much more a simpler way to follow the part may leave than the best one.
@@ -37,28 +36,30 @@ pub(super) fn decide(asked: Asked<'_>, ways: &mut [Ways], reports: &mut Reports)
         node: follow.value,
         span: follow.span.unwrap_or(asked.place),
     };
-    let fitted = match (asked.part.surface(), follow.value) {
+    let rising = match (asked.part.surface(), follow.value) {
         (_, Follow::Straight) | (None, Follow::Auto) => None,
         (None, Follow::Pitched | Follow::Spine) => {
             return Err(reports.push(nothing_to_follow(word, asked.place)));
         }
-        (Some(surface), Follow::Pitched) => surface.spine(Rising::Evenly),
-        (Some(surface), Follow::Spine) => surface.spine(Rising::Freely),
-        (Some(surface), Follow::Auto) => best(surface, ways, asked.machine),
+        (Some(_), Follow::Pitched) => Some(Rising::Evenly),
+        (Some(_), Follow::Spine) => Some(Rising::Freely),
+        (Some(surface), Follow::Auto) => best(&asked.part, surface, ways, asked.machine),
     };
-    let Some(Fitted { spine, .. }) = fitted else {
+    // Where nothing is better than level cuts, these are taken.
+    let Some(rising) = rising.filter(|rising| asked.part.fitted(*rising).is_some()) else {
         return Ok(asked.part);
     };
     if let Some(machine) = asked.machine.filter(|machine| !turns_planes(machine)) {
         return Err(reports.push(too_few_axes(word, machine)));
     }
-    let spine = Arc::new(spine);
     // A surface that covers the stock does so with its spine taken off.
-    let Some(part) = asked.part.along(Arc::clone(&spine), asked.stock) else {
+    let Some(part) = asked.part.along(rising, asked.stock) else {
         return Ok(asked.part);
     };
-    for way in ways.iter_mut().flat_map(Ways::iter_mut) {
-        way.operation.go_along(&spine);
+    if let Some(spine) = part.spine() {
+        for way in ways.iter_mut().flat_map(Ways::iter_mut) {
+            way.operation.go_along(spine);
+        }
     }
     Ok(part)
 }
@@ -79,26 +80,31 @@ fn agreed(ways: &[Ways], reports: &mut Reports) -> Checked<Option<Sourced<Follow
     Ok(found.map(|(follow, _)| follow))
 }
 
-/// The simplest way to follow a surface that leaves hardly more than the best, or no more than all limits allow.
-fn best(surface: &Surface, ways: &[Ways], machine: Option<&Machine>) -> Option<Fitted> {
+/// The simplest way to follow a surface that leaves hardly more than the best, or no more than all limits allow; none where level
+/// cuts do.
+fn best(part: &Part, surface: &Surface, ways: &[Ways], machine: Option<&Machine>) -> Option<Rising> {
     if machine.is_some_and(|machine| !turns_planes(machine)) {
         return None;
     }
     let operations = ways.iter().flat_map(Ways::iter).map(|way| &way.operation);
     let limits = operations.filter_map(|operation| operation.scallop_limit());
     let limit = limits.map(|limit| limit.value).reduce(Length::min);
-    let found = [Rising::Evenly, Rising::Freely].map(|rising| surface.spine(rising));
     let straight = surface.left_by_straight_cuts();
+    let all = [Rising::Evenly, Rising::Freely];
+    let found = all.map(|rising| Some((rising, part.fitted(rising)?.leaves)));
     let least = found
         .iter()
         .flatten()
-        .map(|fitted| fitted.leaves)
+        .map(|(_, leaves)| *leaves)
         .fold(straight, f64::min);
     let enough = limit.map_or(0.0, Length::to_mm).max(HARDLY_MORE * least);
     if straight <= enough {
         return None;
     }
-    found.into_iter().flatten().find(|fitted| fitted.leaves <= enough)
+    let mut found = found.into_iter().flatten();
+    found
+        .find(|(_, leaves)| *leaves <= enough)
+        .map(|(rising, _)| rising)
 }
 
 /// Whether a machine can hold the plane of a blade along any way.

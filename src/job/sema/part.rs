@@ -14,7 +14,7 @@ pub(crate) use formula::{Formula, Sampling};
 pub(crate) use section::Section;
 pub(crate) use strip::{REACHES, SAME, Strip};
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::Span;
@@ -22,6 +22,7 @@ use vcutc_geometry::curve::{Curve, Point2};
 use vcutc_geometry::profile::{Profile, ProfileError};
 use vcutc_geometry::spine::Spine;
 use vcutc_surface::residual::Machined;
+use vcutc_surface::spine::{Fitted, Rising};
 use vcutc_surface::surface::Surface;
 
 /// The part across the stock.
@@ -41,17 +42,27 @@ enum Shape {
 }
 
 /// A surface with its shadow, shared by all that look at it.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Shaded {
-    surface: Surface,
+    surface: Arc<Surface>,
     /// How cuts follow it; none where they are level.
     followed: Option<Followed>,
     /// Its greatest height over each x, with the spine taken off.
     shadow: Profile,
+    /// How cuts might follow it, computed once: a surface outlives a run.
+    ways: [OnceLock<Option<Way>>; 2],
+}
+
+/// A way to follow a surface.
+#[derive(Debug)]
+struct Way {
+    fitted: Fitted,
+    /// The surface with all cuts along its spine; none where its shadow cannot be told.
+    along: OnceLock<Option<Arc<Shaded>>>,
 }
 
 /// How all cuts follow a surface alike.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 struct Followed {
     spine: Arc<Spine>,
     /// The surface with the spine taken off.
@@ -59,10 +70,48 @@ struct Followed {
 }
 
 impl Shaded {
+    fn of(surface: Arc<Surface>, followed: Option<Followed>, shadow: Profile) -> Self {
+        Self {
+            surface,
+            followed,
+            shadow,
+            ways: [const { OnceLock::new() }; 2],
+        }
+    }
+
     /// The surface.
     #[must_use]
-    pub const fn surface(&self) -> &Surface {
+    pub fn surface(&self) -> &Surface {
         &self.surface
+    }
+
+    fn way(&self, rising: Rising) -> Option<&Way> {
+        let [evenly, freely] = &self.ways;
+        let way = match rising {
+            Rising::Evenly => evenly,
+            Rising::Freely => freely,
+        };
+        let fit = || {
+            self.surface.spine(rising).map(|fitted| Way {
+                fitted,
+                along: OnceLock::new(),
+            })
+        };
+        way.get_or_init(fit).as_ref()
+    }
+
+    /// With all cuts along a spine in a stock of that height.
+    fn along(&self, spine: &Spine, height: Length) -> Option<Self> {
+        let levelled = self.surface.levelled(spine).ok()?;
+        let shadow = levelled.shadow().ok()?;
+        let shadow = shadow.raised(levelled.accuracy().tolerance, height);
+        // Where the spine rises above the part, cuts go down to the bottom of the stock where the spine is lowest, and no further.
+        let shadow = shadow.not_below(Length::ZERO);
+        let followed = Followed {
+            spine: Arc::new(spine.clone()),
+            levelled,
+        };
+        Some(Self::of(Arc::clone(&self.surface), Some(followed), shadow))
     }
 
     /// The spine of all cuts that rough the surface; none where they are level.
@@ -83,7 +132,8 @@ impl Shaded {
 /// The shadow follows from surface and spine. A surface of a million triangles is not compared with itself.
 impl PartialEq for Shaded {
     fn eq(&self, other: &Self) -> bool {
-        core::ptr::eq(self, other) || (self.spine() == other.spine() && self.surface == other.surface)
+        let is_same = || Arc::ptr_eq(&self.surface, &other.surface) || self.surface == other.surface;
+        core::ptr::eq(self, other) || (self.spine() == other.spine() && is_same())
     }
 }
 
@@ -119,31 +169,30 @@ impl Part {
     pub(crate) fn of_surface(surface: Surface, shadow: Profile) -> Self {
         let width = surface.plan().width.to_mm();
         Self {
-            shape: Shape::Surface(Arc::new(Shaded {
-                surface,
-                followed: None,
-                shadow,
-            })),
+            shape: Shape::Surface(Arc::new(Shaded::of(Arc::new(surface), None, shadow))),
             width,
         }
     }
 
-    /// The same part, with all cuts that rough it along a spine; none where it is no surface, or its shadow cannot be told.
-    pub(crate) fn along(&self, spine: Arc<Spine>, stock: Stock) -> Option<Self> {
+    /// The best spine that rises so; none of a part that has none better than level cuts, or is no surface.
+    #[must_use]
+    pub fn fitted(&self, rising: Rising) -> Option<&Fitted> {
+        match &self.shape {
+            Shape::Surface(shaded) => Some(&shaded.way(rising)?.fitted),
+            Shape::Profile(_) => None,
+        }
+    }
+
+    /// The same part, with all cuts that rough it along that spine; none where there is none, or its shadow cannot be told.
+    pub(crate) fn along(&self, rising: Rising, stock: Stock) -> Option<Self> {
         let Shape::Surface(shaded) = &self.shape else {
             return None;
         };
-        let levelled = shaded.surface.levelled(&spine).ok()?;
-        let shadow = levelled.shadow().ok()?;
-        let shadow = shadow.raised(levelled.accuracy().tolerance, stock.height);
-        // Where the spine rises above the part, cuts go down to the bottom of the stock where the spine is lowest, and no further.
-        let shadow = shadow.not_below(Length::ZERO);
+        let way = shaded.way(rising)?;
+        let along = || shaded.along(&way.fitted.spine, stock.height).map(Arc::new);
+        let along = way.along.get_or_init(along).as_ref()?;
         Some(Self {
-            shape: Shape::Surface(Arc::new(Shaded {
-                surface: shaded.surface.clone(),
-                followed: Some(Followed { spine, levelled }),
-                shadow,
-            })),
+            shape: Shape::Surface(Arc::clone(along)),
             width: self.width,
         })
     }
@@ -152,7 +201,7 @@ impl Part {
     #[must_use]
     pub fn surface(&self) -> Option<&Surface> {
         match &self.shape {
-            Shape::Surface(shaded) => Some(&shaded.surface),
+            Shape::Surface(shaded) => Some(shaded.surface()),
             Shape::Profile(_) => None,
         }
     }
