@@ -3,10 +3,9 @@
 //! They leave the same height at every y, with the spine that they follow taken off, so they cannot go below the part's shadow. What
 //! lies between shadow and part is left whatever they do; it shows how well such cuts suit the part.
 
-use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
-use vcutc_job::Part;
+use vcutc_job::{CheckedJob, Machine, Part};
 use vcutc_surface::residual::{Standing, Volume};
 use vcutc_surface::spine::Rising;
 
@@ -32,7 +31,11 @@ pub struct Compared {
 const MUCH: (f64, f64) = (2.0, 1.0);
 
 impl Compared {
-    fn of(part: &Part) -> Option<Self> {
+    /// None where the machine cannot pitch blades.
+    fn of(part: &Part, machine: Option<&Machine>) -> Option<Self> {
+        if machine.is_some_and(|machine| !machine.turns_planes()) {
+            return None;
+        }
         let surface = part.surface().filter(|_| part.spine().is_none())?;
         let (times, least) = MUCH;
         let level = surface.left_by_straight_cuts();
@@ -46,7 +49,8 @@ impl Compared {
 
 impl LeftOver {
     /// What cuts leave that end at this contour, from left to right; none over a profile.
-    pub(crate) fn of(part: &Part, contour: &[Point2], stock: Stock) -> Option<Self> {
+    pub(crate) fn of(job: &CheckedJob, contour: &[Point2]) -> Option<Self> {
+        let (part, stock) = (&job.part, job.stock);
         let surface = part.levelled()?;
         let shadow = part.tessellated(Part::TOLERANCE)?;
         let below = |corners: &[Point2]| part.left_by(corners, stock);
@@ -56,7 +60,7 @@ impl LeftOver {
         Some(Self {
             all,
             shaded,
-            follow: Compared::of(part),
+            follow: Compared::of(part, job.machine.as_ref()),
         })
     }
 }

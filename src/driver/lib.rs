@@ -447,7 +447,7 @@ fn compiled(
     }));
     let carried = job.machine.as_ref().zip(program.reached());
     let carried = carried.map(|(machine, reached)| Carried { machine, reached });
-    let left_over = LeftOver::of(&job.part, &report.contour, job.stock);
+    let left_over = LeftOver::of(job, &report.contour);
     Compiled {
         checks: Checks::of(carried, paced.basis, Bodies::of(job), &report.tracked),
         parameters: chosen::figures(plan),

@@ -229,9 +229,21 @@ impl Spine {
     /// there is off its V by `s(t) + m(t) e - s(t + e)`. Between two stations the blade turns evenly, and `m` is linear but for
     /// [`UNEVEN`]. The lines on which `t` is at a station or `t + e` at a knot cut the places into cells; within one there is nothing
     /// but a saddle, so the extremes lie on these lines: at their ends, or on a line through a knot where the derivative is 0.
+    ///
+    /// How long the ways beyond the stock are decides how much of its first and of its last turn a blade makes over the work: `m`
+    /// lies between what it is where they have no length, and where they have no end.
     #[must_use]
     pub fn deviation(&self, overhang: f64) -> Deviation {
-        let stations = self.stations(overhang + 1.0);
+        let [none, endless] = [0.0, ENDLESS].map(|beyond| self.deviation_from(beyond, overhang));
+        Deviation {
+            above: none.above.max(endless.above),
+            below: none.below.max(endless.below),
+        }
+    }
+
+    /// The same with ways so long beyond the stock.
+    fn deviation_from(&self, beyond: f64, overhang: f64) -> Deviation {
+        let stations = self.stations(beyond);
         let mut deviation = Deviation::default();
         let mut most_turned = 0.0_f64;
         for pair in stations.windows(2) {
@@ -245,7 +257,10 @@ impl Spine {
                 deviation.above = deviation.above.max(off);
                 deviation.below = deviation.below.max(-off);
             };
-            for t in piece.ends() {
+            // Of a way without an end only what may come over the work.
+            let near_work = [-overhang, self.depth() + overhang];
+            let ends = piece.ends().map(|end| end.clamp(near_work[0], near_work[1]));
+            for t in ends {
                 look(t, -overhang);
                 look(t, overhang);
             }
@@ -256,7 +271,7 @@ impl Spine {
             for knot in near.take_while(|knot| knot.y <= piece.to.y + overhang) {
                 let ends_of_edge = [knot.y - overhang, knot.y + overhang];
                 let turning = piece.turning_towards(knot.y);
-                for t in piece.ends().into_iter().chain(ends_of_edge).chain(turning) {
+                for t in ends.into_iter().chain(ends_of_edge).chain(turning) {
                     let e = knot.y - t;
                     if (piece.from.y..=piece.to.y).contains(&t) && e.abs() <= overhang + 1e-9 {
                         look(t, e);
@@ -271,6 +286,9 @@ impl Spine {
         }
     }
 }
+
+/// A way beyond the stock, in mm, on which a blade turns as good as not at all over the length of its edge.
+const ENDLESS: f64 = 1e7;
 
 /// By how much of its change a slope may be off a linear one between two stations: the edge reaches as far along y at both, but for
 /// the angle by which it turns.

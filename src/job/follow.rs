@@ -30,6 +30,8 @@ pub struct Along {
     deviation: Deviation,
     /// How far any place of the edge may be from where it is to be, in mm.
     off: f64,
+    /// How much higher than their Vs say other blades may have left the work, in mm.
+    others: f64,
 }
 
 /// What rounding of places and postures moves an edge by, in mm.
@@ -40,8 +42,15 @@ impl Along {
     ///
     /// Seen along the work, such an edge reaches `L cos(angle)` ahead of its tip where the way is level, and up to
     /// `L sin(angle) sin(mu)` more where it rises by `mu`. The other edge of the blade lies nearer.
+    /// `others` is the longest edge of the other operations that follow the spine, if there are any.
     #[must_use]
-    pub fn new(spine: &Arc<Spine>, edge: Length, angle: Angle, blend: Length) -> Self {
+    pub fn new(
+        spine: &Arc<Spine>,
+        edge: Length,
+        angle: Angle,
+        blend: Length,
+        others: Option<Length>,
+    ) -> Self {
         let pitch = Angle::rad(libm::atan(spine.steepest()));
         let overhang = edge * (angle.cos().abs() + angle.sin() * pitch.sin());
         // Turning on its way from one place to the next, the end of the edge leaves its chord by an eighth of the turn squared.
@@ -50,6 +59,7 @@ impl Along {
             spine: Arc::clone(spine),
             deviation: spine.deviation(overhang.to_mm()),
             off: edge.to_mm() * turn * turn / 8.0 + blend.to_mm() + ROUNDED,
+            others: others.map_or(0.0, |longest| spine.left_above(longest)),
         }
     }
 
@@ -62,6 +72,13 @@ impl Along {
             above: self.deviation.above + off,
             below: self.deviation.below + off,
         }
+    }
+
+    /// How much lower than their Vs say flanks have to come out: by what they may lie lower themselves, and others have left more.
+    #[must_use]
+    pub fn lower(&self, slope: f64) -> f64 {
+        let Deviation { above, below } = self.deviation(slope);
+        below + above.max(self.others)
     }
 
     /// How much more of a distance counts along z than where cuts are level.

@@ -22,7 +22,7 @@ pub use setup::Setup;
 pub use tools::{HeldChange, HeldTool, HeldTools};
 
 use std::sync::Arc;
-use vcutc_backend_api::ir::{AxisValues, MachineKind, PlacedFrame, Ready, Spindle, Stock};
+use vcutc_backend_api::ir::{AxisKind, AxisValues, MachineKind, PlacedFrame, Ready, Spindle, Stock};
 use vcutc_backend_api::profile::Profile as Habits;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
@@ -152,6 +152,19 @@ pub struct Machine {
 }
 
 impl Machine {
+    /// How many rotary axes it has.
+    #[must_use]
+    pub fn rotary_axes(&self) -> usize {
+        let axes = self.model.axes.iter();
+        axes.filter(|axis| axis.kind == AxisKind::Rotary).count()
+    }
+
+    /// Whether it can hold the plane of a blade along any way, for which it takes three of them.
+    #[must_use]
+    pub fn turns_planes(&self) -> bool {
+        self.rotary_axes() >= 3
+    }
+
     /// What spins a blade.
     #[must_use]
     pub fn spindle(&self) -> Option<Spindle> {

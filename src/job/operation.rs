@@ -64,7 +64,8 @@ pub trait Operation: OperationValue + Any + Debug + Send + Sync {
     }
 
     /// Makes its cuts along a spine: those of all operations of a job follow the part alike.
-    fn go_along(&mut self, _spine: &Arc<Spine>) {}
+    /// `others` is the longest edge of the straight blades of the other operations, if there are any.
+    fn go_along(&mut self, _spine: &Arc<Spine>, _others: Option<Length>) {}
 
     /// What its open parameters are to make least.
     fn aim(&self) -> Aim {

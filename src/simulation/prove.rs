@@ -388,6 +388,14 @@ impl<'p> Player<'p> {
             return;
         };
         let side = cut.side();
+        if let Some(spine) = self
+            .bounds
+            .get(usize::from(cut.operation.0))
+            .and_then(|bound| bound.spine)
+        {
+            self.note_level(cut, spine);
+            return;
+        }
         if is_single {
             self.single(cut, geometry);
             return;

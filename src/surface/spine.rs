@@ -42,8 +42,11 @@ const LEVELLINGS: usize = 40;
 /// Spines are smoothed so often at most: each time over twice as many neighbours.
 const MOST_SMOOTHINGS: u32 = 12;
 
-/// How far a spine may turn from knot to knot, in rad; the places of knots are rounded afterwards.
-const TURN: f64 = 0.9 * Spine::LARGEST_BEND;
+/// The share of the largest bend that a spine may turn by from knot to knot.
+const TURN: f64 = 0.97 * Spine::LARGEST_BEND;
+
+/// Rounded to the grid, two knots so far apart, in mm, bend by one rad more, and farther ones by as much less.
+const ROUNDED: f64 = 0.0022;
 
 /// Knots are no nearer to each other than this, in mm.
 const NEAREST: f64 = 0.5;
@@ -280,7 +283,7 @@ impl Walk {
         self.turned += (angle - self.angle).abs();
         self.angle = angle;
         let along = self.knots.last().map_or(0.0, |last| place.y - last.y);
-        if self.turned > TURN * 7.0 / 8.0 && along >= NEAREST {
+        if self.turned > 0.8 * (TURN - ROUNDED / along.max(NEAREST)) && along >= NEAREST {
             self.knots.push(place);
             self.turned = 0.0;
         }

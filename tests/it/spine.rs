@@ -8,7 +8,7 @@ use vcutc::driver::Outcome;
 use vcutc::job::PlannedJob;
 use vcutc::process::verdict::replay;
 use vcutc::simulation::prove::{CutFault, Findings};
-use vcutc_backend_api::ir::{Action, Joint, Op, Program, Site, Straight};
+use vcutc_backend_api::ir::{Action, Joint, Op, Program, Site, Straight, ViaId};
 use vcutc_backend_api::verify::verify;
 
 const WIDTH: f64 = 100.0;
@@ -377,8 +377,130 @@ fn cuts_follow_as_little_as_does() {
         ..part
     };
     assert!(follow(dome, "") > 2);
-    // What falls by 3.75 mm needs nothing to follow where 12 mm may stay.
-    assert_eq!(follow(dome, "limits { scallop <= 12 mm }"), 0);
+    // What falls by 0.2 mm is not worth following.
+    assert_eq!(
+        follow(
+            Part {
+                along: 30_000.0,
+                ..part
+            },
+            ""
+        ),
+        0
+    );
+}
+
+#[test]
+fn an_upright_blade_follows_bends() {
+    let part = Part {
+        across: 300.0,
+        along: 1200.0,
+        slope: 0.0,
+        twist: 1e9,
+    };
+    let given = GIVEN.replace("layer = 8 mm", "layer = 6 mm");
+    let text = format!(
+        "{REST}surface {{ {} }}\n{}",
+        part.surface(),
+        rough(&format!("{given}\n  follow = spine")).replace("60 deg", "90 deg")
+    );
+    let outcome = compile("job.vcut", &Files::default().with("job.vcut", text));
+    is_right(&outcome, &|x, y| part.height(x, y));
+}
+
+#[test]
+fn bends_of_a_small_radius_are_followed() {
+    for along in [320.0, 300.0, 280.0, 260.0] {
+        let part = Part {
+            across: 300.0,
+            along,
+            slope: 0.0,
+            twist: 1e9,
+        };
+        let outcome = compiled(&part.surface(), &format!("{GIVEN}\n  follow = spine"));
+        let spine = outcome.job.as_ref().unwrap().part.spine().cloned();
+        let rise = spine.unwrap().highest(0.0, DEPTH);
+        // All of the fall, but for what is smoothed.
+        assert!(rise > 0.9 * 75.0 * 75.0 / along, "{along}: {rise}");
+    }
+}
+
+/// A ramp on which the shank of a wide V would lie down.
+#[test]
+fn a_shank_that_lies_down_is_refused() {
+    let surface = "z(x, y) = 5 mm + y * 0.4 - x * 0.01";
+    let flat = rough(&format!("{GIVEN}\n  follow = pitched")).replace("rake      = 60", "rake      = 25");
+    let text = format!("{REST}surface {{ {surface} }}\n{flat}");
+    let outcome = compile("job.vcut", &Files::default().with("job.vcut", text));
+    let codes: Vec<Code> = outcome.diagnostics.iter().map(|found| found.code).collect();
+    assert_eq!(codes, [Code::RakeTooFlat]);
+}
+
+/// What a long blade leaves higher in a crest, a short one has to come out of, too.
+#[test]
+fn what_other_blades_leave_higher_counts() {
+    let operation = |blade: &str, tips: &str| {
+        format!(
+            "rough vcut {{ blade = {blade}, rake = 60 deg, follow = spine, swing = 45 deg, clearance = 10 mm\n  tips {tips}\n  \
+             feed {{ cut = 200 mm/s, travel = 200 mm/s, reorient = 90 deg/s }} }}\n"
+        )
+    };
+    let text = format!(
+        "job \"hole\"\nstock {{ size = (120 mm, 150 mm, 42 mm) }}\n\
+         surface {{ z(x, y) = 30 mm - (x - 60 mm)^2 / 1000 mm - (y - 75 mm)^2 / 450 mm }}\n\
+         blade long {{ cutting_length = 32 mm, half_apex = 9 deg, thickness = 1.6 mm, edges = double }}\n\
+         blade short {{ cutting_length = 10 mm, half_apex = 7.13 deg, thickness = 1.5 mm, edges = double }}\n{}{}",
+        operation("long", "(40 mm, 26 mm) (80 mm, 26 mm)"),
+        operation("short", "(60 mm, 35.5 mm)"),
+    );
+    let outcome = compile("job.vcut", &Files::default().with("job.vcut", text));
+    let codes: Vec<Code> = outcome.diagnostics.iter().map(|found| found.code).collect();
+    assert_eq!(codes, [Code::ChipNotFreed]);
+}
+
+/// An arc between two places of a spine, in the plane of the blade.
+#[test]
+fn arcs_leave_a_spine() {
+    let part = Part {
+        across: 400.0,
+        along: 1e9,
+        slope: 0.18,
+        twist: 1e9,
+    };
+    let outcome = compiled(&part.surface(), &format!("{GIVEN}\n  follow = pitched"));
+    let plan = outcome.plan.as_ref().unwrap();
+    let mut program = outcome
+        .compiled
+        .as_ref()
+        .unwrap()
+        .program
+        .verified()
+        .program()
+        .clone();
+    let segments: Vec<_> = program
+        .segments()
+        .map(|segment| segment.line().map(|line| (line.from.tip, line.to)))
+        .collect();
+    let number = program
+        .ops
+        .iter()
+        .position(|op| matches!(op.action, Action::Follow { .. }))
+        .unwrap();
+    let (from, to) = segments[number].unwrap();
+    let matrix = program.orientation(to.orientation).unwrap().matrix();
+    let middle: [f64; 3] = core::array::from_fn(|i| {
+        f64::midpoint(from.to_array()[i], to.tip.to_array()[i]) + 0.2 * matrix[i][2]
+    });
+    program.vias.push(middle.into());
+    let Action::Follow { via, .. } = &mut program.ops[number].action else {
+        panic!("it is a piece of a chain")
+    };
+    *via = Some(ViaId(1.try_into().unwrap()));
+    let (_, finding) = findings(plan, &program).strays.unwrap();
+    let CutFault::Strays { by, .. } = finding.fault else {
+        panic!("{finding:?}")
+    };
+    assert!((0.05..0.3).contains(&by.to_mm()), "{by:?}");
 }
 
 /// Parts that fall along y by no more than spines may.

@@ -28,10 +28,11 @@ fn a_valley_is_cut_deeper_by_what_a_tangent_leaves_of_it() {
     let expected = overhang * overhang / (2.0 * radius);
     let valley = parabola(400.0, radius, false, 2.0).deviation(overhang);
     assert!((valley.below - expected).abs() < 0.03, "{valley:?}");
-    assert!(valley.above < 0.01, "{valley:?}");
+    // Beyond the stock a blade that turns all along a long way stands as if half of the first bend were made.
+    assert!(valley.above < 0.03, "{valley:?}");
     let crest = parabola(400.0, radius, true, 2.0).deviation(overhang);
-    assert!((crest.above - expected).abs() < 0.03, "{crest:?}");
-    assert!(crest.below < 0.01, "{crest:?}");
+    assert!((crest.above - expected).abs() < 0.04, "{crest:?}");
+    assert!(crest.below < 0.03, "{crest:?}");
 }
 
 #[test]
@@ -99,16 +100,19 @@ proptest! {
     /// By walking: the blade at many places of its way, its slope turned along between stations, and many places of its edge.
     #[test]
     fn no_place_of_a_blade_is_farther_off_than_the_deviation(
-        spine in spines(), overhang in 1.0..60.0_f64,
+        spine in spines(), overhang in 1.0..60.0_f64, beyond in prop_oneof![0.0..100.0_f64, 100.0..2000.0_f64],
         places in prop::collection::vec((0.0..1.0_f64, 0.0..=1.0_f64, -1.0..=1.0_f64), 200),
     ) {
         let bound = spine.deviation(overhang);
-        let stations = spine.stations(overhang);
+        let stations = spine.stations(beyond);
         for (which, share, e) in places {
             let pieces = stations.len() - 1;
             let number = ((which * pieces as f64) as usize).min(pieces - 1);
             let [from, to] = [stations[number], stations[number + 1]];
             let t = from.y + share * (to.y - from.y);
+            if t < -overhang || t > spine.depth() + overhang {
+                continue;
+            }
             let slope = from.slope + share * (to.slope - from.slope);
             let e = e * overhang;
             let off = spine.rise(t) + slope * e - spine.rise(t + e);

@@ -4,19 +4,16 @@ use super::part::Part;
 use super::report::{Checked, Reports};
 use crate::follow::Follow;
 use crate::ways::Ways;
-use crate::{Machine, Operation, Sourced};
-use vcutc_backend_api::ir::{AxisKind, Stock};
+use crate::{BladeRef, Machine, Operation, Sourced};
+use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_surface::spine::Rising;
 use vcutc_surface::surface::Surface;
 
-/// By how much more a simpler way to follow the part may leave than the best one.
-const HARDLY_MORE: f64 = 1.1;
-
-/// Rotary axes that it takes to turn the plane of a blade any way.
-const ROTARY_AXES: usize = 3;
+/// How much more a simpler way to follow the part may leave than the best one: so many times as much, or so much more, in mm.
+const HARDLY_MORE: (f64, f64) = (1.1, 0.25);
 
 /// What the decision is made from.
 pub(super) struct Asked<'a> {
@@ -43,13 +40,13 @@ pub(super) fn decide(asked: Asked<'_>, ways: &mut [Ways], reports: &mut Reports)
         }
         (Some(_), Follow::Pitched) => Some(Rising::Evenly),
         (Some(_), Follow::Spine) => Some(Rising::Freely),
-        (Some(surface), Follow::Auto) => best(&asked.part, surface, ways, asked.machine),
+        (Some(surface), Follow::Auto) => best(&asked.part, surface, asked.machine),
     };
     // Where nothing is better than level cuts, these are taken.
     let Some(rising) = rising.filter(|rising| asked.part.fitted(*rising).is_some()) else {
         return Ok(asked.part);
     };
-    if let Some(machine) = asked.machine.filter(|machine| !turns_planes(machine)) {
+    if let Some(machine) = asked.machine.filter(|machine| !machine.turns_planes()) {
         return Err(reports.push(too_few_axes(word, machine)));
     }
     // A surface that covers the stock does so with its spine taken off.
@@ -57,11 +54,26 @@ pub(super) fn decide(asked: Asked<'_>, ways: &mut [Ways], reports: &mut Reports)
         return Ok(asked.part);
     };
     if let Some(spine) = part.spine() {
-        for way in ways.iter_mut().flat_map(Ways::iter_mut) {
-            way.operation.go_along(spine);
+        let longest: Vec<Option<Length>> = ways.iter().map(longest_edge).collect();
+        for (number, ways) in ways.iter_mut().enumerate() {
+            let others = longest.iter().enumerate().filter(|(other, _)| *other != number);
+            let others = others.filter_map(|(_, edge)| *edge).reduce(Length::max);
+            for way in ways.iter_mut() {
+                way.operation.go_along(spine, others);
+            }
         }
     }
     Ok(part)
+}
+
+/// The longest edge of the straight blades of an operation, if it has some.
+fn longest_edge(ways: &Ways) -> Option<Length> {
+    let blades = ways.iter().flat_map(|way| way.operation.blades());
+    let edges = blades.filter_map(|blade| match blade {
+        BladeRef::Straight(blade) => Some(blade.cutting_length.value),
+        BladeRef::Disc(_) | BladeRef::Crusher(_) => None,
+    });
+    edges.reduce(Length::max)
 }
 
 /// What all operations ask for that have a say; none where none has.
@@ -71,7 +83,13 @@ fn agreed(ways: &[Ways], reports: &mut Reports) -> Checked<Option<Sourced<Follow
         let operation = &*way.operation;
         match (operation.follows(), found) {
             (Some(follow), None) => found = Some((follow, operation)),
-            (Some(follow), Some((known, before))) if follow.value != known.value => {
+            // `auto` goes along with what others ask for.
+            (Some(follow), Some((known, _))) if known.value == Follow::Auto => {
+                found = Some((follow, operation))
+            }
+            (Some(follow), Some((known, before)))
+                if follow.value != known.value && follow.value != Follow::Auto =>
+            {
                 return Err(reports.push(otherwise([(known, before), (follow, operation)])));
             }
             (Some(_) | None, _) => {}
@@ -80,15 +98,11 @@ fn agreed(ways: &[Ways], reports: &mut Reports) -> Checked<Option<Sourced<Follow
     Ok(found.map(|(follow, _)| follow))
 }
 
-/// The simplest way to follow a surface that leaves hardly more than the best, or no more than all limits allow; none where level
-/// cuts do.
-fn best(part: &Part, surface: &Surface, ways: &[Ways], machine: Option<&Machine>) -> Option<Rising> {
-    if machine.is_some_and(|machine| !turns_planes(machine)) {
+/// The simplest way to follow a surface that leaves hardly more than the best; none where level cuts do.
+fn best(part: &Part, surface: &Surface, machine: Option<&Machine>) -> Option<Rising> {
+    if machine.is_some_and(|machine| !machine.turns_planes()) {
         return None;
     }
-    let operations = ways.iter().flat_map(Ways::iter).map(|way| &way.operation);
-    let limits = operations.filter_map(|operation| operation.scallop_limit());
-    let limit = limits.map(|limit| limit.value).reduce(Length::min);
     let straight = surface.left_by_straight_cuts();
     let all = [Rising::Evenly, Rising::Freely];
     let found = all.map(|rising| Some((rising, part.fitted(rising)?.leaves)));
@@ -97,7 +111,8 @@ fn best(part: &Part, surface: &Surface, ways: &[Ways], machine: Option<&Machine>
         .flatten()
         .map(|(_, leaves)| *leaves)
         .fold(straight, f64::min);
-    let enough = limit.map_or(0.0, Length::to_mm).max(HARDLY_MORE * least);
+    let (times, more) = HARDLY_MORE;
+    let enough = (times * least).max(least + more);
     if straight <= enough {
         return None;
     }
@@ -105,12 +120,6 @@ fn best(part: &Part, surface: &Surface, ways: &[Ways], machine: Option<&Machine>
     found
         .find(|(_, leaves)| *leaves <= enough)
         .map(|(rising, _)| rising)
-}
-
-/// Whether a machine can hold the plane of a blade along any way.
-fn turns_planes(machine: &Machine) -> bool {
-    let axes = machine.model.axes.iter();
-    axes.filter(|axis| axis.kind == AxisKind::Rotary).count() >= ROTARY_AXES
 }
 
 fn nothing_to_follow(follow: Spanned<Follow>, part: Span) -> Diagnostic {
@@ -128,8 +137,7 @@ fn nothing_to_follow(follow: Spanned<Follow>, part: Span) -> Diagnostic {
 
 fn too_few_axes(follow: Spanned<Follow>, machine: &Machine) -> Diagnostic {
     let word = follow.node.word();
-    let axes = machine.model.axes.iter();
-    let count = axes.filter(|axis| axis.kind == AxisKind::Rotary).count();
+    let count = machine.rotary_axes();
     Diagnostic::new(
         Code::CannotFollow,
         format!(

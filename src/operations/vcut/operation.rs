@@ -2,7 +2,7 @@
 
 use crate::asked::{Avoid, Objective, Residual, RoughVcut};
 use crate::choice;
-use crate::plan::PlannedVcut;
+use crate::plan::{PlannedVcut, parameters};
 use core::any::Any;
 use std::sync::Arc;
 use vcutc_backend_api::units::{Angle, Length};
@@ -144,9 +144,25 @@ impl Operation for RoughVcut {
         Some(self.follow)
     }
 
-    fn go_along(&mut self, spine: &Arc<Spine>) {
+    fn go_along(&mut self, spine: &Arc<Spine>, others: Option<Length>) {
         let angle = self.setup.rake.value - self.blade.half_apex.value;
-        self.along = Some(Along::new(spine, self.blade.cutting_length.value, angle, BLEND));
+        // Wider Vs would lay the shank down where cuts fall.
+        if let Some(widest) = parameters::widest_standing(self.setup.rake.value, spine) {
+            let most = &mut self.limits.swing.most;
+            if self.swing.value == Auto::Auto && most.is_none_or(|most| most.value > widest) {
+                *most = Some(Sourced {
+                    value: widest,
+                    span: None,
+                });
+            }
+        }
+        self.along = Some(Along::new(
+            spine,
+            self.blade.cutting_length.value,
+            angle,
+            BLEND,
+            others,
+        ));
     }
 
     fn aim(&self) -> Aim {

@@ -31,6 +31,7 @@ pub use vcutc_process::plan::MOST_CUTS;
 
 use crate::asked::{Residual, RoughVcut, Sequence, Tips};
 use avoid::Swings;
+pub use complaints::beyond_the_stock;
 use complaints::{nothing_to_cut, too_many_cuts};
 use decision::Decision;
 use given::Course;

@@ -61,7 +61,13 @@ fn followed(asked: &RoughVcut) -> Option<String> {
         return None;
     }
     let Some(along) = &asked.along else {
-        return Some("straight: cuts that rise and fall would hardly leave less, or the machine cannot pitch the blade".to_owned());
+        let why = match asked.follow.value {
+            Follow::Auto => {
+                "hardly anything less would stay otherwise, or the machine cannot pitch the blade"
+            }
+            _ => "no way that the blade can follow leaves less",
+        };
+        return Some(format!("straight: {why}"));
     };
     let spine = &along.spine;
     let [first, _] = spine.end_slopes();

@@ -5,13 +5,13 @@
 //! the flank is that of a V, but for [`Spine::deviation`], for what rounding and blending move the edge by, and for the turn from station
 //! to station: on its way, each point of the blade leaves its chord by an eighth of its distance times the turn squared.
 //!
-//! A flank may lie lower by all of that, and what others have left higher: so a flank comes out where one comes out that
-//! lies lower by both.
+//! A flank may lie lower by all of that, and what others have left higher by all of theirs: so a flank comes out where one comes
+//! out that lies lower by both.
 
 use super::flank::FlankGeometry;
 use super::{Cut, CutFault, Place, Player, note};
 use crate::surface::{Side, Vee};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{Action, Flank, Joint, OperationId, OrientationId, Site, Straight};
 use vcutc_backend_api::segments::Segment;
@@ -32,6 +32,12 @@ pub(super) struct AlongSpine {
     half_done: BTreeMap<Place, (Cut, Followed)>,
     /// All flanks, with their slopes.
     cut: Vec<(Cut, f64)>,
+    /// Vs of which a flank left the spine.
+    strayed: BTreeSet<Place>,
+    /// How far any flank so far may lie above its V.
+    above: f64,
+    /// Whether a piece of the open chain is an arc, and how far it leaves the spine then.
+    bow: Option<Strayed>,
     /// How far flanks lie off their Vs, by the bits of how far the blade reaches: there are few postures.
     deviations: BTreeMap<u64, Deviation>,
 }
@@ -91,8 +97,14 @@ impl Player<'_> {
         let [from, to] = [line.from, line.to].map(|pose| (pose.tip, pose.orientation));
         if self.along.open.last() != Some(&from) {
             self.along.open = vec![from];
+            self.along.bow = None;
         }
         self.along.open.push(to);
+        if let Some(via) = line.via {
+            let off = via.z - from.0.z - (spine.rise(via.y) - spine.rise(from.0.y));
+            let by = off.abs().max((via.x - from.0.x).abs()).max(OFF);
+            self.along.bow = Some(Strayed { y: via.y, by });
+        }
         if joint == Joint::Through {
             return;
         }
@@ -107,7 +119,10 @@ impl Player<'_> {
         let deviation = *known
             .entry(overhang.to_bits())
             .or_insert_with(|| spine.deviation(overhang));
-        let followed = followed(&held, spine, blade, self.program.blend).map(|exact| exact.off_by(deviation));
+        let followed = match self.along.bow.take() {
+            Some(strayed) => Err(strayed),
+            None => followed(&held, spine, blade, self.program.blend).map(|exact| exact.off_by(deviation)),
+        };
         let cut = Cut {
             operation,
             layer,
@@ -124,6 +139,9 @@ impl Player<'_> {
             Ok(followed) => self.flank_along(cut, followed),
             Err(Strayed { y, by }) => {
                 let [y, by] = [y, by].map(Length::mm);
+                let place = (cut.layer, cut.cut);
+                self.along.half_done.remove(&place);
+                self.along.strayed.insert(place);
                 let finding = cut.finding(self.program, CutFault::Strays { y, by });
                 note(&mut self.findings.strays, finding, |a, b| {
                     off(a.fault) > off(b.fault)
@@ -140,9 +158,13 @@ impl Player<'_> {
             deviation,
         } = followed;
         let slope = geometry.slope;
-        self.come_out(&cut, side, geometry, deviation.both());
+        self.along.above = self.along.above.max(deviation.above);
+        self.come_out(&cut, side, geometry, deviation.below + self.along.above);
         self.along.cut.push((cut.clone(), slope));
         let place = (cut.layer, cut.cut);
+        if self.along.strayed.contains(&place) {
+            return;
+        }
         match self.along.half_done.remove(&place) {
             Some((_, other)) if other.side != side && other.tip == tip => {
                 let vee = Vee::one(tip, side, slope).with(side.opposite(), other.geometry.slope);
@@ -159,11 +181,24 @@ impl Player<'_> {
         }
     }
 
+    /// Notes a level cut of an operation whose cuts follow a spine.
+    pub(super) fn note_level(&mut self, cut: &Cut, spine: &Spine) {
+        let fault = CutFault::Strays {
+            y: Length::ZERO,
+            by: Length::mm(spine.highest(0.0, spine.depth())),
+        };
+        let finding = cut.finding(self.program, fault);
+        note(&mut self.findings.strays, finding, |a, b| {
+            off(a.fault) > off(b.fault)
+        });
+    }
+
     /// Notes Vs along a spine of which only one flank was cut.
     pub(super) fn note_half_done(&mut self) {
         for (cut, _) in core::mem::take(&mut self.along.half_done).into_values() {
             self.note_unfreed(&cut);
         }
+        self.along.strayed.clear();
     }
 
     fn note_unfreed(&mut self, cut: &Cut) {

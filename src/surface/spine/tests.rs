@@ -33,8 +33,8 @@ fn spines_leave_what_is_published_of_them() {
     let [straight, _, free] = best(&over(size, [60, 100], &dome));
     assert!((straight - 42.175).abs() < 0.05, "{straight}");
     let chi = 25.0 * 25.0 / 6000.0;
-    // The knots are 21 mm apart, so the chords are up to 0.02 mm off, and twice that the tangents.
-    assert!((0.107 - 0.01..0.107 + chi + 0.12).contains(&free), "{free}");
+    // The knots are 24 mm apart, so the chords are up to 0.025 mm off, and the blade by a few times that.
+    assert!((0.107 - 0.01..0.107 + chi + 0.18).contains(&free), "{free}");
 
     let hypar = |x: f64, y: f64| 100.0 + (x - 300.0) * (y - 500.0) / 3000.0;
     let [straight, even, free] = best(&over(size, [60, 100], &hypar));

@@ -125,7 +125,8 @@ impl Course<'_> {
                 Edges::Double => true,
                 Edges::Single => dot(self.axis(end, 0), way) > 0.0,
             };
-            -dot(self.axis(end, 2), way) >= -LEANS_BACK && self.stands(end) && edge
+            // Where a way bends, the blade lies between its directions.
+            -dot(self.axis(end, 2), way) >= -libm::sin(LARGEST_SLIP.to_rad()) && self.stands(end) && edge
         });
         slip <= libm::sin(LARGEST_SLIP.to_rad()) && leads
     }

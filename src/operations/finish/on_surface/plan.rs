@@ -89,9 +89,6 @@ pub(super) const fn held_to(asked: &FinishDisc) -> Tracks {
     }
 }
 
-/// Plans the tracks.
-///
-/// # Errors
 /// The longest edge of the straight blades that rough the part.
 fn longest_edge(ground: &Ground<'_>) -> Length {
     let blades = ground
@@ -106,6 +103,9 @@ fn longest_edge(ground: &Ground<'_>) -> Length {
     edges.fold(Length::ZERO, Length::max)
 }
 
+/// Plans the tracks.
+///
+/// # Errors
 /// Why there is no plan; where several leads were tried, what is wrong with the greatest.
 pub(super) fn plan(
     asked: &FinishDisc,

@@ -22,7 +22,7 @@ pub(super) fn nothing_to_cut(
     let lowest = clearance.lowest().z + parameters.drop.to_mm();
     let depth = job.stock.height.to_mm() - lowest;
     let message = "this operation leaves nothing to cut";
-    let diagnostic = Diagnostic::new(
+    let mut diagnostic = Diagnostic::new(
         Code::NothingToCut,
         message,
         asked.setup.head_span,
@@ -39,6 +39,7 @@ pub(super) fn nothing_to_cut(
         job.stock_span,
         format!("the stock ends at z {} mm", show(job.stock.height.to_mm())),
     );
+    diagnostic.notes.extend(beyond_the_stock(parameters));
     if depth <= 0.0 {
         return diagnostic
             .help("make the stock higher or the part lower, or reduce `allowance`")
@@ -320,4 +321,17 @@ fn open_layer_and_step(asked: &RoughVcut) -> Ladder {
         .collect();
     ladder.dedup_by(|later, earlier| later.edits == earlier.edits);
     ladder
+}
+
+/// Why tips along a spine lie no lower, where they go on down beyond the stock.
+#[must_use]
+pub fn beyond_the_stock(parameters: &VcutParameters) -> Option<String> {
+    (parameters.lowest > Length::mm(0.1)).then(|| {
+        format!(
+            "beyond the stock cuts go on down by up to {} mm, with an extension of {} mm, and no tip goes below the bottom of the \
+             stock; a shorter `extension` or a smaller `run_out` lets them lie lower",
+            show(parameters.lowest.to_mm()),
+            show(parameters.extension.to_mm())
+        )
+    })
 }

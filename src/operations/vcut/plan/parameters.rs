@@ -24,6 +24,7 @@ use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::number::show;
 use vcutc_geometry::grid;
+use vcutc_geometry::spine::Spine;
 use vcutc_job::{Auto, Direction, PlanningJob};
 use vcutc_process::posture::Holder;
 
@@ -304,6 +305,7 @@ pub fn resolve_on(
 fn consider(asked: &RoughVcut, lattices: Vec<Lattice>) -> Result<Resolution, Vec<Diagnostic>> {
     let mut told = Vec::new();
     complaints::check_rake(asked, &mut told);
+    complaints::check_standing(asked, &mut told);
     complaints::check_given(asked, &mut told);
     let standoff = resolve_standoff(asked, &mut told);
     if told.is_empty() {
@@ -392,7 +394,7 @@ fn flanks_at(asked: &RoughVcut, swing: Angle) -> Flanks {
     let lower = asked
         .along
         .as_ref()
-        .map_or(0.0, |along| along.deviation(flanks.slope).both());
+        .map_or(0.0, |along| along.lower(flanks.slope));
     Flanks {
         lower: Length::mm(lower),
         ..flanks
@@ -547,6 +549,22 @@ impl Lean {
         let upright = 1e-9;
         Length::mm((extension - self.half_width).to_mm().max(0.0) / self.per_height.max(upright))
     }
+}
+
+/// How high the end of a shank of 1 mm stands above its tip at least.
+const STANDS: f64 = 0.05;
+
+/// The widest swing, in whole thousandths of a degree, at which a shank stands up all along a spine, as it is held by a rake. Where a
+/// cut falls by `mu` the shank rises by `sin(rake) cos(a') cos(mu) - cos(rake) sin(mu)`, with `tan(a') = tan(swing) / cos(mu)`. None
+/// where it stands at no swing.
+#[must_use]
+pub fn widest_standing(rake: Angle, spine: &Spine) -> Option<Angle> {
+    let mu = Angle::rad(libm::atan(spine.steepest()));
+    let least = (STANDS + rake.cos() * mu.sin()) / (rake.sin() * mu.cos());
+    let opened = Angle::rad(libm::acos(least.clamp(-1.0, 1.0)));
+    let widest = Angle::rad(libm::atan(opened.tan() * mu.cos()));
+    let thousandths = (widest.to_deg() * 1000.0).floor();
+    (least < 1.0 && thousandths > 0.0).then(|| Angle::deg(thousandths / 1000.0))
 }
 
 /// The steepest pitch of the blade at the sides of the stock.

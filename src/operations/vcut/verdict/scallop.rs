@@ -3,6 +3,7 @@
 use super::attempts::Attempts;
 use crate::asked::{Avoid, Residual, RoughVcut};
 use crate::plan::PlannedVcut;
+use crate::plan::beyond_the_stock;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::number::show;
@@ -33,12 +34,13 @@ struct Change {
 
 /// What to change where more stays than the limit on scallop allows.
 pub(crate) fn helped(
-    over_limit: Diagnostic,
+    mut over_limit: Diagnostic,
     vcut: &PlannedVcut,
     report: &Report,
     trials: &mut dyn Trials,
 ) -> Diagnostic {
     let asked = &vcut.asked;
+    over_limit.notes.extend(beyond_the_stock(&vcut.parameters));
     let mut attempts = Attempts(trials);
     let change = match asked.tips {
         // Nothing moves given tips.

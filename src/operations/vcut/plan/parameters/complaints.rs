@@ -9,6 +9,46 @@ use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::{Auto, Bounds, Sourced};
 
+/// A rake at which the shank lies down where cuts along a spine fall.
+pub(super) fn check_standing(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
+    let Some(along) = &asked.along else { return };
+    let rake = asked.setup.rake;
+    let widest = super::widest_standing(rake.value, &along.spine);
+    let swing = match (asked.swing.value, widest) {
+        (Auto::Auto, Some(_)) => return,
+        (Auto::Given(swing), Some(widest)) if swing <= widest => return,
+        (Auto::Auto, None) => None,
+        (Auto::Given(swing), _) => Some(swing),
+    };
+    let steepest = Angle::rad(libm::atan(along.spine.steepest()));
+    let held = swing.map_or_else(String::new, |swing| {
+        format!(" and a swing of {} deg", show(swing.to_deg()))
+    });
+    let diagnostic = Diagnostic::new(
+        Code::RakeTooFlat,
+        format!(
+            "with a rake of {} deg{held} the shank lies down where cuts fall",
+            show(rake.value.to_deg())
+        ),
+        rake.span.unwrap_or(asked.setup.head_span),
+        format!(
+            "cuts that follow the part fall by up to {:.2} deg",
+            steepest.to_deg()
+        ),
+    )
+    .and(
+        asked.follow.span.unwrap_or(asked.setup.head_span),
+        "these cuts rise and fall with the part",
+    );
+    diagnostics.push(match widest {
+        Some(widest) => diagnostic.help(format!(
+            "use a `swing` of at most {} deg, a larger rake, or `follow = straight`",
+            show(widest.to_deg())
+        )),
+        None => diagnostic.help("use a larger rake, or `follow = straight`"),
+    });
+}
+
 pub(super) fn check_rake(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
     let (rake, half_apex) = (asked.setup.rake.value, asked.blade.half_apex.value);
     if rake > half_apex {
