@@ -6,11 +6,12 @@
 //! 2. A mesh in its place, over the plan of the stock, is a [`surface::Surface`].
 //! 3. [`coverage`] says whether each place of the plan lies under a triangle, and what is odd about them.
 //! 4. A surface has a shadow along y, sections, a height at each place ([`shadow`]), a highest and a lowest place.
-//! 5. [`residual`] says what straight cuts leave over it.
+//! 5. A [`mod@spine`] that suits it says how cuts may rise and fall with it; with that taken off, it is roughed as by level ones.
+//!    [`residual`] says what cuts leave over it.
 //! 6. A [`deviation`] is the part's upper side as a file, with what is left above each corner.
 //! 7. A [`map`] has the highest place of each of its cells, of the surface or of what is left over it.
 //!
-//! For discs that finish surfaces, which no operation asks for yet:
+//! For discs that finish surfaces:
 //!
 //! 1. A [`disc`] with its hub and holder comes down on a surface exactly, however it leans ([`mod@drop`]).
 //! 2. A [`posture`] says how it stands at a contact; [`curvature`] bounds the least [`tilt`] from below, and the drop says the least
