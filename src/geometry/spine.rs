@@ -86,8 +86,9 @@ impl Spine {
     /// half a degree.
     pub const LARGEST_BEND: f64 = 0.45 * core::f64::consts::PI / 180.0;
 
-    /// How much higher blending and rounding may leave the work, on the steepest flanks that follow a spine, in mm.
-    const ROUNDED: f64 = 0.1;
+    /// How steeply flanks may rise across the cuts, as a swing of 5 degrees does. A blade that is off its place by a little lies off the
+    /// Vs of steeper ones by too much.
+    pub const STEEPEST_FLANK: f64 = 11.43;
 
     /// A spine through knots.
     ///
@@ -172,11 +173,21 @@ impl Spine {
         lengths.sum::<f64>() / self.depth()
     }
 
-    /// How much higher than the section on the spine straight blades leave the work at most, the longest of them with an edge of
-    /// that length: what their flanks lie above their Vs, and [`Self::ROUNDED`].
+    /// How far a flank that rises by `flank` across the cuts may lie off its V, in mm, because an edge of that length is not just where it
+    /// is to be: it may leave its way by `blend`, places and postures are rounded, and turning from one place to the next its
+    /// end leaves its chord by an eighth of the turn squared.
     #[must_use]
-    pub fn left_above(&self, longest: Length) -> f64 {
-        self.deviation(longest.to_mm()).above + Self::ROUNDED
+    pub fn off(&self, edge: Length, blend: Length, flank: f64) -> f64 {
+        let turn = Self::LARGEST_BEND;
+        let moved = edge.to_mm() * turn * turn / 8.0 + blend.to_mm() + ROUNDED;
+        moved * (1.0 + flank * flank + self.steepest() * self.steepest()).sqrt()
+    }
+
+    /// How much higher than the section on the spine straight blades leave the work at most, in mm, the longest of them with an edge of
+    /// that length: what their flanks lie above their Vs, the steepest ones ([`Self::STEEPEST_FLANK`]) included.
+    #[must_use]
+    pub fn left_above(&self, longest: Length, blend: Length) -> f64 {
+        self.deviation(longest.to_mm()).above + self.off(longest, blend, Self::STEEPEST_FLANK)
     }
 
     /// Its slopes at y = 0 and at the depth of the stock, as y grows.
@@ -286,6 +297,9 @@ impl Spine {
         }
     }
 }
+
+/// What rounding of places and postures moves an edge by, in mm.
+const ROUNDED: f64 = 0.003;
 
 /// A way beyond the stock, in mm, on which a blade turns as good as not at all over the length of its edge.
 const ENDLESS: f64 = 1e7;

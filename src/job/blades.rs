@@ -190,6 +190,15 @@ impl Blade {
 }
 
 impl<'b> BladeRef<'b> {
+    /// The length of its edge from the tip; none of a round one.
+    #[must_use]
+    pub const fn edge(self) -> Option<Length> {
+        match self {
+            Self::Straight(blade) => Some(blade.cutting_length.value),
+            Self::Disc(_) | Self::Crusher(_) => None,
+        }
+    }
+
     /// Its name.
     #[must_use]
     pub fn name(self) -> &'b str {

@@ -28,20 +28,19 @@ pub struct Along {
     pub spine: Arc<Spine>,
     /// How far flanks lie off the Vs of their tips where the blade is where it is to be.
     deviation: Deviation,
-    /// How far any place of the edge may be from where it is to be, in mm.
-    off: f64,
+    edge: Length,
+    /// How far the tip may leave its way.
+    blend: Length,
     /// How much higher than their Vs say other blades may have left the work, in mm.
     others: f64,
 }
-
-/// What rounding of places and postures moves an edge by, in mm.
-const ROUNDED: f64 = 0.003;
 
 impl Along {
     /// Of a blade with an edge of that length, at an angle to its way (rake less half apex), that may leave the way by `blend`.
     ///
     /// Seen along the work, such an edge reaches `L cos(angle)` ahead of its tip where the way is level, and up to
     /// `L sin(angle) sin(mu)` more where it rises by `mu`. The other edge of the blade lies nearer.
+    ///
     /// `others` is the longest edge of the other operations that follow the spine, if there are any.
     #[must_use]
     pub fn new(
@@ -53,21 +52,19 @@ impl Along {
     ) -> Self {
         let pitch = Angle::rad(libm::atan(spine.steepest()));
         let overhang = edge * (angle.cos().abs() + angle.sin() * pitch.sin());
-        // Turning on its way from one place to the next, the end of the edge leaves its chord by an eighth of the turn squared.
-        let turn = Spine::LARGEST_BEND;
         Self {
             spine: Arc::clone(spine),
             deviation: spine.deviation(overhang.to_mm()),
-            off: edge.to_mm() * turn * turn / 8.0 + blend.to_mm() + ROUNDED,
-            others: others.map_or(0.0, |longest| spine.left_above(longest)),
+            edge,
+            blend,
+            others: others.map_or(0.0, |longest| spine.left_above(longest, blend)),
         }
     }
 
     /// How far flanks that rise by `slope` across the cuts may lie off the Vs of their tips.
     #[must_use]
     pub fn deviation(&self, slope: f64) -> Deviation {
-        let along = self.spine.steepest();
-        let off = self.off * (1.0 + slope * slope + along * along).sqrt();
+        let off = self.spine.off(self.edge, self.blend, slope);
         Deviation {
             above: self.deviation.above + off,
             below: self.deviation.below + off,

@@ -69,11 +69,7 @@ pub(super) fn decide(asked: Asked<'_>, ways: &mut [Ways], reports: &mut Reports)
 /// The longest edge of the straight blades of an operation, if it has some.
 fn longest_edge(ways: &Ways) -> Option<Length> {
     let blades = ways.iter().flat_map(|way| way.operation.blades());
-    let edges = blades.filter_map(|blade| match blade {
-        BladeRef::Straight(blade) => Some(blade.cutting_length.value),
-        BladeRef::Disc(_) | BladeRef::Crusher(_) => None,
-    });
-    edges.reduce(Length::max)
+    blades.filter_map(BladeRef::edge).reduce(Length::max)
 }
 
 /// What all operations ask for that have a say; none where none has.

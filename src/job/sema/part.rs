@@ -57,7 +57,7 @@ pub struct Shaded {
 #[derive(Debug)]
 struct Way {
     fitted: Fitted,
-    /// The surface with all cuts along its spine; none where its shadow cannot be told.
+    /// The surface with all cuts along its spine; none where it has no shadow then.
     along: OnceLock<Option<Arc<Shaded>>>,
 }
 
@@ -174,7 +174,7 @@ impl Part {
         }
     }
 
-    /// The best spine that rises so; none of a part that has none better than level cuts, or is no surface.
+    /// The best spine that rises so. None where level cuts are as good, and where the part is not a surface.
     #[must_use]
     pub fn fitted(&self, rising: Rising) -> Option<&Fitted> {
         match &self.shape {
@@ -183,7 +183,7 @@ impl Part {
         }
     }
 
-    /// The same part, with all cuts that rough it along that spine; none where there is none, or its shadow cannot be told.
+    /// The same part, with all cuts that rough it along that spine. None where there is no such spine, or no shadow.
     pub(crate) fn along(&self, rising: Rising, stock: Stock) -> Option<Self> {
         let Shape::Surface(shaded) = &self.shape else {
             return None;

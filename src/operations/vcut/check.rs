@@ -6,9 +6,10 @@ mod tests;
 mod tips;
 
 use crate::asked::{Avoid, Formulas, Lattice, Objective, Residual, RoughVcut, Sequence};
-use vcutc_backend_api::units::Length;
+use crate::operation::NARROWEST_ALONG;
+use vcutc_backend_api::units::{Angle, Length};
+use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_job::Order;
 use vcutc_job::follow::Follow;
 use vcutc_job::operation::Operation;
 use vcutc_job::sema::field_ranges::{DISTANCE, OVERLAP, SIZE, SWING};
@@ -19,6 +20,7 @@ use vcutc_job::sema::report::Checked;
 use vcutc_job::sema::session::Session;
 use vcutc_job::sema::setup;
 use vcutc_job::sema::written::Written;
+use vcutc_job::{Auto, Order};
 
 /// Its fields.
 pub const SPEC: BlockSpec = BlockSpec {
@@ -112,6 +114,24 @@ fn narrower_along(operation: &RoughVcut) -> Diagnostic {
     )
 }
 
+/// A swing with which a blade that is off its spine by a little spoils much of its flank.
+fn too_narrow_along(operation: &RoughVcut, swing: Angle) -> Diagnostic {
+    let head = operation.setup.head_span;
+    let word = operation.follow.value.word();
+    let (swing, least) = (show(swing.to_deg()), show(NARROWEST_ALONG.to_deg()));
+    Diagnostic::new(
+        Code::CannotFollow,
+        format!("a swing of {swing} deg is too narrow for `follow = {word}`"),
+        operation.swing.span.unwrap_or(head),
+        format!("cuts that rise and fall take at least {least} deg"),
+    )
+    .and(
+        operation.follow.span.unwrap_or(head),
+        "these cuts rise and fall with the part",
+    )
+    .help(format!("use a `swing` of at least {least} deg, or cut straight"))
+}
+
 fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> {
     let Written {
         block,
@@ -166,6 +186,12 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
     };
     if operation.avoid.value == Avoid::Swing && operation.follow.value != Follow::Straight {
         return Err(session.reports.push(narrower_along(&operation)));
+    }
+    if let Auto::Given(swing) = operation.swing.value
+        && swing < NARROWEST_ALONG
+        && operation.follow.value != Follow::Straight
+    {
+        return Err(session.reports.push(too_narrow_along(&operation, swing)));
     }
     match given? {
         Some(given) => tips::over(given, operation, &fields, &mut session.reports),

@@ -102,7 +102,7 @@ enum Place {
 }
 
 /// How the blade is held at the stations of a flank with that feed and swing.
-struct Along {
+struct HeldAlong {
     flank: Flank,
     feed: Feed,
     swing: Angle,
@@ -118,10 +118,10 @@ struct Writer<'b> {
     cut_feed: FeedId,
     travel_feed: FeedId,
     rate: RateId,
-    /// The way of the tip from before the stock to behind it.
+    /// The way of the tip, from beside the stock to beside it.
     course: Course,
     /// How the blade is held along flanks, each computed once.
-    along: Vec<Along>,
+    along: Vec<HeldAlong>,
     safe: f64,
     at: Place,
     tip: Point3,
@@ -325,7 +325,7 @@ impl<'b> Writer<'b> {
         stations: &[Station],
     ) -> Vec<(Orientation, OrientationId)> {
         let is_same =
-            |known: &&Along| (known.flank, known.feed, known.swing) == (pass.flank, feed, pass.swing);
+            |known: &&HeldAlong| (known.flank, known.feed, known.swing) == (pass.flank, feed, pass.swing);
         if let Some(known) = self.along.iter().find(is_same) {
             return known.held.clone();
         }
@@ -336,7 +336,7 @@ impl<'b> Writer<'b> {
             (posture, self.builder.orientation(posture))
         });
         let held: Vec<(Orientation, OrientationId)> = held.collect();
-        self.along.push(Along {
+        self.along.push(HeldAlong {
             flank: pass.flank,
             feed,
             swing: pass.swing,

@@ -19,6 +19,9 @@ use vcutc_process::lower::BLEND;
 /// By how many degrees the swing is made smaller, one after the other.
 const SMALLER: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
 
+/// The smallest swing of cuts along a spine ([`Spine::STEEPEST_FLANK`]).
+pub(crate) const NARROWEST_ALONG: Angle = Angle::deg(5.0);
+
 impl RoughVcut {
     /// An operation that is V-shaped roughing.
     #[must_use]
@@ -155,6 +158,13 @@ impl Operation for RoughVcut {
                     span: None,
                 });
             }
+        }
+        let least = &mut self.limits.swing.least;
+        if self.swing.value == Auto::Auto && least.is_none_or(|least| least.value < NARROWEST_ALONG) {
+            *least = Some(Sourced {
+                value: NARROWEST_ALONG,
+                span: None,
+            });
         }
         self.along = Some(Along::new(
             spine,

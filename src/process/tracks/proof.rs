@@ -59,7 +59,8 @@ pub fn judged(
     let dropper = Dropper::new(part);
     // Checking a job refuses surfaces that are too tangled, or have no height somewhere.
     let spine = bounds.iter().find_map(|bound| bound.spine);
-    let sections = Sections::of(part, spine, program.longest_edge());
+    let spine = spine.map(|spine| (spine, spine.left_above(program.longest_edge(), program.blend)));
+    let sections = Sections::of(part, spine);
     let (Ok(moves), Ok(sections)) = (Moves::new(&dropper), sections) else {
         return Vec::new();
     };

@@ -74,14 +74,13 @@ pub struct Left {
 }
 
 impl Sections {
-    /// Of a surface, roughed by cuts that follow a spine, or level ones. Straight blades of them have edges up to that length.
+    /// Of a surface that cuts along a spine have roughed, which leave so much above it at most, in mm; or level ones.
     ///
     /// # Errors
     /// Where the surface has no height.
-    pub fn of(surface: &surface::Surface, spine: Option<&Spine>, longest: Length) -> Result<Self, Uncovered> {
+    pub fn of(surface: &surface::Surface, spine: Option<(&Spine, f64)>) -> Result<Self, Uncovered> {
         // What stands higher hangs on more and is thicker, so where the work may be it is taken to be.
-        let above = spine.map_or(0.0, |spine| spine.left_above(longest));
-        let rise = |y: f64| spine.map_or(0.0, |spine| spine.rise(y)) + above;
+        let rise = |y: f64| spine.map_or(0.0, |(spine, above)| spine.rise(y) + above);
         let depth = surface.plan().depth.to_mm();
         let count = (depth / APART).ceil().clamp(1.0, MOST - 1.0);
         let at = |number: u32| depth * f64::from(number) / count;

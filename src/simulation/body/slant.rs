@@ -39,7 +39,7 @@ impl<'s> Backbone<'s> {
     pub(super) fn new(spine: &'s Spine, program: &Program) -> Self {
         Self {
             spine,
-            above: spine.left_above(program.longest_edge()),
+            above: spine.left_above(program.longest_edge(), program.blend),
         }
     }
 

@@ -137,15 +137,11 @@ impl Player<'_> {
         };
         match followed {
             Ok(followed) => self.flank_along(cut, followed),
-            Err(Strayed { y, by }) => {
-                let [y, by] = [y, by].map(Length::mm);
+            Err(strayed) => {
                 let place = (cut.layer, cut.cut);
                 self.along.half_done.remove(&place);
                 self.along.strayed.insert(place);
-                let finding = cut.finding(self.program, CutFault::Strays { y, by });
-                note(&mut self.findings.strays, finding, |a, b| {
-                    off(a.fault) > off(b.fault)
-                });
+                self.note_strayed(&cut, strayed);
             }
         }
     }
@@ -183,11 +179,13 @@ impl Player<'_> {
 
     /// Notes a level cut of an operation whose cuts follow a spine.
     pub(super) fn note_level(&mut self, cut: &Cut, spine: &Spine) {
-        let fault = CutFault::Strays {
-            y: Length::ZERO,
-            by: Length::mm(spine.highest(0.0, spine.depth())),
-        };
-        let finding = cut.finding(self.program, fault);
+        let by = spine.highest(0.0, spine.depth());
+        self.note_strayed(cut, Strayed { y: 0.0, by });
+    }
+
+    fn note_strayed(&mut self, cut: &Cut, Strayed { y, by }: Strayed) {
+        let [y, by] = [y, by].map(Length::mm);
+        let finding = cut.finding(self.program, CutFault::Strays { y, by });
         note(&mut self.findings.strays, finding, |a, b| {
             off(a.fault) > off(b.fault)
         });
@@ -301,9 +299,9 @@ impl Plane {
         }
     }
 
-    /// Whether it leans, so that it rises across the cuts by a slope.
+    /// Whether it leans, so that it rises across the cuts by a slope that flanks along spines may have.
     const fn is_inclined(self) -> bool {
-        self.across.is_finite() && self.along.is_finite() && self.across != 0.0
+        self.along.is_finite() && self.across != 0.0 && self.across.abs() <= Spine::STEEPEST_FLANK
     }
 
     /// How far it is turned from that at a station, in rad.

@@ -18,6 +18,7 @@ use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::profile::Profile;
 use vcutc_job::operation::Ground;
 use vcutc_job::{Auto, BladeRef, Direction};
+use vcutc_process::lower::BLEND;
 use vcutc_process::posture::Feed;
 use vcutc_process::tracks::entry::solid;
 use vcutc_process::tracks::sections::{Fault, Left, Sections};
@@ -96,11 +97,7 @@ fn longest_edge(ground: &Ground<'_>) -> Length {
         .operations
         .iter()
         .flat_map(|operation| operation.blades());
-    let edges = blades.filter_map(|blade| match blade {
-        BladeRef::Straight(blade) => Some(blade.cutting_length.value),
-        BladeRef::Disc(_) | BladeRef::Crusher(_) => None,
-    });
-    edges.fold(Length::ZERO, Length::max)
+    blades.filter_map(BladeRef::edge).fold(Length::ZERO, Length::max)
 }
 
 /// Plans the tracks.
@@ -125,7 +122,8 @@ pub(super) fn plan(
     let normals = Normals::new(surface);
     // Checking a job refuses surfaces that are too tangled, or have no height somewhere.
     let spine = ground.job.part.spine().map(|spine| &**spine);
-    let sections = Sections::of(surface, spine, longest_edge(ground));
+    let spine = spine.map(|spine| (spine, spine.left_above(longest_edge(ground), BLEND)));
+    let sections = Sections::of(surface, spine);
     let (Ok(moves), Ok(sections), Some(disc)) = (Moves::new(&dropper), sections, solid(&blade)) else {
         return Err(Refusal::Nothing);
     };

@@ -1,4 +1,4 @@
-//! The way of the tip along the work, from before the stock to behind it.
+//! The way of the tip along the work, from one side of the stock to the other and as far beyond as cuts extend.
 
 use crate::asked::RoughVcut;
 use vcutc_backend_api::ir::Stock;
@@ -9,9 +9,9 @@ use vcutc_process::posture::Feed;
 
 /// The way of all tips: level, or along a spine.
 pub(super) struct Course {
-    /// Before the stock, and behind it.
+    /// Beyond y = 0, and beyond the depth of the stock.
     ends: [Station; 2],
-    /// All places from before the stock to behind it, where the way is not level.
+    /// All places from one end to the other, where the way is not level.
     stations: Option<Vec<Station>>,
 }
 
