@@ -1,0 +1,24 @@
+//! Regions of the plan bounded by walls, and passes of a round tool over them.
+//!
+//! Everything here lies in the x-y plane of the workpiece frame, in mm and rad. A [`region::Region`] is bounded by
+//! loops of lines and arcs. Arcs stay arcs: from the drawing to the program nothing is flattened.
+
+pub mod axis;
+pub mod boxes;
+pub mod clearance;
+pub mod coverage;
+pub mod curve;
+pub mod distance;
+pub mod engagement;
+pub mod links;
+pub mod offset;
+pub mod order;
+pub mod pass;
+pub mod pattern;
+pub mod piece;
+pub mod place;
+pub mod region;
+mod rounded;
+
+#[cfg(any(test, feature = "testkit"))]
+pub mod testkit;
