@@ -171,6 +171,15 @@ impl Curve {
         })
     }
 
+    /// The angle that a circular arc turns through, to the left where it is positive; none of another curve.
+    #[must_use]
+    pub const fn sweep(&self) -> Option<Angle> {
+        match &self.shape {
+            Shape::Arc(arc) => Some(Angle::rad(arc.sweep())),
+            _ => None,
+        }
+    }
+
     /// An arc of the ellipse `center + half[0] cos t + half[1] sin t`, from one parameter on over `sweep`, which is cut off
     /// at a whole turn. The half-diameters need not be its axes, but conjugate.
     ///

@@ -110,6 +110,10 @@ impl Arc {
         }
     }
 
+    pub(super) const fn sweep(&self) -> f64 {
+        self.sweep
+    }
+
     pub(super) const fn from(&self) -> Point2 {
         self.from
     }

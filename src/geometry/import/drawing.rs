@@ -3,20 +3,27 @@
 //! The readers of DXF and SVG turn every entity or element into [`Stroke`]s, in the file's own unit and with all its
 //! transformations applied; the plane of the drawing is x to the right and z up. What they do not read they list
 //! ([`Unread`]). [`outline()`] then scales the strokes to the workpiece, flattens them and joins them to one chain, and
-//! [`side()`] takes the upper or the lower side of a closed one.
+//! [`side()`] takes the upper or the lower side of a closed one. [`loops()`] makes closed loops of lines and arcs of them.
 
 mod affine;
+mod arcs;
 mod chain;
 mod join;
+mod loops;
+mod open;
 mod pairs;
 mod repeats;
 mod ring;
+mod route;
 mod shape;
 mod sides;
 
 pub use affine::Affine;
 pub(super) use affine::sincos_degrees;
+pub use arcs::Bow;
 pub use chain::{Chain, Gap, Outline, OutlineError, outline};
+pub use loops::{LoopPiece, Loops, LoopsError, ROUND, Ring, loops};
+pub use open::{OpenError, SideName, open_sides};
 pub use repeats::{Overlap, drawn_over};
 pub use shape::Shape;
 pub use sides::{Side, SideError, side};

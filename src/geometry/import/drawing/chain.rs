@@ -4,11 +4,10 @@
 //! holds in the workpiece. Where two ends are joined over a gap both go to its middle: there the chain is off the drawing
 //! by at most the gap.
 
-use super::join::{End, JoinError, SAME, join};
-use super::repeats::without_repeats;
-use super::shape::ShapeError;
+use super::join::SAME;
+use super::route::{Joined, Line, Route};
 use super::{Affine, Stroke};
-use crate::curve::{COINCIDENT, CurveError, MOST_POINTS, NurbsError};
+use crate::curve::{COINCIDENT, CurveError, NurbsError};
 use crate::point::Point2;
 use vcutc_backend_api::units::Length;
 
@@ -51,8 +50,10 @@ pub struct Chain {
     pub to: Point2,
     /// Whether it ends where it begins.
     pub is_closed: bool,
-    /// The stroke it begins with, and how many it has.
+    /// The stroke it begins with.
     pub first: usize,
+    /// The stroke it ends with.
+    pub last: usize,
     /// How many strokes it has.
     pub strokes: usize,
 }
@@ -92,31 +93,6 @@ pub enum OutlineError {
     },
 }
 
-/// A flattened stroke.
-pub(super) struct Line {
-    pub(super) stroke: usize,
-    pub(super) points: Vec<Point2>,
-}
-
-impl Line {
-    fn ends(&self) -> Option<[Point2; 2]> {
-        Some([*self.points.first()?, *self.points.last()?])
-    }
-
-    fn is_closed(&self) -> bool {
-        self.points.len() > 2 && self.ends().is_some_and(|[from, to]| from.distance(to) <= SAME)
-    }
-
-    /// Whether it is longer than so much.
-    fn is_longer_than(&self, length: f64) -> bool {
-        let mut so_far = 0.0;
-        self.points.windows(2).any(|pair| {
-            so_far += pair[0].distance(pair[1]);
-            so_far > length
-        })
-    }
-}
-
 /// The one chain that strokes form, after a map from the drawing to the workpiece. Curves are flattened within `flat`, and
 /// ends joined that are no farther apart than `tolerance`.
 ///
@@ -128,70 +104,22 @@ pub fn outline(
     flat: Length,
     tolerance: Length,
 ) -> Result<Outline, OutlineError> {
-    let tolerance = tolerance.to_mm().max(SAME);
-    let lines = flatten(strokes, map, flat)?;
-    let (lines, repeated) = without_repeats(lines);
-    let open: Vec<&Line> = lines.iter().filter(|line| !line.is_closed()).collect();
-    let ends: Vec<End> = open
+    let joined = Joined::of(strokes, map, flat, tolerance)?;
+    let mut chains: Vec<Walked> = joined
+        .routes
         .iter()
-        .enumerate()
-        .flat_map(|(line, drawn)| drawn.ends().into_iter().flatten().map(move |at| End { line, at }))
+        .map(|route| Walked::along(route, &joined.lines))
         .collect();
-    let may_close = |line: usize| open[line].is_longer_than(10.0 * tolerance);
-    let partners = join(&ends, tolerance, &may_close).map_err(|error| in_strokes(error, &open))?;
-    let mut chains = walk(&open, &partners);
-    chains.extend(lines.iter().filter(|line| line.is_closed()).map(Walked::alone));
-    chains.sort_by_key(|chain| chain.owners.first().copied());
     match chains.len() {
         0 => Err(OutlineError::Nothing),
-        1 => Ok(chains.swap_remove(0).finish(repeated)),
+        1 => Ok(chains.swap_remove(0).finish(joined.repeated)),
         _ => Err(several(&chains)),
-    }
-}
-
-/// Strokes as lines; those without extent are left out.
-pub(super) fn flatten(strokes: &[Stroke], map: Affine, flat: Length) -> Result<Vec<Line>, OutlineError> {
-    let mut lines = Vec::new();
-    let mut left = MOST_POINTS;
-    for (stroke, drawn) in strokes.iter().enumerate() {
-        let mut points: Vec<Point2> = Vec::new();
-        for shape in &drawn.shapes {
-            let curve = shape.clone().mapped(map).curve();
-            let curve = curve.map_err(|error| match error {
-                ShapeError::Curve(error) => OutlineError::Curve { stroke, error },
-                ShapeError::Nurbs(error) => OutlineError::Nurbs { stroke, error },
-            })?;
-            if points.is_empty() {
-                points.push(curve.start());
-            }
-            curve
-                .flatten(flat, &mut points)
-                .map_err(|error| OutlineError::Curve { stroke, error })?;
-        }
-        left = left
-            .checked_sub(points.len())
-            .ok_or(OutlineError::TooManyPoints)?;
-        points.dedup_by(|next, last| last.distance(*next) < COINCIDENT);
-        if points.len() > 1 {
-            lines.push(Line { stroke, points });
-        }
-    }
-    Ok(lines)
-}
-
-fn in_strokes(error: JoinError, open: &[&Line]) -> OutlineError {
-    match error {
-        JoinError::Branch { at, lines } => OutlineError::Branch {
-            at,
-            strokes: lines.into_iter().map(|line| open[line].stroke).collect(),
-        },
-        JoinError::Crowded { at } => OutlineError::Crowded { at },
     }
 }
 
 /// A chain while it grows.
 #[derive(Default)]
-struct Walked {
+pub(super) struct Walked {
     points: Vec<Point2>,
     owners: Vec<usize>,
     strokes: usize,
@@ -199,36 +127,16 @@ struct Walked {
     widest: Option<Gap>,
 }
 
-/// The chains of joined lines: first those with loose ends, then the rings.
-fn walk(open: &[&Line], partners: &[Option<usize>]) -> Vec<Walked> {
-    let mut is_done = vec![false; open.len()];
-    let loose = (0..partners.len()).filter(|&end| partners[end].is_none());
-    let starts: Vec<usize> = loose.chain((0..open.len()).map(|line| 2 * line)).collect();
-    let mut chains = Vec::new();
-    for start in starts {
-        let mut chain = Walked::default();
-        let mut end = start;
-        while !is_done[end / 2] {
-            is_done[end / 2] = true;
-            chain.add(open[end / 2], end);
-            match partners[end ^ 1] {
-                Some(next) if next == start => chain.close(),
-                Some(next) => end = next,
-                None => {}
-            }
-        }
-        if !chain.points.is_empty() {
-            chains.push(chain);
-        }
-    }
-    chains
-}
-
 impl Walked {
-    fn alone(line: &Line) -> Self {
+    /// The chain of a route along lines.
+    pub(super) fn along(route: &Route, lines: &[Line]) -> Self {
         let mut chain = Self::default();
-        chain.add(line, 0);
-        chain.close();
+        for &entry in &route.entries {
+            chain.add(&lines[entry / 2], entry);
+        }
+        if route.is_closed {
+            chain.close();
+        }
         chain
     }
 
@@ -350,25 +258,32 @@ pub(super) fn reverse(points: &mut [Point2], owners: &mut [usize]) {
 }
 
 fn several(chains: &[Walked]) -> OutlineError {
-    let listed = chains.iter().filter_map(|chain| {
+    OutlineError::Several {
+        chains: listed(chains),
+        nearest: nearest(chains),
+    }
+}
+
+/// Chains by their ends.
+pub(super) fn listed(chains: &[Walked]) -> Vec<Chain> {
+    let ends = chains.iter().filter_map(|chain| {
         Some(Chain {
             from: *chain.points.first()?,
             to: *chain.points.last()?,
             is_closed: chain.is_closed,
             first: *chain.owners.first()?,
+            last: *chain.owners.last()?,
             strokes: chain.strokes,
         })
     });
-    OutlineError::Several {
-        chains: listed.collect(),
-        nearest: nearest(chains),
-    }
+    ends.collect()
 }
 
 /// Most chains among which the nearest ends are looked for; more are no outline that was left open.
 const MOST_COMPARED: usize = 200;
 
-fn nearest(chains: &[Walked]) -> Option<Gap> {
+/// The two nearest ends of different open chains.
+pub(super) fn nearest(chains: &[Walked]) -> Option<Gap> {
     let open = chains.iter().filter(|chain| !chain.is_closed).take(MOST_COMPARED);
     let ends: Vec<[(Point2, usize); 2]> = open
         .filter_map(|chain| {

@@ -5,9 +5,9 @@
 //! Lines that lie on each other in part cannot be put right that way, for nobody knows which of them was meant; they are
 //! looked for when strokes form no outline, so that people learn why ([`drawn_over`]).
 
-use super::chain::{Line, flatten};
 use super::join::SAME;
 use super::pairs::{Extent, first_pair};
+use super::route::{Line, flatten};
 use super::{Affine, Shape, Stroke};
 use crate::point::Point2;
 use core::f64::consts::TAU;
