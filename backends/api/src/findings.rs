@@ -5,7 +5,7 @@
 
 use crate::backend::{BackendIssue, Exceeded, MachineMismatch};
 use crate::geometry::Point3;
-use crate::ir::{Action, Cell, OpId};
+use crate::ir::{Action, Blade, Cell, OpId};
 use crate::motion::ReachableProgram;
 use crate::script::trimmed_text;
 use crate::units::Duration;
@@ -126,9 +126,9 @@ impl Findings {
         self.range(op, &Number { what, value, unit }, (0.0, LONGEST_WAIT_S));
     }
 
-    /// A machine must have a generator that can be switched.
-    pub fn generator(&mut self, cell: &Cell) {
-        if cell.ultrasonic.is_none() {
+    /// A machine must have a generator that can be switched, where one of these blades vibrates.
+    pub fn generator(&mut self, cell: &Cell, blades: &[Blade]) {
+        if cell.ultrasonic.is_none() && blades.iter().any(Blade::vibrates) {
             self.tell("ultrasonic", GENERATOR_MISSING);
         }
     }

@@ -39,7 +39,7 @@ use crate::segments::Segment;
 use crate::state::{Place, State};
 use crate::units::{Angle, Length};
 use air::Extents;
-use chain::OpenChain;
+use chain::{Cleared, OpenChain};
 use core::fmt;
 use core::num::NonZeroU32;
 use posture::posture_fits;
@@ -154,7 +154,8 @@ pub enum Rule {
     /// [`LARGEST_KINK`].
     ChainJoint,
     /// All along a piece of a chain a straight blade stands in the plane of its way but for [`LARGEST_SLIP`], and a cutting edge
-    /// leads. The shank of any blade leans along the way or square to it; a crusher may go down as steeply as its ramp.
+    /// leads. The shank of any blade leans along the way or square to it; a crusher may go down as steeply as its
+    /// ramp, and straight to where it has been.
     ChainPosture,
     /// Operations come in order, and the cuts of each layer are numbered from 1 without gaps. In which order an operation
     /// visits them is for the proof to judge.
@@ -252,6 +253,8 @@ struct Walk<'p> {
     current: OpId,
     /// The chain that has not come to a stop.
     chain: Option<OpenChain>,
+    /// Where crushers have been.
+    cleared: Cleared,
     extents: Extents,
     /// How far below its tip a blade hangs at most, in mm.
     hang: f64,
@@ -269,6 +272,7 @@ impl<'p> Walk<'p> {
             singles: Vec::new(),
             current: OpId(0),
             chain: None,
+            cleared: Cleared::default(),
             extents: Extents::NONE_YET,
         }
     }

@@ -17,7 +17,7 @@ use vcutc_backend_api::backend::{BackendIssue, MachineMismatch};
 use vcutc_backend_api::findings::{Findings, Number, driven_cell};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{
-    Action, AxisKind, AxisValues, Cell, MachineKind, OpId, PlacedFrame, Ready, Spindle, Switch, ToolId,
+    Action, AxisKind, AxisValues, Blade, Cell, MachineKind, OpId, PlacedFrame, Ready, Spindle, Switch, ToolId,
 };
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::script::{Part, Source};
@@ -63,7 +63,7 @@ pub(crate) fn check<'p>(
         Err(NoWord::Taken(letter)) => return Err(vec![letter_taken(letter)]),
     };
     let mut found = Findings::beginning_with(demands::check(cell, settings));
-    machine(cell, settings, &mut found);
+    machine(cell, &program.program().blades, settings, &mut found);
     numbers(settings, parts, &mut found);
     let source = Source {
         reachable: program,
@@ -97,7 +97,7 @@ fn letter_taken(letter: char) -> BackendIssue {
     }
 }
 
-fn machine(cell: &Cell, settings: &Settings<'_>, found: &mut Findings) {
+fn machine(cell: &Cell, blades: &[Blade], settings: &Settings<'_>, found: &mut Findings) {
     let controller = settings.controller;
     if cell.home.is_none() {
         found.tell("home", HOME_MISSING);
@@ -115,7 +115,7 @@ fn machine(cell: &Cell, settings: &Settings<'_>, found: &mut Findings) {
         }
         Some(_) | None => {}
     }
-    found.generator(cell);
+    found.generator(cell, blades);
     match cell.spindle {
         Some(Spindle::Output(output)) => spindle(output, controller, found),
         Some(Spindle::Own) | None => {}

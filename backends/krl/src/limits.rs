@@ -11,7 +11,9 @@ use vcutc_backend_api::arm::{ArmLimits, SpeedUnit, foreign_arm};
 use vcutc_backend_api::backend::BackendIssue;
 use vcutc_backend_api::chains::{first_joint, has_arcs};
 use vcutc_backend_api::findings::{Findings, Number, driven_cell};
-use vcutc_backend_api::ir::{Action, AxisValues, Cell, Maker, OpId, PlacedFrame, Ready, Registered, Tool};
+use vcutc_backend_api::ir::{
+    Action, AxisValues, Blade, Cell, Maker, OpId, PlacedFrame, Ready, Registered, Tool,
+};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::script::Part;
 
@@ -64,7 +66,7 @@ pub(crate) fn check<'p>(
         })
     })?;
     let mut found = Findings::default();
-    machine(cell, &mut found);
+    machine(cell, &program.program().blades, &mut found);
     change::routine(cell, settings, &mut found);
     found.arm_ops(program, &LIMITS, &mut |found, id, action| {
         if matches!(action, Action::AxisTravel { .. }) {
@@ -101,7 +103,7 @@ fn chains(program: &ReachableProgram, settings: &Settings<'_>, found: &mut Findi
     }
 }
 
-fn machine(cell: &Cell, found: &mut Findings) {
+fn machine(cell: &Cell, blades: &[Blade], found: &mut Findings) {
     match cell.home {
         Some(angles) => axes(None, "home angle", angles, found),
         None => found.tell("home", HOME_MISSING),
@@ -121,7 +123,7 @@ fn machine(cell: &Cell, found: &mut Findings) {
     for output in cell.outputs() {
         found.number("output number", output, 1..=SIGNALS);
     }
-    found.generator(cell);
+    found.generator(cell, blades);
     match cell.ready {
         Ready::Input(number) => input(number, found),
         Ready::After(time) => found.wait(None, "time until ready", time),

@@ -18,7 +18,7 @@ use vcutc_backend_api::chains::{first_joint, has_arcs};
 use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::findings::{Findings, Number, driven_cell};
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, AxisValues, Cell, Load, Maker, OpId, Ready, Registered, Spindle};
+use vcutc_backend_api::ir::{Action, AxisValues, Blade, Cell, Load, Maker, OpId, Ready, Registered, Spindle};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::wrist::{TOO_FAR, turn};
 
@@ -77,7 +77,7 @@ pub(crate) fn check<'p>(
     profile(settings, cell, &mut findings);
     names(settings, cell, &mut findings);
     reserved(settings, cell, &program.program().name, parts, &mut findings);
-    machine(cell, &mut findings);
+    machine(cell, &program.program().blades, &mut findings);
     change::names(cell, settings, &mut findings);
     findings.arm_ops(program, &LIMITS, &mut |_, _, _| {});
     turns(program, &mut findings);
@@ -208,11 +208,11 @@ fn reserved(settings: &Settings<'_>, cell: &Cell, job: &str, parts: usize, findi
     }
 }
 
-fn machine(cell: &Cell, findings: &mut Findings) {
+fn machine(cell: &Cell, blades: &[Blade], findings: &mut Findings) {
     if cell.home.is_none() {
         findings.tell("home", HOME_MISSING);
     }
-    findings.generator(cell);
+    findings.generator(cell, blades);
     for (_, tool) in cell.tools.iter().filter(|(_, tool)| tool.frame.number.is_none()) {
         findings.frame(["tool X", "tool Y", "tool Z"], tool.frame, &LIMITS);
         match tool.load {

@@ -193,6 +193,8 @@ impl Blade {
 /// How far a blade reaches from its tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
+    /// The smallest and the largest coordinate along +x, in mm; none of a straight blade, which leans to either side as it cuts.
+    pub x: Option<[f64; 2]>,
     /// The smallest and the largest coordinate along +y, in mm.
     pub y: [f64; 2],
     /// How far down, in mm; zero or more.
@@ -202,6 +204,7 @@ pub struct Extent {
 impl Extent {
     /// Of the tip alone.
     pub const TIP: Self = Self {
+        x: None,
         y: [0.0, 0.0],
         down: 0.0,
     };
@@ -209,8 +212,10 @@ impl Extent {
     /// As far as one of two.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
+        let both = |one: [f64; 2], other: [f64; 2]| [one[0].min(other[0]), one[1].max(other[1])];
         Self {
-            y: [self.y[0].min(other.y[0]), self.y[1].max(other.y[1])],
+            x: self.x.zip(other.x).map(|(one, other)| both(one, other)),
+            y: both(self.y, other.y),
             down: self.down.max(other.down),
         }
     }
@@ -232,6 +237,7 @@ impl Straight {
         let [one, other] =
             [axis - half_apex, axis + half_apex].map(|angle| self.cutting_length.to_mm() * libm::cos(angle));
         Extent {
+            x: None,
             y: [one.min(other), one.max(other)],
             down: 0.0,
         }
@@ -250,7 +256,7 @@ fn ring(radius: Length, heights: [Length; 2]) -> Vec<[f64; 3]> {
     heights.into_iter().flat_map(numbers).map(corner).collect()
 }
 
-/// How far a cylinder above its edge reaches while it turns. Its axis is off y, and off z, by no less than at one of both ends, but
+/// How far a cylinder above its edge reaches while it turns. Its axis is off x, y and z by no less than at one of both ends, but
 /// for half of the turn.
 fn round(radius: Length, height: Length, held: [Orientation; 2]) -> Extent {
     let half_turn = held[0].angle_to(held[1]).to_rad() / 2.0;
@@ -258,16 +264,20 @@ fn round(radius: Length, height: Length, held: [Orientation; 2]) -> Extent {
     let [one, other] = held.map(|held| held.matrix());
     // How steeply the axis rises from the tip along y, and from the horizontal: -90 to 90 degrees, in rad.
     let rise = |row: usize| [one, other].map(|m| libm::asin((-m[row][2]).clamp(-1.0, 1.0)));
-    let [along_y, upwards] = [rise(1), rise(2)].map(|[one, other]| Rise {
+    let [along_x, along_y, upwards] = [rise(0), rise(1), rise(2)].map(|[one, other]| Rise {
         low: (one.min(other) - half_turn).max(-FRAC_PI_2),
         high: (one.max(other) + half_turn).min(FRAC_PI_2),
     });
-    let across = radius * along_y.most_across();
+    let reach = |along: Rise| {
+        let across = radius * along.most_across();
+        [
+            (height * libm::sin(along.low)).min(0.0) - across,
+            (height * libm::sin(along.high)).max(0.0) + across,
+        ]
+    };
     Extent {
-        y: [
-            (height * libm::sin(along_y.low)).min(0.0) - across,
-            (height * libm::sin(along_y.high)).max(0.0) + across,
-        ],
+        x: Some(reach(along_x)),
+        y: reach(along_y),
         down: (-height * libm::sin(upwards.low)).max(0.0) + radius * upwards.most_across(),
     }
 }
@@ -333,6 +343,8 @@ mod tests {
                     for up in [0.0, 1.5] {
                         let at = |row: usize| 25.0 * (m[row][0] * cosine + m[row][1] * sine) - up * m[row][2];
                         assert!(at(1) >= extent.y[0] - 1e-9 && at(1) <= extent.y[1] + 1e-9);
+                        let [low, high] = extent.x.unwrap();
+                        assert!(at(0) >= low - 1e-9 && at(0) <= high + 1e-9);
                         assert!(-at(2) <= extent.down + 1e-9);
                     }
                 }

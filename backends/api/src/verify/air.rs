@@ -93,11 +93,15 @@ impl Walk<'_> {
     /// The blade's way through the air stays on one outer side of the stock (which is convex, so both ends tell).
     fn air(&mut self, ends: [Point3; 2], reach: Extent) {
         let stock = self.program.stock;
-        let (depth, height) = (stock.depth.to_mm(), stock.height.to_mm());
+        let [width, depth, height] = [stock.width, stock.depth, stock.height].map(Length::to_mm);
+        let beside = reach.x.is_some_and(|[low, high]| {
+            let left = ends.iter().all(|tip| tip.x + high <= SAME);
+            left || ends.iter().all(|tip| tip.x + low >= width - SAME)
+        });
         let in_front = ends.iter().all(|tip| tip.y + reach.y[1] <= SAME);
         let behind = ends.iter().all(|tip| tip.y + reach.y[0] >= depth - SAME);
         let above = ends.iter().all(|tip| tip.z - reach.down >= height - SAME);
-        self.require(in_front || behind || above, Rule::AirMoveThroughStock);
+        self.require(beside || in_front || behind || above, Rule::AirMoveThroughStock);
     }
 
     /// How far the blade reaches from its tip on a way through the air.
@@ -116,7 +120,11 @@ impl Walk<'_> {
 
     pub(super) fn is_outside(&self, tip: Point3, reach: Extent) -> bool {
         let stock = self.program.stock;
-        tip.y + reach.y[1] <= SAME
+        let beside = reach
+            .x
+            .is_some_and(|[low, high]| tip.x + high <= SAME || tip.x + low >= stock.width.to_mm() - SAME);
+        beside
+            || tip.y + reach.y[1] <= SAME
             || tip.y + reach.y[0] >= stock.depth.to_mm() - SAME
             || tip.z - reach.down >= stock.height.to_mm() - SAME
     }

@@ -4,8 +4,10 @@ use super::{Capability, Rule, Walk};
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{Action, Edges, Joint, Op, Shape, Site, Straight};
 use crate::segments::{LinearSegment, Segment};
+use crate::state::TipPose;
 use crate::units::{Angle, Length};
 use crate::vector::{cross, dot, length, minus, scaled};
+use std::collections::BTreeSet;
 
 /// Arcs go round by less than this: beyond it a small error of the point between its ends makes a large one of the arc.
 pub const LARGEST_SWEEP: Angle = Angle::deg(340.0);
@@ -66,9 +68,14 @@ impl Walk<'_> {
             let good = match blade.shape {
                 Shape::Straight(straight) => course.is_in_plane_of(straight),
                 Shape::Disc(_) => course.descends_at_most(Angle::ZERO),
-                Shape::Crusher(crusher) => course.descends_at_most(crusher.ramp),
+                Shape::Crusher(crusher) => {
+                    course.descends_at_most(crusher.ramp) || self.cleared.are_returned_to(&course)
+                }
             };
             self.require(good, Rule::ChainPosture);
+            if let Shape::Crusher(_) = blade.shape {
+                self.cleared.add(&course);
+            }
         }
         let goes_on = before.is_none_or(|before| angle(before.direction, begins) <= LARGEST_KINK);
         self.require(goes_on, Rule::ChainJoint);
@@ -81,6 +88,34 @@ impl Walk<'_> {
         };
     }
 }
+
+/// Where pieces of chains have led a crusher, and how it was held: its way down there is free.
+#[derive(Debug, Default)]
+pub(super) struct Cleared(BTreeSet<[u64; 4]>);
+
+impl Cleared {
+    /// With the bits of numbers that a program states, so that nothing near is taken for the same.
+    fn key(pose: TipPose) -> [u64; 4] {
+        let [x, y, z] = pose.tip.to_array().map(|part| (part + 0.0).to_bits());
+        [x, y, z, u64::from(pose.orientation.0)]
+    }
+
+    fn add(&mut self, course: &Course<'_>) {
+        self.0.insert(Self::key(course.line.to));
+    }
+
+    /// Whether a piece leads straight down its own axis to a place where the tool has been.
+    fn are_returned_to(&self, course: &Course<'_>) -> bool {
+        let [down, _] = course.directions;
+        let is_straight = course.line.via.is_none() && !course.line.turns();
+        is_straight
+            && dot(course.axis(0, 2), down) >= 1.0 - STRAIGHT
+            && self.0.contains(&Self::key(course.line.to))
+    }
+}
+
+/// How far a way straight down may be off the axis of its tool, as the cosine that it lacks: rounding.
+const STRAIGHT: f64 = 1e-12;
 
 /// The directions in which a piece begins and ends, of unit length; none where it is neither a line nor an arc.
 fn directions(line: &LinearSegment) -> Option<[[f64; 3]; 2]> {

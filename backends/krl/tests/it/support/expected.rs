@@ -40,7 +40,10 @@ pub(crate) fn steps(program: &ReachableProgram, status: &dyn Fn(&AxisValues) -> 
             | Action::Retract { .. }
             | Action::Cut { .. }
             | Action::Follow { .. }
-            | Action::Turn { .. } => line(program, from, at.unwrap(), speeds),
+            | Action::Turn { .. } => {
+                let via = op.action.via().and_then(|via| program.program().via(via));
+                line(program, from, (at.unwrap(), via), speeds)
+            }
             Action::Ultrasonic { state } => Event::Output(cell.ultrasonic.unwrap(), state == Switch::On),
             Action::Spin { state } => {
                 let output = cell.spindle.unwrap().output();
@@ -102,12 +105,7 @@ fn target(action: &Action, at: Option<(Point3, OrientationId)>) -> Option<(Point
             Some((to, at.unwrap().1))
         }
         Action::Turn { to, .. } => Some((at.unwrap().0, to)),
-        Action::Follow {
-            to,
-            orientation,
-            via: None,
-            ..
-        } => Some((to, orientation)),
+        Action::Follow { to, orientation, .. } => Some((to, orientation)),
         _ => None,
     }
 }
@@ -135,7 +133,7 @@ fn speeds_of(
 fn line(
     program: &ReachableProgram,
     from: Option<(Point3, OrientationId)>,
-    at: (Point3, OrientationId),
+    (at, via): ((Point3, OrientationId), Option<Point3>),
     (feed, rate): (f64, Option<f64>),
 ) -> Event {
     let to = pose(program, at);
@@ -147,6 +145,7 @@ fn line(
     });
     Event::Line {
         to,
+        via: via.map(Point3::to_array),
         feed,
         rates,
         rounded: false,
@@ -226,16 +225,26 @@ pub(crate) fn same(got: &Event, want: &Event, rounding: Rounding) -> bool {
         }
         (
             Event::Line {
-                to: got, feed, rates, ..
+                to: got,
+                via,
+                feed,
+                rates,
+                ..
             },
             Event::Line {
                 to: want,
+                via: wanted_via,
                 feed: wanted_feed,
                 rates: wanted_rates,
                 ..
             },
         ) => {
+            let vias_agree = match (via, wanted_via) {
+                (Some(got), Some(want)) => got.iter().zip(want).all(|(&a, &b)| near(a, b, rounding.mm)),
+                (got, want) => got == want,
+            };
             near(*feed, *wanted_feed, 0.5001e-6)
+                && vias_agree
                 && rates_agree(*rates, *wanted_rates)
                 && poses_agree(got, want, rounding)
         }

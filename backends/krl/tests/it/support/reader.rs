@@ -37,6 +37,8 @@ pub(crate) enum Event {
     },
     Line {
         to: Pose,
+        /// A place on the way of an arc.
+        via: Option<[f64; 3]>,
         /// `$VEL.CP` in m/s.
         feed: f64,
         /// `$VEL.ORI1` and `$VEL.ORI2` in deg/s, which a move that turns the blade must have.
@@ -175,6 +177,20 @@ impl Robot<'_> {
         if let Some(rest) = code.strip_prefix("LIN ").or(code.strip_prefix("SLIN ")) {
             return self.line(rest, if code.starts_with('S') { "C_SPL" } else { "C_DIS" });
         }
+        if let Some(rest) = code.strip_prefix("CIRC ").or(code.strip_prefix("SCIRC ")) {
+            let (via, rest) = rest.split_once("},").ok_or("an arc without an end")?;
+            let via = format!("{via}}}");
+            let via = aggregate(&via)?;
+            let names: Vec<&str> = via.keys().copied().collect();
+            if names != ["X", "Y", "Z"] {
+                return Err(format!("a place of {names:?}"));
+            }
+            self.line(rest, if code.starts_with('S') { "C_SPL" } else { "C_DIS" })?;
+            if let Some(Event::Line { via: known, .. }) = self.events.last_mut() {
+                *known = Some(["X", "Y", "Z"].map(|name| via[name]));
+            }
+            return Ok(());
+        }
         if let Some(rest) = code.strip_prefix("WAIT ") {
             let event = match rest.split_once(' ') {
                 Some(("FOR", input)) => Event::Await(index(input, "$IN")?),
@@ -260,6 +276,7 @@ impl Robot<'_> {
         };
         self.events.push(Event::Line {
             to,
+            via: None,
             feed,
             rates,
             rounded,
@@ -290,6 +307,7 @@ impl Robot<'_> {
             "$LOAD" => load(value)?,
             "$IPO_MODE" if value == "#BASE" => {}
             "$ORI_TYPE" if value == "#VAR" => {}
+            "$CIRC_TYPE" if value == "#PATH" => {}
             "$ADVANCE" if value == "3" => {}
             output if output.starts_with("$OUT[") => {
                 let on = match value {
