@@ -118,6 +118,10 @@ fn without(what: What, material: &Material<'_>) -> Failure {
         .help("draw `--what contour` or `--what deviation`, or write `surface { ... }` instead of `profile`"),
         What::Process => Failure::new("the job leaves no choice between two processes that both compile")
             .help("write `rough auto { ... }` with blocks `vcut` and `rect`"),
+        What::Field => Failure::new("no pocket of the job is cleared along a sound field")
+            .help("write `pattern = field` in `clear pocket`"),
+        What::Passes => Failure::new("the job has no pockets")
+            .help("write `region NAME { ... }` and `clear pocket { region = NAME ... }`"),
         What::Lattice | What::Contour | What::Deviation | What::Correlation | What::Joints | What::Time => {
             without_machine()
         }
@@ -138,6 +142,8 @@ fn picture(what: What, material: &Material<'_>) -> Option<String> {
         What::Process => pictures::process(material, ids),
         What::Surface => pictures::surface(material, ids),
         What::Residual => pictures::residual(material, ids),
+        What::Passes => pictures::passes(material, ids),
+        What::Field => pictures::wave(material, ids),
     }
 }
 

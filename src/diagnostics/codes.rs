@@ -312,6 +312,20 @@ codes! {
     AboveBlank = "VC1013", Warning, "passes above the blank";
     /// Motions straight into the uncut blank.
     Plunge = "VC1014", Warning, "plunges into the uncut blank";
+    /// Sides of a region cross, or enclose nothing.
+    RegionTangled = "VC1101", Error, "region whose loops cross or do not close";
+    /// A tool has no room in a pocket.
+    PocketTooNarrow = "VC1103", Error, "pocket too narrow for its tool";
+    /// More ground of a pocket stays uncut than may.
+    PocketUncut = "VC1105", Error, "ground of a pocket uncut";
+    /// A layer is thicker than its tool.
+    LayerTooThick = "VC1108", Error, "layer thicker than the tool";
+    /// Core stands beyond an open side.
+    OpenSideBlocked = "VC1112", Error, "open side where core stands";
+    /// A pocket reaches out of the stock, or into another one.
+    PocketOutside = "VC1113", Error, "pocket out of place";
+    /// Lines of a sound field end within a pocket, or leave ground.
+    FieldBroken = "VC1116", Warning, "lines of a sound field that end or leave ground";
 }
 
 #[cfg(test)]

@@ -11,13 +11,14 @@ mod words;
 pub use words::CheckFigure;
 
 use vcutc_backend_api::ir::Axis;
+use vcutc_backend_api::units::Area;
 use vcutc_job::{CheckedJob, Machine};
 use vcutc_machine::Model;
 use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::opw::Coupling;
 use vcutc_motion::pace::{Basis, Kept};
 use vcutc_motion::solve::{ReachReport, Reached};
-use vcutc_simulation::prove::Tracked;
+use vcutc_simulation::report::Report;
 
 /// Something that is worth knowing of a program before it runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,6 +30,8 @@ pub enum Check {
     /// In sections across tracks on a surface strips come free and no more stays than may, and the disc enters the part between
     /// poses by no more than it may.
     Tracks,
+    /// The tool keeps off the walls and the floors of pockets, and what it leaves uncut there is bounded.
+    Pockets,
     /// The same of strips and of what stays, between these sections.
     BetweenSections,
     /// Of an air cut, which cuts nothing: the tip stays above the stock.
@@ -153,16 +156,23 @@ pub struct Carried<'a> {
 impl Checks {
     /// The checks of a job whose cuts are proven.
     #[must_use]
-    pub fn of(carried: Option<Carried<'_>>, basis: Basis, bodies: Bodies, tracked: &[Tracked]) -> Self {
+    pub fn of(carried: Option<Carried<'_>>, basis: Basis, bodies: Bodies, report: &Report) -> Self {
         let holder = match bodies {
             Bodies::Stated => made(Check::Holder(Vec::new())),
             Bodies::Lacking => not_made(Check::Holder(Vec::new()), Reason::NoBody),
             Bodies::LackingOf(blades) => not_made(Check::Holder(blades), Reason::NoBody),
         };
-        let mut all = vec![made(Check::Chips), made(Check::Part)];
-        if !tracked.is_empty() {
+        let mut all = Vec::new();
+        // Pockets alone free no chips, and cut into no part.
+        if report.cleared.is_empty() || report.removed > Area::mm2(0.0) {
+            all.extend([made(Check::Chips), made(Check::Part)]);
+        }
+        if !report.tracked.is_empty() {
             all.push(made(Check::Tracks));
             all.push(not_made(Check::BetweenSections, Reason::SectionsOnly));
+        }
+        if !report.cleared.is_empty() {
+            all.push(made(Check::Pockets));
         }
         Self::after(all, carried, basis, holder)
     }
@@ -229,6 +239,7 @@ impl Checks {
                 Check::Chips
                 | Check::Part
                 | Check::Tracks
+                | Check::Pockets
                 | Check::BetweenSections
                 | Check::AboveStock
                 | Check::Accelerations

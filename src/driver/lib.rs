@@ -449,7 +449,7 @@ fn compiled(
     let carried = carried.map(|(machine, reached)| Carried { machine, reached });
     let left_over = LeftOver::of(job, &report.contour);
     Compiled {
-        checks: Checks::of(carried, paced.basis, Bodies::of(job), &report.tracked),
+        checks: Checks::of(carried, paced.basis, Bodies::of(job), &report),
         parameters: chosen::figures(plan),
         numbers: Numbers::of(plan, &report),
         summary: with_surface(

@@ -16,7 +16,7 @@ use vcutc_job::{BladeRef, Order, PlannedJob};
 use vcutc_motion::pace::Basis;
 use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 use vcutc_simulation::body::Passage;
-use vcutc_simulation::prove::Tracked;
+use vcutc_simulation::prove::{Cleared, Tracked};
 use vcutc_simulation::report::Report;
 use vcutc_surface::residual::{Over, Volume};
 
@@ -40,6 +40,16 @@ pub fn summary(
     lines.push(row("time", &times::in_all(&report.times.all)));
     lines.push(row("basis", &times::basis(basis)));
     lines.push(row("estimate", &estimate(plan, report)));
+    lines.extend(
+        report
+            .cleared
+            .iter()
+            .map(|cleared| row("cleared", &pocket(cleared))),
+    );
+    if is_of_pockets(plan) {
+        lines.extend(of_machine(reach));
+        return lines;
+    }
     lines.push(row(
         "area",
         &format!(
@@ -72,9 +82,35 @@ pub fn summary(
     if reach.is_some() {
         lines.push(row("in hand", IN_HAND));
     }
-    let reach = reach.into_iter().flat_map(reach_summary::lines);
-    lines.extend(reach.map(|(name, text)| row(name, &text)));
+    lines.extend(of_machine(reach));
     lines
+}
+
+fn of_machine(reach: Option<&ReachFigures>) -> impl Iterator<Item = String> {
+    let reach = reach.into_iter().flat_map(reach_summary::lines);
+    reach.map(|(name, text)| row(name, &text))
+}
+
+/// Whether a job does nothing that a section shows.
+fn is_of_pockets(plan: &PlannedJob) -> bool {
+    plan.operations.iter().all(|planned| planned.clearing().is_some())
+}
+
+/// `1.53 m in 2 layers; 0.00 mm2 uncut, 27.3 mm2 in corners beyond reach; rim in the material 78 deg on average, at most 121 deg`.
+fn pocket(cleared: &Cleared) -> String {
+    let layers = match cleared.layers {
+        1 => "1 layer".to_owned(),
+        layers => format!("{layers} layers"),
+    };
+    format!(
+        "{:.2} m of passes in {layers}; at most {:.2} mm2 of a layer stay uncut, and {:.1} mm2 are beyond the tool's reach; the rim is \
+         in the material by {:.0} deg on average, at the speed of cutting by at most {:.1} deg",
+        cleared.way.to_mm() / 1000.0,
+        cleared.uncut.to_mm2(),
+        cleared.beyond_reach.to_mm2(),
+        cleared.mean_engagement.to_deg(),
+        cleared.engagement.to_deg(),
+    )
 }
 
 /// Adds what is left over a part that changes along y, by straight cuts, and by tracks that follow it. The lines before are about its
@@ -200,6 +236,9 @@ fn headline(plan: &PlannedJob, report: &Report, basis: Basis, reach: Option<&Rea
             None => format!("scallop {height:.2} mm"),
         },
     ];
+    if is_of_pockets(plan) {
+        parts.truncate(2);
+    }
     parts.extend(reach.map(reach_summary::least_margin));
     format!("{}: {}", plan.name, parts.join(", "))
 }

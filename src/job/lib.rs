@@ -8,6 +8,7 @@ pub mod description;
 pub mod follow;
 pub mod operation;
 mod places;
+mod regions;
 pub mod sema;
 pub mod setup;
 mod tools;
@@ -17,6 +18,7 @@ pub use blades::{Blade, BladeKind, BladeRef, Body, BodyStage, Crusher, Disc, Str
 pub use operation::planned::{self, PlannedJob, PlannedOperation};
 pub use operation::planning::PlanningJob;
 pub use operation::{Operation, search};
+pub use regions::{Clearing, NamedRegion, SoundField, Sources};
 pub use sema::part::{Part, Shaded};
 pub use setup::Setup;
 pub use tools::{HeldChange, HeldTool, HeldTools};

@@ -36,6 +36,7 @@ pub mod point;
 mod profile;
 pub mod quantity;
 pub mod read;
+pub mod region;
 pub mod report;
 mod scope;
 pub mod session;
@@ -49,7 +50,7 @@ pub mod vocabulary;
 pub mod written;
 
 use crate::ways::{OpenChoice, Ways};
-use crate::{Blade, BladeRef, CheckedJob, Machine};
+use crate::{Blade, BladeRef, CheckedJob, Machine, NamedRegion};
 use eval::Scope;
 use files::{File, Files};
 use gather::Definitions;
@@ -212,6 +213,12 @@ fn whole(
         Some(placed) => stock::check(placed.block, placed.place, scope, session),
         None => Err(missing.stock(session)),
     };
+    let regions: Vec<Checked<NamedRegion>> = all
+        .regions
+        .iter()
+        .map(|(name, placed)| region::check(*name, placed.block, placed.place, scope, session))
+        .collect();
+    let needs_part = all.operations.is_empty() || all.operations.iter().any(|(kind, _)| kind.needs_part());
     let part = match (all.profile, all.surface) {
         (Some(placed), None) => profile::check(placed.block, placed.place, stock, scope, session),
         (None, Some(placed)) => surface::check(placed.block, placed.place, stock, scope, session),
@@ -219,7 +226,8 @@ fn whole(
             let fault = surface::beside_a_profile(surface.place, profile.place);
             Err(session.reports.push(fault))
         }
-        (None, None) => Err(missing.part(stock.ok(), session)),
+        (None, None) if needs_part => Err(missing.part(stock.ok(), session)),
+        (None, None) => stock.map(|stock| part::Part::whole(stock.node)),
     };
     let ways: Vec<Checked<Ways>> = all
         .operations
@@ -230,6 +238,7 @@ fn whole(
                 place: placed.place,
                 scope,
                 blades: &blades,
+                regions: &regions,
                 stock: stock.ok(),
             };
             kind.ways(written, session)

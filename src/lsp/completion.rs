@@ -83,12 +83,13 @@ impl Desk<'_> {
         self.context.blocks.last()
     }
 
-    /// The fields after a file of a profile or of a surface.
+    /// The fields after a file of a profile, of a surface or of a region.
     fn data_spec(&self) -> Option<&'static BlockSpec> {
         let (inner, around) = self.context.blocks.split_last()?;
         match shape(around)? {
             Around::Profile => vocabulary::data_file(inner.name()),
             Around::Surface => vocabulary::surface_file(inner.name()),
+            Around::Region => vocabulary::region_file(inner.name()),
             Around::Loft | Around::Nurbs => None,
         }
     }
@@ -108,6 +109,14 @@ impl Desk<'_> {
 
     /// The block as the reference calls it.
     fn title(&self) -> String {
+        let around = self
+            .context
+            .blocks
+            .split_last()
+            .and_then(|(_, around)| shape(around));
+        if matches!(around, Some(Around::Region)) && self.data_spec().is_some() {
+            return manual::DRAWING_OF_A_REGION.to_owned();
+        }
         match self.innermost().map(BlockAround::name) {
             Some(name) => {
                 let of_blade = self
@@ -140,6 +149,7 @@ impl Desk<'_> {
         match shape(&self.context.blocks) {
             Some(Around::Profile) => return curves(),
             Some(Around::Surface) => return surfaces(),
+            Some(Around::Region) => return loops(),
             Some(Around::Loft) => return vec![station()],
             Some(Around::Nurbs) => {
                 let mut offers = self.fields(vocabulary::nurbs(), innermost);
@@ -327,6 +337,7 @@ enum Around {
     Surface,
     Loft,
     Nurbs,
+    Region,
 }
 
 /// What the innermost of some blocks describes of a part; none if it is about something else.
@@ -337,6 +348,8 @@ fn shape(blocks: &[BlockAround]) -> Option<Around> {
         ("surface", []) => Some(Around::Surface),
         ("surface", [loft]) if loft.name() == "loft" => Some(Around::Loft),
         ("surface", [nurbs]) if nurbs.name() == "nurbs" => Some(Around::Nurbs),
+        ("region", []) => Some(Around::Region),
+        ("region", [island]) if island.name() == "island" => Some(Around::Region),
         ("surface", [loft, _]) if loft.name() == "loft" => Some(Around::Profile),
         _ => None,
     }
@@ -397,9 +410,21 @@ fn curves() -> Vec<Offer> {
     pieces.chain([formula]).collect()
 }
 
+/// The pieces of a region.
+fn loops() -> Vec<Offer> {
+    let pieces = vocabulary::LOOPS.iter().map(|(word, form)| Offer {
+        snippet: verbatim(form),
+        detail: (*form).to_owned(),
+        documentation: manual::row(Table::Loops, word).map(manual::Row::text),
+        ..offer(word, CompletionItemKind::KEYWORD, Rank::Fitting)
+    });
+    pieces.collect()
+}
+
 /// The words that a piece lacks next.
 fn joints(piece: &str, given: &[String]) -> Vec<Offer> {
     let words: &[&str] = match (piece, given) {
+        ("circle", []) => &["radius"],
         (_, []) => &["to"],
         ("arc", [_]) => &["radius", "center", "through"],
         _ => &[],

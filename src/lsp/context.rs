@@ -177,14 +177,14 @@ fn in_piece(around: &Surroundings<'_>, before: usize, depth: usize) -> Option<Wa
     let is_file = vocabulary::any_file(&piece).is_some();
     match last {
         "radius" => return Some(Wanted::Value(Slot::at(around, before))),
-        "to" | "center" | "through" | "start" => return Some(Wanted::Point),
+        "to" | "center" | "through" | "start" | "circle" => return Some(Wanted::Point),
         word if Row::named(word) == Some(Row::Control) => return Some(Wanted::ControlPoint),
         word if Row::named(word).is_some() => return Some(Wanted::Point),
         word if is_file && word == piece => return Some(Wanted::File),
         _ => {}
     }
     let lacks = match piece.as_str() {
-        "line" | "bezier" | "spline" | "polyline" => given.is_empty(),
+        "line" | "bezier" | "spline" | "polyline" | "open" | "circle" => given.is_empty(),
         "arc" => given.len() < 2,
         _ => false,
     };

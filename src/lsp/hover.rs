@@ -11,7 +11,7 @@ use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_job::sema::study::{Definition, Meaning};
 use vcutc_job::sema::vocabulary::{self, walk};
 use vcutc_machine::catalogue;
-use vcutc_syntax::ast::{Block, Entry, Expr, Item};
+use vcutc_syntax::ast::{Ast, Block, Entry, Expr, HeadPart, Item};
 use vcutc_syntax::lexical::{TokenKind, tokens};
 
 /// What there is to say about a place.
@@ -79,21 +79,38 @@ fn keyword(analysis: &Analysis, path: &str, offset: usize) -> Option<Reported> {
     if sites(ast, analysis.study.operations).iter().any(is_site) {
         return None;
     }
-    let text = keyword_explained(text.get(token.start..token.end)?)?;
+    let pieces = if is_in_a_region(ast, span) {
+        Table::Loops
+    } else {
+        Table::Pieces
+    };
+    let text = keyword_explained(text.get(token.start..token.end)?, pieces)?;
     Some(Reported { span, text })
 }
 
-/// What the reference says about a word that means the same everywhere.
-fn keyword_explained(word: &str) -> Option<String> {
+fn is_in_a_region(ast: &Ast, place: Span) -> bool {
+    ast.items.iter().any(|item| {
+        let Item::Block(block) = item else {
+            return false;
+        };
+        let is_region =
+            matches!(block.head.first().map(|head| &head.node), Some(HeadPart::Word(word)) if word == "region");
+        is_region && block.span.start <= place.start && place.end <= block.span.end
+    })
+}
+
+/// What the reference says about a word that means the same everywhere, but for the pieces of profiles and regions.
+fn keyword_explained(word: &str, pieces: Table<'_>) -> Option<String> {
     let row = match word {
         "job" | "use" | "let" => return manual::about(word),
         "tips" => manual::row(Table::Fields("rough vcut"), word),
         "body" => manual::row(Table::Fields("blade"), word),
         "row" => manual::row(Table::Fields("nurbs"), word),
-        _ => manual::row(Table::Pieces, word)
+        _ => manual::row(pieces, word)
             .or_else(|| manual::row(Table::Joints, word))
             .or_else(|| manual::row(Table::Sources, word))
-            .or_else(|| manual::row(Table::Files, word)),
+            .or_else(|| manual::row(Table::Files, word))
+            .or_else(|| manual::row(Table::Loops, word)),
     };
     Some(format!("`{word}`: {}", row?.text()))
 }
@@ -181,6 +198,7 @@ fn name(analysis: &Analysis, definition: &Definition) -> String {
         }
         Meaning::Value(None) => format!("`{name}`, a value that could not be worked out"),
         Meaning::Blade(kind) => format!("`{name}`, {}", kind.words()),
+        Meaning::Region => format!("`{name}`, a region"),
         Meaning::Machine => format!("`{name}`, a machine"),
     };
     format!("{what}\n\n```vcut\n{shown}\n```\n\nDefined in {file}")

@@ -6,6 +6,9 @@
 
 const REFERENCE: &str = include_str!("../../docs/language.md");
 
+/// A drawing of a region among the blocks of [`Table::Fields`].
+pub(super) const DRAWING_OF_A_REGION: &str = "drawing of a region";
+
 /// A table of the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Table<'a> {
@@ -13,6 +16,8 @@ pub(super) enum Table<'a> {
     Fields(&'a str),
     /// The pieces of a profile.
     Pieces,
+    /// The pieces of a region.
+    Loops,
     /// The words that join the parts of a piece.
     Joints,
     /// The files that a profile can be.
@@ -93,6 +98,7 @@ pub(super) fn rows(table: Table<'_>) -> impl Iterator<Item = Row> + Clone {
     let start = match table {
         Table::Fields(block) => fields_table(block),
         Table::Pieces => headed("| Piece |"),
+        Table::Loops => headed("| Piece of a region |"),
         Table::Joints => headed("| Word in a piece |"),
         Table::Files => headed("| File | Holds |"),
         Table::Sources => headed("| Source | Is |"),
@@ -104,6 +110,7 @@ pub(super) fn rows(table: Table<'_>) -> impl Iterator<Item = Row> + Clone {
         Table::Auto(block) => match section(block) {
             "rough rect" => headed("| Field of `rough rect` | Chosen as |"),
             "finish disc" => headed("| Field of `finish disc` | Chosen as |"),
+            "clear pocket" => headed("| Field of `clear pocket` | Chosen as |"),
             _ => headed("| Field | Chosen as |"),
         },
         Table::Formulas => headed("| Value | Enters |"),
@@ -125,6 +132,7 @@ fn fields_table(block: &str) -> Option<usize> {
         "points" => headed("| Field of `points` |"),
         "airfoil" => headed("| Field of `airfoil` |"),
         "dxf" | "svg" => headed("| Field of `dxf` and `svg` |"),
+        DRAWING_OF_A_REGION => headed("| Field of a drawing of a region |"),
         "mesh" => headed("| Field of `mesh` |"),
         "grid" => headed("| Field of `grid` |"),
         "step" => headed("| Field of `step` |"),
@@ -227,6 +235,7 @@ mod tests {
             "rough rect",
             "rough auto",
             "finish disc",
+            "clear pocket",
             "machine",
             "cell",
         ];
@@ -241,6 +250,9 @@ mod tests {
         }
         for word in ["points", "airfoil", "dxf", "svg"] {
             all.push((word, vocabulary::data_file(word).unwrap()));
+        }
+        for word in ["dxf", "svg"] {
+            all.push((DRAWING_OF_A_REGION, vocabulary::region_file(word).unwrap()));
         }
         for word in SurfaceFile::ALL.map(SurfaceFile::word) {
             all.push((word, vocabulary::surface_file(word).unwrap()));
@@ -303,6 +315,9 @@ mod tests {
             };
             assert!(row(table, word).is_some(), "{word}");
         }
+        for (word, _) in vocabulary::LOOPS {
+            assert!(row(Table::Loops, word).is_some(), "{word}");
+        }
         let sources = vocabulary::SURFACES.iter().chain([&vocabulary::STATION]);
         for word in sources.map(|(word, _)| *word).chain(["z"]) {
             assert!(row(Table::Sources, word).is_some(), "{word}");
@@ -320,6 +335,8 @@ mod tests {
             "rough rect",
             "rough auto",
             "finish disc",
+            "region",
+            "clear pocket",
             "machine",
             "cell",
             "let",

@@ -72,7 +72,7 @@ fn is_reference(analysis: &Analysis, site: &Site<'_>, name: &str) -> bool {
     match (site.place.words, meaning) {
         (_, None) => false,
         (Words::Names, Some(_)) | (Words::OfTarget, Some(Meaning::Value(_))) => true,
-        (Words::OfTarget, Some(Meaning::Blade(_) | Meaning::Machine)) => false,
+        (Words::OfTarget, Some(Meaning::Blade(_) | Meaning::Region | Meaning::Machine)) => false,
     }
 }
 
@@ -124,7 +124,10 @@ pub(super) fn refused(analyses: &[&Analysis], old: &str, new: &str) -> Option<St
             "`{new}` is not a name: a name is letters, digits and `_`, and begins with no digit"
         ));
     }
-    let curves = vocabulary::CURVES.iter().map(|(word, _)| *word);
+    let curves = vocabulary::CURVES
+        .iter()
+        .chain(vocabulary::SIDES)
+        .map(|(word, _)| *word);
     let taken = KEYWORDS
         .iter()
         .chain(RESERVED)
@@ -143,6 +146,7 @@ fn clash(analysis: &Analysis, new: &str) -> Option<String> {
         let what = match known.meaning {
             Meaning::Value(_) => "a value",
             Meaning::Blade(_) => "a blade",
+            Meaning::Region => "a region",
             Meaning::Machine => "a machine",
         };
         return Some(format!("`{new}` is {what} already, in {file}"));

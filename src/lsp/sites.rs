@@ -3,6 +3,7 @@
 //! Every question about a place in a text is answered from this row: what is under the cursor, where a name is used, which
 //! values can be hinted at. It is made from the tree alone; what names stand for is known by the study of the whole job.
 
+use super::manual;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_job::sema::kind::Operations;
 use vcutc_job::sema::vocabulary::{self, BlockSpec, FieldSpec, Leaving, RESERVED, Takes};
@@ -58,6 +59,7 @@ pub(super) enum Kind<'a> {
 pub(super) enum Named {
     Value,
     Blade,
+    Region,
     Machine,
 }
 
@@ -164,7 +166,7 @@ impl<'a> Row<'a> {
         }
         self.push(*span, Kind::Block, place);
         self.head(first, block, place);
-        if matches!(first.as_str(), "profile" | "surface") {
+        if matches!(first.as_str(), "profile" | "surface" | "region") {
             for entry in &block.entries {
                 self.profile_entry(entry, place);
             }
@@ -183,6 +185,7 @@ impl<'a> Row<'a> {
         for (number, part) in block.head.iter().enumerate().skip(1) {
             let kind = match (&part.node, first, number) {
                 (HeadPart::Word(name), "blade", 1) => Kind::Definition(Named::Blade, name),
+                (HeadPart::Word(name), "region", 1) => Kind::Definition(Named::Region, name),
                 (HeadPart::Word(name), "machine", 1) => Kind::Definition(Named::Machine, name),
                 (HeadPart::Word(_), _, _) => Kind::HeadWord,
                 (HeadPart::Text(model), "machine", _) => Kind::Path(Path::Model, model),
@@ -305,6 +308,12 @@ impl<'a> Row<'a> {
                 [head] if head.node == HeadPart::Word("nurbs".to_owned()) => {
                     self.nurbs(inner, head.span, place)
                 }
+                [head] if head.node == HeadPart::Word("island".to_owned()) => {
+                    self.push(head.span, Kind::Block, place);
+                    for entry in &inner.entries {
+                        self.profile_entry(entry, place);
+                    }
+                }
                 _ => self.inner_block(inner, None, place),
             },
         }
@@ -328,7 +337,13 @@ impl<'a> Row<'a> {
 
     fn curve(&mut self, curve: &'a Curve, place: Place<'a>) {
         match curve {
-            Curve::Start(point) | Curve::Line { to: point } => self.point(point, place),
+            Curve::Start(point) | Curve::Line { to: point } | Curve::Open { to: point } => {
+                self.point(point, place);
+            }
+            Curve::Circle { center, radius } => {
+                self.point(center, place);
+                self.value(radius, place, &[]);
+            }
             Curve::Arc { to, by } => {
                 self.point(to, place);
                 match by {
@@ -357,8 +372,12 @@ impl<'a> Row<'a> {
         place: Place<'a>,
     ) {
         self.push(path.span, Kind::Path(Path::Data, &path.node), place);
-        let place = Place { block: word, ..place };
-        self.entries(options, vocabulary::data_file(word), place);
+        let is_of_region = place.block == "region";
+        let (block, spec) = match vocabulary::region_file(word).filter(|_| is_of_region) {
+            Some(spec) => (manual::DRAWING_OF_A_REGION, Some(spec)),
+            None => (word, vocabulary::data_file(word)),
+        };
+        self.entries(options, spec, Place { block, ..place });
     }
 
     fn points(&mut self, points: &'a [Point], place: Place<'a>) {
@@ -368,8 +387,8 @@ impl<'a> Row<'a> {
     }
 
     fn point(&mut self, point: &'a Point, place: Place<'a>) {
-        self.value(&point.x, place, &[]);
-        self.value(&point.z, place, &[]);
+        self.value(&point.first, place, &[]);
+        self.value(&point.second, place, &[]);
     }
 
     /// A whole value, and what is in it.
@@ -436,6 +455,7 @@ fn bare_word<'a>(word: &'a str, field: Option<&'static FieldSpec>) -> Kind<'a> {
             Takes::Anything
             | Takes::Quantity(_)
             | Takes::Blade(_)
+            | Takes::Region
             | Takes::Machine
             | Takes::Calls(_)
             | Takes::Fields(_),
@@ -588,7 +608,7 @@ mod tests {
                     "{name}: {reported:?}"
                 );
             }
-            Takes::Blade(_) | Takes::Machine => {
+            Takes::Blade(_) | Takes::Region | Takes::Machine => {
                 assert!(has(&with(file, span, "zzzzzzzz"), "VC0201"), "{name}");
                 assert!(!with(file, span, "reach").is_empty(), "{name}: a value is none");
             }

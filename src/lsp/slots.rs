@@ -128,7 +128,7 @@ fn is_call(around: &Surroundings<'_>, name: usize) -> bool {
     let of_pieces = |word: &str| {
         Row::named(word).is_some()
             || vocabulary::JOINTS_OF_CURVES.contains(&word)
-            || vocabulary::CURVES.iter().any(|(known, _)| *known == word)
+            || vocabulary::begins_a_piece(word)
     };
     let is_unit = name.checked_sub(1).is_some_and(|number| around.is_number(number));
     around.word(name).is_some_and(|word| !of_pieces(word)) && !is_unit
@@ -139,7 +139,7 @@ fn owner(around: &Surroundings<'_>, first: usize) -> Owner {
         if let Some(word) = around.word(number)
             && (Row::named(word).is_some()
                 || vocabulary::JOINTS_OF_CURVES.contains(&word)
-                || vocabulary::CURVES.iter().any(|(known, _)| *known == word))
+                || vocabulary::begins_a_piece(word))
         {
             return Owner::Coordinate;
         }

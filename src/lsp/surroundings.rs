@@ -290,10 +290,7 @@ impl Surroundings<'_> {
             }
             let Some(word) = self.word(number) else { continue };
             let is_file = SurfaceFile::named(word).is_some();
-            if vocabulary::CURVES.iter().any(|(known, _)| *known == word)
-                || Row::named(word).is_some()
-                || is_file
-            {
+            if vocabulary::begins_a_piece(word) || Row::named(word).is_some() || is_file {
                 given.reverse();
                 return Some((word.to_owned(), given));
             }

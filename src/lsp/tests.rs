@@ -64,6 +64,7 @@ fn heads() -> Vec<(&'static str, &'static BlockSpec)> {
         "rough rect ",
         "rough auto ",
         "finish disc ",
+        "clear pocket ",
         MACHINE,
         "cell ",
     ]
@@ -108,7 +109,7 @@ fn of_field(field: &FieldSpec) -> Vec<(String, Vec<String>)> {
                 }
             }
         }
-        Takes::Anything | Takes::Quantity(_) | Takes::Blade(_) | Takes::Machine => {}
+        Takes::Anything | Takes::Quantity(_) | Takes::Blade(_) | Takes::Region | Takes::Machine => {}
     }
     all
 }
@@ -151,6 +152,10 @@ fn other_spots() -> Vec<Spot> {
     let mut spots = Vec::new();
     for (word, form) in vocabulary::CURVES {
         let text = format!("profile {{ {form} }}\n");
+        spots.push(spot(&text, &format!("{{ {word}"), word));
+    }
+    for (word, form) in vocabulary::LOOPS {
+        let text = format!("region seat {{ {form} }}\n");
         spots.push(spot(&text, &format!("{{ {word}"), word));
     }
     for (word, form) in vocabulary::SURFACES {
@@ -351,7 +356,8 @@ fn fields() -> Vec<&'static FieldSpec> {
 
 #[test]
 fn the_grammar_of_editors_has_every_word_and_no_other() {
-    let curves = vocabulary::CURVES.iter().map(|(word, _)| *word);
+    let pieces = vocabulary::CURVES.iter().chain(vocabulary::SIDES);
+    let curves = pieces.map(|(word, _)| *word);
     let joints = vocabulary::JOINTS_OF_CURVES.iter().copied();
     assert_eq!(
         named_by("curve", None),
@@ -395,7 +401,7 @@ fn the_grammar_of_editors_has_every_word_and_no_other() {
         named_by("head", Some(0)),
         set(blades.into_iter().chain(["blade"]))
     );
-    let firsts = ["rough", "finish"];
+    let firsts = ["rough", "finish", "clear"];
     let seconds = firsts
         .into_iter()
         .flat_map(|first| vocabulary::head_words(first, OPERATIONS));
@@ -484,7 +490,9 @@ fn functions_take_and_give_what_their_signatures_say() {
         let known = Analysis::of("/job.vcut", 1, &One(text), (OPERATIONS, &Surfaces::default())).unwrap();
         let dimension = |name: &str| match known.study.definition(name).unwrap().meaning {
             Meaning::Value(Some(value)) => value.dimension(),
-            Meaning::Value(None) | Meaning::Blade(_) | Meaning::Machine => panic!("{example}"),
+            Meaning::Value(None) | Meaning::Blade(_) | Meaning::Region | Meaning::Machine => {
+                panic!("{example}")
+            }
         };
         let (taken, given) = (dimension("taken"), dimension("given"));
         match vocabulary::signature(name).unwrap() {

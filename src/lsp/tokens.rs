@@ -98,7 +98,7 @@ const fn class_of(kind: Kind<'_>) -> Option<(Class, u32)> {
     Some(match kind {
         Kind::Block | Kind::HeadWord | Kind::Auto => (Class::Keyword, 0),
         Kind::Definition(Named::Value, _) => (Class::Variable, DECLARATION),
-        Kind::Definition(Named::Blade | Named::Machine, _) => (Class::Type, DECLARATION),
+        Kind::Definition(Named::Blade | Named::Region | Named::Machine, _) => (Class::Type, DECLARATION),
         Kind::Reference(_) => (Class::Variable, 0),
         Kind::Field(_) => (Class::Property, 0),
         Kind::Word => (Class::EnumMember, 0),
@@ -149,7 +149,7 @@ fn is_keyword(word: &str, operations: Operations) -> bool {
     let joints = vocabulary::JOINTS_OF_CURVES.contains(&word);
     joints
         || vocabulary::items(operations).any(|(known, _)| known == word)
-        || vocabulary::CURVES.iter().any(|(known, _)| *known == word)
+        || vocabulary::begins_a_piece(word)
         || vocabulary::surface_file(word).is_some()
 }
 

@@ -73,6 +73,7 @@ impl Place<'_> {
         match spec.takes {
             Takes::Words(words) => offers.extend(words().iter().map(|word| self.word(spec.name, word))),
             Takes::Blade(kind) => offers.extend(self.blades(kind)),
+            Takes::Region => offers.extend(self.named(Meaning::Region)),
             Takes::Machine => offers.extend(self.named(Meaning::Machine)),
             Takes::Calls(calls) => offers.extend(self.calls(spec.name, calls)),
             Takes::Quantity(range) => {

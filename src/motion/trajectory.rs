@@ -209,8 +209,16 @@ fn fractions(steps: f64) -> impl Iterator<Item = f64> {
 
 fn course_steps(spacing: &Spacing, line: &LinearSegment) -> f64 {
     let (length, turn) = (line.length().to_mm(), line.turn.to_rad());
-    (length / spacing.way).max(turn / spacing.turn).ceil()
+    // On a small arc the tip goes far aside between two places that are near to each other.
+    let sweep = line.arc().map_or(0.0, |arc| arc.sweep().to_rad());
+    (length / spacing.way)
+        .max(turn / spacing.turn)
+        .max(sweep / ARC)
+        .ceil()
 }
+
+/// Farthest that the way of the tip turns on an arc from one sample to the next, in rad.
+const ARC: f64 = core::f64::consts::PI / 12.0;
 
 fn axis_steps(axes: &[Axis], spacing: &Spacing, from: &Joints, to: &Joints) -> f64 {
     let steps = axes.iter().zip(from.iter().zip(to)).map(|(axis, (from, to))| {

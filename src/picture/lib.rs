@@ -17,6 +17,7 @@ pub mod joints;
 pub mod lattice;
 mod palette;
 pub mod pareto;
+pub mod passes;
 pub mod paths;
 pub mod plan_map;
 pub mod processes;
@@ -32,6 +33,7 @@ pub mod thin;
 mod tiles;
 pub mod times;
 mod trace;
+pub mod wave;
 
 pub use palette::dark;
 pub use sheet::{PAGE_WIDTH, PHONE_WIDTH};

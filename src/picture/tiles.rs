@@ -111,12 +111,17 @@ fn runs(count: usize, holds: impl Fn(usize) -> bool) -> Vec<[usize; 2]> {
 /// The paint of a class out of so many: spread over the whole scale of colours, so that few classes differ well; without smoothing, so
 /// that no seams show between tiles.
 pub(super) fn paint(class: u32, count: u32) -> String {
+    let colour = colour(class, count);
+    format!("fill=\"{colour}\" shape-rendering=\"crispEdges\"")
+}
+
+/// The colour of one of so many classes.
+pub(super) fn colour(class: u32, count: u32) -> &'static str {
     let last = MOST_CLASSES - 1;
     let index = (class * last)
         .checked_div(count.saturating_sub(1))
         .unwrap_or(last);
-    let colour = COLOURS.get(index as usize).copied().unwrap_or("#fde725");
-    format!("fill=\"{colour}\" shape-rendering=\"crispEdges\"")
+    COLOURS.get(index as usize).copied().unwrap_or("#fde725")
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use crate::posture::{Feed, Holder};
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{Action, FeedId, Flank, Joint, OperationId, RateId, Site, Switch};
-use vcutc_backend_api::units::Length;
+use vcutc_backend_api::units::{Length, Speed};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::grid;
 use vcutc_job::{Direction, Setup};
@@ -67,6 +67,16 @@ pub struct Stand {
     pub tip: Point3,
     pub held: Orientation,
     /// How the piece ends that leads here.
+    pub joint: Joint,
+}
+
+/// A piece of a path at a speed of its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    pub to: Point3,
+    /// A point on the way of an arc; none of a line.
+    pub via: Option<Point3>,
+    pub feed: FeedId,
     pub joint: Joint,
 }
 
@@ -166,24 +176,7 @@ impl<'b> Writer<'b> {
         let Some((first, rest)) = poses.split_first() else {
             return;
         };
-        let above = Point3 {
-            z: self.safe,
-            ..first.tip
-        };
-        match self.at {
-            At::Above => {
-                let way = layer_of(site).unwrap_or(site);
-                self.rise_to_turn(way);
-                self.travel_to(way, above, first.held);
-                self.start(way);
-            }
-            At::Beside(_) | At::AfterChain => {
-                self.rise();
-                self.travel_to(site, above, first.held);
-            }
-        }
-        let feed = self.travel;
-        self.go(site, first.tip, Action::Approach { to: first.tip, feed });
+        self.begin_chain(site, first.tip, first.held);
         for stand in rest {
             let action = Action::Follow {
                 to: stand.tip,
@@ -195,6 +188,53 @@ impl<'b> Writer<'b> {
             };
             self.go(site, stand.tip, action);
         }
+        self.end_chain(site);
+    }
+
+    /// A chain of lines and arcs from a place in the air, with the tool held alike all along, over the safe plane from wherever the
+    /// tool is. It ends where the way up is free.
+    pub fn path(&mut self, site: Site, from: Point3, held: Orientation, steps: &[Step]) {
+        self.begin_chain(site, from, held);
+        let orientation = self.builder.orientation(held);
+        for step in steps {
+            let action = Action::Follow {
+                to: step.to,
+                orientation,
+                via: step.via.map(|via| self.builder.via(via)),
+                feed: step.feed,
+                rate: self.rate,
+                joint: step.joint,
+            };
+            self.go(site, step.to, action);
+        }
+        self.end_chain(site);
+    }
+
+    /// A speed of the program.
+    pub fn feed_of(&mut self, speed: Speed) -> FeedId {
+        self.builder.feed(speed)
+    }
+
+    /// Over the safe plane to where a chain begins, and straight down.
+    fn begin_chain(&mut self, site: Site, tip: Point3, held: Orientation) {
+        let above = Point3 { z: self.safe, ..tip };
+        match self.at {
+            At::Above => {
+                let way = layer_of(site).unwrap_or(site);
+                self.rise_to_turn(way);
+                self.travel_to(way, above, held);
+                self.start(way);
+            }
+            At::Beside(_) | At::AfterChain => {
+                self.rise();
+                self.travel_to(site, above, held);
+            }
+        }
+        let feed = self.travel;
+        self.go(site, tip, Action::Approach { to: tip, feed });
+    }
+
+    fn end_chain(&mut self, site: Site) {
         self.at = At::AfterChain;
         self.layer = layer_of(site);
     }

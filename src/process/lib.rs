@@ -3,6 +3,7 @@
 //! What an operation does at each stage is its own affair (`src/operations`); here is what they have in common.
 
 pub mod beside;
+pub mod clearing;
 pub mod comparison;
 pub mod lower;
 pub mod plan;

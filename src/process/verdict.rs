@@ -5,6 +5,7 @@
 mod attempts;
 mod bodies;
 
+use crate::clearing;
 use crate::lower;
 use crate::plan::plan_while;
 use crate::tracks::proof::judged;
@@ -24,7 +25,7 @@ use vcutc_job::search::{RouteSet, SearchSpace};
 use vcutc_job::{CheckedJob, PlannedJob, PlannedOperation, Sourced};
 use vcutc_simulation::body::{self, Bodies};
 use vcutc_simulation::disc::{Hold, PassFault, Stretch};
-use vcutc_simulation::prove::{self, Bound, CutFault, Finding, Findings, Replay};
+use vcutc_simulation::prove::{self, Bound, ClearingFault, CutFault, Finding, Findings, Replay};
 use vcutc_simulation::report::{Report, report};
 use vcutc_simulation::timing::{timing, total};
 
@@ -84,6 +85,7 @@ pub fn replay(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
         let (before, program) = (&replay.surface, program.program());
         replay.tracked = judged(part.surface(), before, program, &bounds, &mut replay.findings);
     }
+    replay.cleared = clearing::judged(plan, &mut replay.surface, program.program(), &mut replay.findings);
     replay
 }
 
@@ -206,6 +208,19 @@ pub fn explained(asked: &dyn Operation, finding: Finding) -> Diagnostic {
             format!("at y {} mm", show(y.to_mm())),
         )
         .help("please report the job together with this message"),
+        CutFault::Clearing(fault) => {
+            let message = format!("at {}, {}", place(&finding), clearing_words(fault));
+            let code = match fault {
+                ClearingFault::Uncut { .. } => Code::PocketUncut,
+                ClearingFault::Thick { .. } => Code::LayerTooThick,
+                ClearingFault::Body { .. } => Code::BodyInWork,
+                ClearingFault::Wall { .. } | ClearingFault::Floor { .. } => Code::Overcut,
+                ClearingFault::Leans | ClearingFault::Engaged { .. } | ClearingFault::Undecided => {
+                    Code::Internal
+                }
+            };
+            Diagnostic::new(code, message, span, "a pass of this operation")
+        }
         CutFault::Stays { at, height, limit } => {
             let (what, label) = stays_words(at, height, limit);
             let place = place(&finding);
@@ -225,6 +240,43 @@ pub fn explained(asked: &dyn Operation, finding: Finding) -> Diagnostic {
                 _ => Code::ChipNotFreed,
             };
             Diagnostic::new(code, message, span, label)
+        }
+    }
+}
+
+/// What is wrong with a pass over a region, after "at layer 2, cut 1 (x 12 mm, y 40 mm, z 16 mm), ".
+#[must_use]
+pub fn clearing_words(fault: ClearingFault) -> String {
+    let mm = |length: Length| show((length.to_mm() * 1e6).ceil() / 1e6);
+    match fault {
+        ClearingFault::Wall { by } => format!("the tool enters a wall by {} mm", mm(by)),
+        ClearingFault::Floor { by } => format!("the tool goes below the floor by {} mm", mm(by)),
+        ClearingFault::Leans => "the tool does not stand upright".to_owned(),
+        ClearingFault::Thick { layer, limit } => format!(
+            "a layer is {} mm thick, and the tool cuts {} mm",
+            mm(layer),
+            mm(limit)
+        ),
+        ClearingFault::Body { above, by } => format!(
+            "the body of the tool, from {} mm above its edge, meets a wall by {} mm",
+            mm(above),
+            mm(by)
+        ),
+        ClearingFault::Uncut {
+            area, widest, limit, ..
+        } => format!(
+            "{} mm2 stay uncut in places up to {} mm wide, the limit is {} mm2",
+            show((area.to_mm2() * 10.0).ceil() / 10.0),
+            show((widest.to_mm() * 100.0).ceil() / 100.0),
+            show(limit.to_mm2())
+        ),
+        ClearingFault::Engaged { angle, limit } => format!(
+            "{} deg of the tool's rim are in the material, the limit is {} deg",
+            show((angle.to_deg() * 10.0).ceil() / 10.0),
+            show(limit.to_deg())
+        ),
+        ClearingFault::Undecided => {
+            "the passes are too many or too entangled to say what they clear".to_owned()
         }
     }
 }

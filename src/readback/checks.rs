@@ -431,6 +431,13 @@ impl Read<'_> {
                 let (what, label) = verdict::strip_words(fault);
                 (format!("at {place}, {what}"), label)
             }
+            CutFault::Clearing(fault) => {
+                let y = finding.y.unwrap_or_default();
+                (
+                    format!("at {place}, {}", verdict::clearing_words(fault)),
+                    format!("at x {} mm, y {} mm", show(finding.tip.x), show(y)),
+                )
+            }
             CutFault::Strays { y, by } => (
                 format!(
                     "{place} leaves the spine that all cuts follow by {} mm",

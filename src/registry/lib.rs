@@ -9,6 +9,7 @@ pub const OPERATIONS: Operations = Operations(&[
     &vcutc_rect::Rect,
     &vcutc_auto::Auto,
     &vcutc_finish::Finish,
+    &vcutc_pocket::Pocket,
 ]);
 
 /// All backends, in the order of their names.

@@ -14,6 +14,7 @@ mod help;
 mod live;
 mod machine;
 mod parameters;
+mod pockets;
 pub(super) mod policy;
 mod set_up;
 mod source;
@@ -109,6 +110,7 @@ impl Content {
             Some(played(subject)),
             Some(cross_section::section(subject)),
             surface::section(subject),
+            pockets::section(subject),
             Some(deviation::section(subject)),
             machine::section(subject),
             Some(times::section(subject)),

@@ -6,20 +6,24 @@
 mod blade;
 mod joints;
 mod machined;
+mod passes;
 mod paths;
 mod plan_maps;
 mod process;
 mod sections;
 mod strips;
 mod time;
+mod wave;
 
 pub use blade::blade;
 pub use joints::{joints, joints_twice};
+pub use passes::{figures as pocket_figures, passes};
 pub use paths::paths;
 pub use plan_maps::{SurfaceMap, residual, surface};
 pub use process::process;
 pub use sections::SurfaceSections;
 pub use time::time;
+pub use wave::wave;
 
 use super::Material;
 use machined::{By, Machined, Taken, machined};

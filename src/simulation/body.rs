@@ -207,11 +207,12 @@ impl<'p> Watcher<'p> {
         }
     }
 
+    /// Whether what its cuts take is judged elsewhere, and with that how bodies pass it.
     fn takes_skin_off(&self, operation: OperationId) -> bool {
         let bound = self.bounds.get(usize::from(operation.0));
         matches!(
             bound.and_then(|bound| bound.passes),
-            Some(Passes::Skin(_) | Passes::Tracks(_))
+            Some(Passes::Skin(_) | Passes::Tracks(_) | Passes::Region)
         )
     }
 

@@ -12,12 +12,13 @@
 //! stay out of the part and the operation's allowance everywhere (a later operation may come closer to the part than an
 //! earlier one). They are compared corner by corner at the end; between corners both are straight.
 //!
-//! Tracks of a disc that change along y are judged elsewhere, where the surface is known that they follow ([`Tracks`]): here they take
-//! nothing off.
+//! Tracks of a disc that change along y are judged elsewhere, where the surface is known that they follow ([`Tracks`]), and so are
+//! passes over a region of the plan ([`Cleared`]): here they take nothing off.
 //!
 //! On a piece of a chain the blade itself is followed, with its thickness and the chain's blend ([`piece`]).
 
 mod along;
+mod cleared;
 mod entry;
 mod findings;
 mod flank;
@@ -33,6 +34,7 @@ use super::disc::PassFault;
 use super::sides::ThickFlank;
 use super::surface::{Side, Single, Surface, Vee};
 use along::AlongSpine;
+pub use cleared::{Cleared, ClearingFault};
 use core::num::NonZeroU32;
 pub use entry::below_top;
 pub(super) use entry::merge_heights;
@@ -136,6 +138,8 @@ pub enum CutFault {
     },
     /// A pass of a disc does not do what it is for.
     Strip(PassFault),
+    /// A pass over a region does what it must not, or not what it is for.
+    Clearing(ClearingFault),
     /// More stays on the part beside a track than may.
     Stays {
         /// Where that is the most.
@@ -160,6 +164,8 @@ pub struct Replay {
     pub layers: Vec<(OperationId, usize)>,
     /// What tracks on a surface do, operation by operation; empty until they are judged where the surface is known.
     pub tracked: Vec<Tracked>,
+    /// What passes over regions do, operation by operation; empty until they are judged where the regions are known.
+    pub cleared: Vec<Cleared>,
 }
 
 /// Replays a program's cuts. `bounds` are the operations' own, in order.
@@ -622,7 +628,7 @@ impl<'p> Player<'p> {
             return;
         }
         let passes = bound.and_then(|bound| bound.passes);
-        if let Some(Passes::Tracks(_)) = passes {
+        if let Some(Passes::Tracks(_) | Passes::Region) = passes {
             return;
         }
         if let Some(through) = Through::of(self.program, segment, passes) {
@@ -673,6 +679,7 @@ impl<'p> Player<'p> {
                 .map(|((operation, _), cuts)| (operation, cuts))
                 .collect(),
             tracked: Vec::new(),
+            cleared: Vec::new(),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::body::Passage;
 use super::contour::{Sampled, Scallop, farthest};
-use super::prove::{Replay, Tracked};
+use super::prove::{Cleared, Replay, Tracked};
 use super::timing::Times;
 use vcutc_backend_api::ir::{OperationId, Stock};
 use vcutc_backend_api::units::{Area, Length};
@@ -37,6 +37,8 @@ pub struct Report {
     pub body: Option<Passage>,
     /// What tracks on a surface do, operation by operation. The other figures are of what the cuts before them leave.
     pub tracked: Vec<Tracked>,
+    /// What passes over regions do, operation by operation.
+    pub cleared: Vec<Cleared>,
 }
 
 impl Report {
@@ -83,6 +85,7 @@ pub fn report(replay: Replay, stock: Stock, part: &Profile, times: Times) -> Rep
         deepest,
         body: None,
         tracked: replay.tracked,
+        cleared: replay.cleared,
         contour: corners,
     }
 }

@@ -171,6 +171,16 @@ impl Surface {
         left.max(right)
     }
 
+    /// The highest of it between two places; that at the nearer side of the stock where both lie beyond it.
+    pub fn highest(&mut self, from: f64, to: f64) -> f64 {
+        let width = self.width();
+        let (from, to) = (from.clamp(0.0, width), to.clamp(0.0, width));
+        let ends = self.height(from).max(self.height(to));
+        self.corners_between(from, to)
+            .map(|corner| corner.z)
+            .fold(ends, f64::max)
+    }
+
     /// Heights at x just left and just right of it: they differ at a wall, and nowhere else. At a side of the stock both
     /// are that of the side within.
     pub fn heights(&mut self, x: f64) -> [f64; 2] {

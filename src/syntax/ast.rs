@@ -209,18 +209,18 @@ impl SurfaceFile {
     }
 }
 
-/// A point `(x, z)` of a profile or of a row, as written.
+/// A point as written: `(x, z)` of a profile, `(x, y)` of a region, `(height, radius)` of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// Along x.
-    pub x: Spanned<Expr>,
-    /// Along z.
-    pub z: Spanned<Expr>,
+    /// What stands first.
+    pub first: Spanned<Expr>,
+    /// What stands second.
+    pub second: Spanned<Expr>,
     /// All of it, brackets too.
     pub span: Span,
 }
 
-/// A piece of a profile. All but [`Curve::Start`] begin where the piece before ended.
+/// A piece of a profile or of a region. All but [`Curve::Start`] and [`Curve::Circle`] begin where the piece before ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Curve {
     /// `start (x, z)`.
@@ -251,6 +251,10 @@ pub enum Curve {
         through: Vec<Point>,
         to: Point,
     },
+    /// `open to (x, y)`: a straight side of a region that has no wall.
+    Open { to: Point },
+    /// `circle (x, y) radius r`: a whole loop of a region.
+    Circle { center: Point, radius: Spanned<Expr> },
     /// `points "file.csv"`, optionally with `{ fields }`.
     Points {
         /// The file.

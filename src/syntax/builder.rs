@@ -205,6 +205,8 @@ impl<'t> Builder<'t> {
             | Rule::bezier
             | Rule::spline
             | Rule::polyline
+            | Rule::open_side
+            | Rule::circle
             | Rule::points
             | Rule::airfoil
             | Rule::dxf
@@ -308,6 +310,11 @@ impl<'t> Builder<'t> {
             Rule::bezier => Some(Curve::Bezier { control: points, to }),
             Rule::spline => Some(Curve::Spline { through: points, to }),
             Rule::polyline => Some(Curve::Polyline { through: points, to }),
+            Rule::open_side => Some(Curve::Open { to }),
+            Rule::circle => match by? {
+                ArcBy::Radius(radius) => Some(Curve::Circle { center: to, radius }),
+                ArcBy::Center(_) | ArcBy::Through(_) => None,
+            },
             _ => None,
         }
     }
@@ -351,10 +358,14 @@ impl<'t> Builder<'t> {
         let mut values = pair
             .into_inner()
             .filter(|part| part.as_rule() == Rule::expression);
-        let (x, z) = (values.next()?, values.next()?);
+        let (first, second) = (values.next()?, values.next()?);
         // Both are read even if the first is wrong, so that both are reported.
-        let (x, z) = (self.value(x), self.value(z));
-        Some(Point { x: x?, z: z?, span })
+        let (first, second) = (self.value(first), self.value(second));
+        Some(Point {
+            first: first?,
+            second: second?,
+            span,
+        })
     }
 
     /// Reports a statement that cannot be read, unless a guess of ours may be to blame.

@@ -121,7 +121,9 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
 }
 
 /// Words that points in brackets follow.
-const WITH_POINTS: [&str; 7] = ["start", "bezier", "spline", "polyline", "tips", "body", "row"];
+const WITH_POINTS: [&str; 8] = [
+    "start", "bezier", "spline", "polyline", "circle", "tips", "body", "row",
+];
 
 /// Whether the statement goes on where the one before it ended, with no comma or line end between.
 fn is_leftover(bad: &Bad<'_>) -> bool {
@@ -145,6 +147,8 @@ fn is_plain_name(word: &str) -> bool {
             | "bezier"
             | "spline"
             | "polyline"
+            | "open"
+            | "circle"
             | "points"
             | "airfoil"
             | "dxf"

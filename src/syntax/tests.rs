@@ -385,7 +385,7 @@ fn arcs_and_splines_keep_their_points() {
     };
     assert_eq!(control.len(), 2);
     assert_eq!(
-        (shape_of(&to.x.node), shape_of(&to.z.node)),
+        (shape_of(&to.first.node), shape_of(&to.second.node)),
         ("5".to_owned(), "6".to_owned())
     );
     assert_eq!(shape_of(&radius.node), "9[mm]");

@@ -67,6 +67,7 @@ mod pictures;
 mod pipeline;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod playback;
+mod pocket;
 #[cfg(feature = "krl")]
 mod process_errors;
 mod processes;

@@ -25,6 +25,13 @@ pub(crate) const CHANGING_CELLS: &[(&str, &str)] = &[
     ("changing_gantry", "gcode"),
 ];
 
+/// The shop's cells with a crusher.
+pub(crate) const POCKET_CELLS: &[(&str, &str)] = &[
+    ("pocket_cell", "krl"),
+    ("abb_pocket_cell", "rapid"),
+    ("pocket_gantry", "gcode"),
+];
+
 /// What a machine of the shop cannot hold the blade for: half a turn of a single edge about itself, and a blade that is pitched.
 pub(crate) const NOT_ON: &[(&str, &str)] = &[
     ("spoiler_rae2822.vcut", "gantry"),
@@ -33,7 +40,12 @@ pub(crate) const NOT_ON: &[(&str, &str)] = &[
 ];
 
 /// What a dialect of G-code has no words for: chains that go on without a stop.
-pub(crate) const NOT_IN: &[(&str, &str)] = &[("finished_dome.vcut", "fanuc"), ("crown.vcut", "fanuc")];
+pub(crate) const NOT_IN: &[(&str, &str)] = &[
+    ("finished_dome.vcut", "fanuc"),
+    ("crown.vcut", "fanuc"),
+    ("seat.vcut", "fanuc"),
+    ("tray.vcut", "fanuc"),
+];
 
 /// The dialects of G-code, each with the options that a gantry under such a control has. M codes of Fanuc and Heidenhain
 /// controls are their builder's.
@@ -79,6 +91,8 @@ pub(crate) fn compiling() -> Vec<(String, Vec<Pairing>)> {
             CELLS
         } else if text.contains("shop/changing_cells.vcut") {
             CHANGING_CELLS
+        } else if text.contains("shop/pocket_cells.vcut") {
+            POCKET_CELLS
         } else {
             &[]
         };
@@ -113,7 +127,11 @@ pub(crate) fn folder() -> Files {
 pub(crate) fn folder_for(dialect: &str) -> Files {
     let (_, options) = DIALECTS.iter().find(|(name, _)| *name == dialect).unwrap();
     let mut all = folder();
-    for name in ["shop/cells.vcut", "shop/changing_cells.vcut"] {
+    for name in [
+        "shop/cells.vcut",
+        "shop/changing_cells.vcut",
+        "shop/pocket_cells.vcut",
+    ] {
         let path = format!("examples/{name}");
         let mut found = files("examples", ".vcut").into_iter();
         let cells = found.find(|file| file.path == path).unwrap();

@@ -16,7 +16,12 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     ("pest_derive::", &["src/syntax/"]),
     (
         "rayon::",
-        &["src/operations/vcut/choice/", "src/motion/", "src/place/"],
+        &[
+            "src/field/",
+            "src/operations/vcut/choice/",
+            "src/motion/",
+            "src/place/",
+        ],
     ),
     (
         "hmac_sha256::",
@@ -37,6 +42,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     (
         "pulp::",
         &[
+            "src/field/lanes.rs",
             "src/machine/kinematics/lanes.rs",
             "src/machine/kinematics/batch.rs",
             "src/motion/path/arm.rs",

@@ -27,6 +27,8 @@ impl Dimension {
     pub const LENGTH: Self = Self::new(1, 0, 0, 0);
     /// An angle.
     pub const ANGLE: Self = Self::new(0, 1, 0, 0);
+    /// An area.
+    pub const AREA: Self = Self::new(2, 0, 0, 0);
     /// A time.
     pub const TIME: Self = Self::new(0, 0, 1, 0);
     /// A mass.
@@ -97,6 +99,9 @@ impl Dimension {
 
     /// The unit that people use for it: `mm`, `deg`, `mm/s`; empty for a pure number.
     pub fn unit(self) -> String {
+        if self == Self::AREA {
+            return "mm2".to_owned();
+        }
         let powers = [
             ("mm", self.length),
             ("deg", self.angle),

@@ -41,6 +41,8 @@ pub enum Takes {
     Words(fn() -> Vec<&'static str>),
     /// The name of a blade of this kind: `straight`, `disc` or `crusher`.
     Blade(&'static str),
+    /// The name of a region.
+    Region,
     /// The name of a machine.
     Machine,
     /// One of a few calls, each with an example.
@@ -117,6 +119,7 @@ impl FieldSpec {
             Takes::Anything
             | Takes::Words(_)
             | Takes::Blade(_)
+            | Takes::Region
             | Takes::Machine
             | Takes::Calls(_)
             | Takes::Fields(_) => None,
@@ -136,6 +139,7 @@ impl FieldSpec {
             | Takes::Quantity(_)
             | Takes::Words(_)
             | Takes::Blade(_)
+            | Takes::Region
             | Takes::Machine
             | Takes::Calls(_) => None,
         }

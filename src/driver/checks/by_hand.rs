@@ -29,6 +29,7 @@ impl Check {
             Self::Chips => "Every chip comes free: watch the first part",
             Self::Part => "No cut enters the part: measure the first part",
             Self::Tracks => "The disc follows the surface and frees its strips: watch the first part",
+            Self::Pockets => "The tool keeps off the walls and floors of pockets: measure the first part",
             Self::BetweenSections => {
                 "Strips come free and little stays between the sections that were looked at, too: watch and measure the first part"
             }
@@ -97,6 +98,7 @@ mod tests {
             Check::Chips,
             Check::Part,
             Check::Tracks,
+            Check::Pockets,
             Check::BetweenSections,
             Check::AboveStock,
             Check::AxisLimits,

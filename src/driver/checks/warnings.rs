@@ -24,6 +24,7 @@ impl Checks {
             Check::Chips
             | Check::Part
             | Check::Tracks
+            | Check::Pockets
             | Check::BetweenSections
             | Check::AboveStock
             | Check::Accelerations

@@ -45,6 +45,12 @@ impl Checks {
                     .to_owned(),
             );
         }
+        if self.is_made(&Check::Pockets) {
+            parts.push(
+                "the tool keeps off the walls and floors of its pockets, and leaves no more uncut of what it reaches than may stay"
+                    .to_owned(),
+            );
+        }
         if self.is_made(&Check::AboveStock) {
             parts.push("the tip stays above the stock".to_owned());
         }
@@ -139,6 +145,7 @@ impl Checks {
                     Check::Chips
                     | Check::Part
                     | Check::Tracks
+                    | Check::Pockets
                     | Check::BetweenSections
                     | Check::AboveStock
                     | Check::AxisLimits
@@ -182,6 +189,7 @@ impl Check {
             Self::Chips => "chips",
             Self::Part => "part",
             Self::Tracks => "tracks",
+            Self::Pockets => "pockets",
             Self::BetweenSections => "between_sections",
             Self::AboveStock => "above_stock",
             Self::AxisLimits => "axis_limits",
@@ -203,6 +211,7 @@ impl Check {
             Self::Chips => "whether chips come free",
             Self::Part => "whether cuts enter the part",
             Self::Tracks => "tracks on the surface",
+            Self::Pockets => "passes over pockets",
             Self::BetweenSections => "what comes free and what stays between sections across the tracks",
             Self::AboveStock => "whether the tip stays above the stock",
             Self::AxisLimits => "reach and the limits of axes",

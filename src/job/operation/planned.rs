@@ -3,7 +3,7 @@
 use super::search::RouteSet;
 use super::{Operation, Trials, WorksThere};
 use crate::description::{ParameterFigure, ParameterTable};
-use crate::{BladeRef, Machine, Order, Shaded, Sourced};
+use crate::{BladeRef, Clearing, Machine, Order, Shaded, Sourced};
 use core::any::Any;
 use core::fmt::Debug;
 use std::sync::Arc;
@@ -56,7 +56,9 @@ impl PlannedJob {
         let limits = (0..)
             .zip(&self.operations)
             // What tracks on a surface leave, its sections show.
-            .filter(|(_, planned)| !matches!(planned.bound().passes, Some(Passes::Tracks(_))))
+            .filter(|(_, planned)| {
+                !matches!(planned.bound().passes, Some(Passes::Tracks(_) | Passes::Region))
+            })
             .filter_map(|(index, planned)| Some((OperationId(index), planned.asked().scallop_limit()?)));
         limits.min_by(|(_, a), (_, b)| a.value.total_cmp(&b.value))
     }
@@ -108,6 +110,11 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
 
     /// What the proof holds its cuts to.
     fn bound(&self) -> Bound<'_>;
+
+    /// What its passes over a region are held to; none where it clears no region.
+    fn clearing(&self) -> Option<Clearing> {
+        None
+    }
 
     /// What the mean-value model says of it.
     fn estimate(&self) -> Estimate;

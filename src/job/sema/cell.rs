@@ -114,7 +114,7 @@ fn named(cell: Placed<'_>, scope: Scope<'_>, session: &mut Session<'_>) -> Check
     };
     match scope.names.get(name).map(|definition| definition.thing) {
         Some(Thing::Machine(index)) => Ok(index),
-        Some(Thing::Let(_) | Thing::Blade(_)) | None => {
+        Some(Thing::Let(_) | Thing::Blade(_) | Thing::Region(_)) | None => {
             Err(scope
                 .names
                 .not_a("machine", name, expr.span, is_machine, &mut session.reports))

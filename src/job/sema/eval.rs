@@ -140,7 +140,7 @@ impl Scope<'_> {
                     "needed here",
                 ))),
             },
-            Some(Thing::Blade(_) | Thing::Machine(_)) | None => {
+            Some(Thing::Blade(_) | Thing::Region(_) | Thing::Machine(_)) | None => {
                 Err(self.names.not_a("value", name, span, is_let, reports))
             }
         }

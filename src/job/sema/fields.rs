@@ -537,6 +537,8 @@ pub const fn curve_words(curve: &Curve) -> &'static str {
         Curve::Bezier { .. } => "`bezier`",
         Curve::Spline { .. } => "`spline`",
         Curve::Polyline { .. } => "`polyline`",
+        Curve::Open { .. } => "`open`",
+        Curve::Circle { .. } => "`circle`",
         Curve::Points { .. } => "`points`",
         Curve::Airfoil { .. } => "`airfoil`",
         Curve::Dxf { .. } => "`dxf`",

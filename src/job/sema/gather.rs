@@ -45,6 +45,8 @@ pub(crate) struct Definitions<'a> {
     pub(crate) lets: Vec<Let<'a>>,
     /// Blades of all files.
     pub(crate) blades: Vec<(BladeHead<'a>, Placed<'a>)>,
+    /// Regions, each with its name.
+    pub(crate) regions: Vec<(Spanned<&'a str>, Placed<'a>)>,
     /// Machines of all files.
     pub(crate) machines: Vec<MachineBlock<'a>>,
     /// The job's name.
@@ -165,6 +167,13 @@ impl<'a> Definitions<'a> {
                     .define(head.name, Thing::Blade(self.blades.len()), reports);
                 self.blades.push((head, placed));
             }
+            Kind::Region(name) => {
+                if is_allowed("region", place.head, standing, reports) {
+                    let thing = Thing::Region(self.regions.len());
+                    self.names.define(name, thing, reports);
+                    self.regions.push((name, placed));
+                }
+            }
             Kind::Machine(head) => {
                 self.names
                     .define(head.name, Thing::Machine(self.machines.len()), reports);
@@ -183,7 +192,7 @@ impl<'a> Definitions<'a> {
             let thing = self.names.get(name).map(|definition| definition.thing);
             let label = match thing {
                 Some(Thing::Let(_)) => continue,
-                Some(other @ (Thing::Blade(_) | Thing::Machine(_))) => {
+                Some(other @ (Thing::Blade(_) | Thing::Region(_) | Thing::Machine(_))) => {
                     format!("`{name}` is {}", other.words())
                 }
                 None => "no `let` of this name in any file".to_owned(),

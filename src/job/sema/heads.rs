@@ -19,6 +19,8 @@ pub(crate) enum Kind<'a> {
     Profile,
     /// `surface`.
     Surface,
+    /// `region NAME`.
+    Region(Spanned<&'a str>),
     /// `cell`.
     Cell,
     /// `blade NAME`, `blade NAME = disc`.
@@ -61,6 +63,7 @@ pub(crate) fn forms(operations: Operations) -> Vec<(&'static str, String)> {
         ("stock", "stock { ... }"),
         ("profile", "profile { ... }"),
         ("surface", "surface { ... }"),
+        ("region", "region NAME { ... }"),
         ("blade", "blade NAME { ... }"),
     ];
     let after = [
@@ -107,6 +110,7 @@ pub(crate) fn classify(block: &Block, operations: Operations) -> Result<Kind<'_>
         "profile" => plain(Kind::Profile, first, rest),
         "surface" => plain(Kind::Surface, first, rest),
         "cell" => plain(Kind::Cell, first, rest),
+        "region" => region(at, rest),
         "blade" => blade(at, rest),
         "machine" => machine(at, rest),
         first if !second_words(first, operations).is_empty() => operation((first, at), rest, operations),
@@ -177,6 +181,15 @@ fn incomplete(first: &str, what: &str, at: Span, form: &str) -> Box<Diagnostic> 
         format!("{what} is missing after this"),
     );
     Box::new(diagnostic.help(format!("write `{form}`")))
+}
+
+fn region<'a>(at: Span, rest: &[(&'a HeadPart, Span)]) -> Result<Kind<'a>, Box<Diagnostic>> {
+    let form = form_of("region");
+    match rest {
+        [(HeadPart::Word(name), span)] => Ok(Kind::Region(Spanned::new(name.as_str(), *span))),
+        [(HeadPart::Word(_), _), (_, span), ..] => Err(surplus("region", *span, &form)),
+        _ => Err(incomplete("region", "a name", at, &form)),
+    }
 }
 
 /// How the head of a blade looks that states its kind.

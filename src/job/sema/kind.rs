@@ -27,6 +27,11 @@ pub trait Kind: Debug + Sync {
     /// The table of its fields.
     fn spec(&self) -> &'static BlockSpec;
 
+    /// Whether it cuts towards a part, which the job then has to describe.
+    fn needs_part(&self) -> bool {
+        true
+    }
+
     /// A block of it with this blade, as an example for a job that has none.
     fn example(&self, blade: &str) -> String {
         let required = self

@@ -89,7 +89,7 @@ fn needs_of(expr: &Spanned<Expr>, names: &Names<'_>) -> Vec<(usize, Span)> {
         let Expr::Name(name) = &part.node else { return None };
         match names.get(name)?.thing {
             Thing::Let(index) => Some((index, part.span)),
-            Thing::Blade(_) | Thing::Machine(_) => None,
+            Thing::Blade(_) | Thing::Region(_) | Thing::Machine(_) => None,
         }
     };
     walk(expr).filter_map(need).collect()

@@ -1,6 +1,6 @@
 //! Names: what the files define, gathered before anything is evaluated, so that order does not matter.
 //!
-//! `let`s, blades and machines share one space of names over all files: whoever reads `dagger` anywhere in a job
+//! `let`s, blades, regions and machines share one space of names over all files: whoever reads `dagger` anywhere in a job
 //! knows that it means one thing.
 
 use super::report::{Reported, Reports};
@@ -18,6 +18,7 @@ pub enum Thing {
     /// A `let`.
     Let(usize),
     Blade(usize),
+    Region(usize),
     Machine(usize),
 }
 
@@ -27,6 +28,7 @@ impl Thing {
         match self {
             Self::Let(_) => "a value",
             Self::Blade(_) => "a blade",
+            Self::Region(_) => "a region",
             Self::Machine(_) => "a machine",
         }
     }

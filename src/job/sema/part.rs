@@ -165,6 +165,18 @@ impl Part {
         }
     }
 
+    /// All of a stock.
+    pub(crate) fn whole(stock: Stock) -> Self {
+        let [width, height] = [stock.width, stock.height].map(Length::to_mm);
+        Self::new(
+            vec![Piece::Points(vec![
+                Point2::new(0.0, height),
+                Point2::new(width, height),
+            ])],
+            width,
+        )
+    }
+
     /// Of a surface that was checked on the stock, with its shadow.
     pub(crate) fn of_surface(surface: Surface, shadow: Profile) -> Self {
         let width = surface.plan().width.to_mm();

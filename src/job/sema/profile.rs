@@ -11,6 +11,8 @@ mod formula;
 mod repairs;
 pub(crate) mod shape;
 
+pub(crate) use curves::impossible;
+
 use super::eval::Scope;
 use super::fields::{Place, curve_words, head_span};
 use super::part::{self, Part};

@@ -1,7 +1,7 @@
 //! Quantities: a number with its dimension, stored in mm, rad, s and kg.
 
 use super::dimension::Dimension;
-use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
+use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, Length, Mass, Speed};
 pub use vcutc_diagnostics::number::number;
 
 /// A number with its dimension.
@@ -92,6 +92,7 @@ macro_rules! measured {
 measured! {
     f64, PURE, core::convert::identity, core::convert::identity;
     Length, LENGTH, Length::mm, Length::to_mm;
+    Area, AREA, Area::mm2, Area::to_mm2;
     Angle, ANGLE, Angle::rad, Angle::to_rad;
     Duration, TIME, Duration::s, Duration::to_s;
     Mass, MASS, Mass::kg, Mass::to_kg;

@@ -44,7 +44,7 @@ impl Scope<'_> {
         let Expr::Name(name) = &expr.node else { return None };
         match self.names.get(name)?.thing {
             Thing::Let(index) => self.lets.get(index),
-            Thing::Blade(_) | Thing::Machine(_) => None,
+            Thing::Blade(_) | Thing::Region(_) | Thing::Machine(_) => None,
         }
     }
 }

@@ -54,6 +54,25 @@ const FEEDS_OF_TWO: BlockSpec = BlockSpec {
     inner: Inner::Refused,
 };
 
+/// `feed { ... }` of an operation with a crusher.
+pub const FEED_OF_A_CRUSHER: FieldSpec = block(
+    "feed",
+    "{ cut = 75 mm/s, plunge = 20 mm/s, travel = 200 mm/s, reorient = 90 deg/s }",
+)
+.required()
+.takes(Takes::Fields(&FEEDS_OF_A_CRUSHER));
+
+const FEEDS_OF_A_CRUSHER: BlockSpec = BlockSpec {
+    title: "`feed`",
+    fields: &[
+        value("cut", "75 mm/s").required().within(SPEED),
+        value("plunge", "20 mm/s").required().within(SPEED),
+        TRAVEL,
+        REORIENT,
+    ],
+    inner: Inner::Refused,
+};
+
 const FEEDS: BlockSpec = BlockSpec {
     title: "`feed`",
     fields: &[
@@ -133,6 +152,27 @@ pub fn check_of_two(
     };
     let setup = with_feeds(feeds, Blades::Both, fields, written, session);
     Ok((setup?, free?))
+}
+
+/// The same of an operation with [`FEED_OF_A_CRUSHER`], with the speed of its way down.
+pub fn check_of_a_crusher(
+    fields: &Fields<'_>,
+    written: Written<'_>,
+    session: &mut Session<'_>,
+) -> Checked<(Setup, Sourced<Speed>)> {
+    let feeds = fields
+        .required_block("feed", &mut session.reports)
+        .and_then(|inner| {
+            let (feeds, fields) = feeds(&FEEDS_OF_A_CRUSHER, inner, written, session)?;
+            let mut reader = Reader::new(written.scope, &mut session.reports);
+            Ok((feeds, reader.required(&fields, "plunge")?))
+        });
+    let (feeds, plunge) = match feeds {
+        Ok((feeds, plunge)) => (Ok(feeds), Ok(plunge)),
+        Err(reported) => (Err(reported), Err(reported)),
+    };
+    let setup = with_feeds(feeds, Blades::Round, fields, written, session);
+    Ok((setup?, plunge?))
 }
 
 // The block of feeds comes first: it needs the session, of which the reader holds a part.

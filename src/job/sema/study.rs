@@ -53,6 +53,7 @@ pub enum Meaning {
     /// A value; none if it could not be worked out.
     Value(Option<Value>),
     Blade(BladeKind),
+    Region,
     Machine,
 }
 
@@ -127,11 +128,17 @@ pub(super) fn definitions(all: &Definitions<'_>, values: &[Option<Checked<Quanti
         let name = head.name.map(str::to_owned);
         (name, Thing::Blade(index), Meaning::Blade(head.kind))
     });
+    let regions = all
+        .regions
+        .iter()
+        .enumerate()
+        .map(|(index, (name, _))| (name.map(str::to_owned), Thing::Region(index), Meaning::Region));
     let machines = all.machines.iter().enumerate().map(|(index, machine)| {
         let name = machine.head.name.map(str::to_owned);
         (name, Thing::Machine(index), Meaning::Machine)
     });
     lets.chain(blades)
+        .chain(regions)
         .chain(machines)
         .filter(|(name, thing, _)| {
             all.names

@@ -109,7 +109,7 @@ fn blade(name: Spanned<&str>, scope: Scope<'_>, session: &mut Session<'_>) -> Ch
     let is_blade = |thing| matches!(thing, Thing::Blade(_));
     match scope.names.get(name.node).map(|definition| definition.thing) {
         Some(Thing::Blade(_)) => Ok(Spanned::new(name.node.to_owned(), name.span)),
-        Some(Thing::Let(_) | Thing::Machine(_)) | None => {
+        Some(Thing::Let(_) | Thing::Region(_) | Thing::Machine(_)) | None => {
             Err(scope
                 .names
                 .not_a("blade", name.node, name.span, is_blade, &mut session.reports))

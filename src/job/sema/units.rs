@@ -30,6 +30,7 @@ pub(super) const UNITS: &[Unit] = &[
     unit("m", "metre", 1000.0, Dimension::LENGTH),
     unit("in", "inch", 25.4, Dimension::LENGTH),
     unit("ft", "foot", 304.8, Dimension::LENGTH),
+    unit("mm2", "square millimetre", 1.0, Dimension::AREA),
     unit("deg", "degree", PI / 180.0, Dimension::ANGLE),
     unit("rad", "radian", 1.0, Dimension::ANGLE),
     unit("rev", "revolution", 2.0 * PI, Dimension::ANGLE),

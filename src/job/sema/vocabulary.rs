@@ -11,6 +11,7 @@ pub use super::functions::Signature;
 use super::heads::{self, Kind};
 use super::kind::Operations;
 use super::profile::{data, drawing};
+use super::region;
 use super::surface::{file, nurbs, step};
 use super::{Part, blade, cell, frame, functions, machine, names, stock, units};
 use crate::BladeKind;
@@ -83,6 +84,15 @@ pub fn data_file(word: &str) -> Option<&'static BlockSpec> {
     }
 }
 
+/// The fields after a drawing of a region.
+pub fn region_file(word: &str) -> Option<&'static BlockSpec> {
+    match word {
+        "dxf" => Some(&region::drawing::DXF.spec),
+        "svg" => Some(&region::drawing::SVG.spec),
+        _ => None,
+    }
+}
+
 /// The fields after a file of a surface.
 pub fn surface_file(word: &str) -> Option<&'static BlockSpec> {
     Some(match SurfaceFile::named(word)? {
@@ -140,6 +150,33 @@ pub const CURVES: &[(&str, &str)] = &[
     ("dxf", "dxf \"rib.dxf\" { layer = \"SKIN\" }"),
     ("svg", "svg \"rib.svg\" { side = upper }"),
 ];
+
+/// The pieces that a region has and a profile has not: the first word, and how all of it looks.
+pub const SIDES: &[(&str, &str)] = &[
+    ("open", "open to (120 mm, 80 mm)"),
+    ("circle", "circle (60 mm, 45 mm) radius 10 mm"),
+];
+
+/// The pieces of a region: the first word, and how all of it looks.
+pub const LOOPS: &[(&str, &str)] = &[
+    ("start", "start (0 mm, 0 mm)"),
+    ("line", "line to (120 mm, 0 mm)"),
+    ("arc", "arc to (120 mm, 45 mm) radius 75 mm"),
+    (
+        "polyline",
+        "polyline (120 mm, 0 mm) (120 mm, 45 mm) to (0 mm, 45 mm)",
+    ),
+    SIDES[0],
+    SIDES[1],
+    ("island", "island { circle (60 mm, 45 mm) radius 10 mm }"),
+    ("dxf", "dxf \"tray.dxf\" { layer = \"SEAT\" }"),
+    ("svg", "svg \"tray.svg\" { layer = \"SEAT\" }"),
+];
+
+/// Whether a word begins a piece of a profile or of a region.
+pub fn begins_a_piece(word: &str) -> bool {
+    CURVES.iter().chain(SIDES).any(|(known, _)| *known == word)
+}
 
 /// A profile in its short form, for each kind of file: its word, and how all of it looks.
 pub fn short_forms() -> impl Iterator<Item = (&'static str, String)> {
@@ -259,7 +296,9 @@ pub fn unit_spoken(unit: &str) -> Option<String> {
 /// Where a block may be: in a job only, or in a library as well; none if its head is not right.
 pub fn standing(block: &Block, operations: Operations) -> Option<Part> {
     Some(match heads::classify(block, operations).ok()? {
-        Kind::Stock | Kind::Profile | Kind::Surface | Kind::Cell | Kind::Operation(_) => Part::Job,
+        Kind::Stock | Kind::Profile | Kind::Surface | Kind::Region(_) | Kind::Cell | Kind::Operation(_) => {
+            Part::Job
+        }
         Kind::Blade(_) | Kind::Machine(_) => Part::Library,
     })
 }

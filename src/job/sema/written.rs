@@ -3,7 +3,8 @@
 use super::eval::Scope;
 use super::fields::Place;
 use super::report::Checked;
-use crate::Blade;
+
+use crate::{Blade, NamedRegion};
 use vcutc_backend_api::ir::Stock;
 use vcutc_diagnostics::source::Spanned;
 use vcutc_syntax::ast::Block;
@@ -19,6 +20,8 @@ pub struct Written<'a> {
     pub scope: Scope<'a>,
     /// The blades of the job, in order.
     pub blades: &'a [Checked<Blade>],
+    /// The regions of the job, in order.
+    pub regions: &'a [Checked<NamedRegion>],
     /// The stock, unless it is at fault.
     pub stock: Option<Spanned<Stock>>,
 }

@@ -33,6 +33,7 @@ pub(crate) fn explain(planned: &Planned, finding: Finding, count: usize) -> Diag
         | CutFault::Overcut { .. }
         | CutFault::Strays { .. }
         | CutFault::Stays { .. }
+        | CutFault::Clearing(_)
         | CutFault::Strip(_) => explained(asked, finding),
     };
     match count {

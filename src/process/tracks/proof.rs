@@ -50,7 +50,7 @@ pub fn judged(
     let operations: Vec<(OperationId, Tracks)> = numbered
         .filter_map(|(operation, bound)| match bound.passes {
             Some(Passes::Tracks(tracks)) => Some((operation, tracks)),
-            Some(Passes::Skin(_) | Passes::Strips(_)) | None => None,
+            Some(Passes::Skin(_) | Passes::Strips(_) | Passes::Region) | None => None,
         })
         .collect();
     if operations.is_empty() {

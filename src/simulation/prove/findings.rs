@@ -1,6 +1,6 @@
 //! What a replay found, of each kind the worst.
 
-use super::{CutFault, Finding};
+use super::{ClearingFault, CutFault, Finding};
 
 /// All faults of one kind, of which the worst is kept.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,13 +17,36 @@ pub struct Findings {
     pub strips: Option<(usize, Finding)>,
     /// In how many sections too much stays beside tracks on a surface, and the most of that.
     pub stays: Option<(usize, Finding)>,
+    /// What is wrong with passes over regions, of each operation and kind the first.
+    pub clearing: Vec<(usize, Finding)>,
 }
 
 impl Findings {
     pub fn iter(&self) -> impl Iterator<Item = (usize, Finding)> {
         let overcut = self.overcut.map(|finding| (1, finding));
         let cuts = self.not_freed.into_iter().chain(self.blocked).chain(overcut);
-        cuts.chain(self.strays).chain(self.strips).chain(self.stays)
+        let others = cuts.chain(self.strays).chain(self.strips).chain(self.stays);
+        others.chain(self.clearing.iter().copied())
+    }
+
+    /// Counts a fault of passes over a region, and keeps the first of its kind.
+    pub fn note_clearing(&mut self, finding: Finding, fault: ClearingFault) {
+        let kind = core::mem::discriminant(&fault);
+        let is_known = |known: &Finding| {
+            let is_alike =
+                matches!(known.fault, CutFault::Clearing(known) if core::mem::discriminant(&known) == kind);
+            known.operation == finding.operation && is_alike
+        };
+        match self.clearing.iter_mut().find(|(_, known)| is_known(known)) {
+            Some((count, _)) => *count += 1,
+            None => self.clearing.push((
+                1,
+                Finding {
+                    fault: CutFault::Clearing(fault),
+                    ..finding
+                },
+            )),
+        }
     }
 }
 
@@ -52,6 +75,7 @@ pub(super) fn is_longer(a: &Finding, b: &Finding) -> bool {
         | CutFault::Overcut { .. }
         | CutFault::Strays { .. }
         | CutFault::Strip(_)
+        | CutFault::Clearing(_)
         | CutFault::Stays { .. } => 0.0,
     };
     needed(a) > needed(b) + 1e-6

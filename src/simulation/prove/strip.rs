@@ -23,6 +23,8 @@ pub enum Passes {
     Skin(Skin),
     /// To take the skin off a surface, in tracks that change along y: no section shows them.
     Tracks(Tracks),
+    /// To clear a region of the plan with a round tool: no section shows that.
+    Region,
 }
 
 /// What holds of tracks on a surface.
@@ -131,7 +133,7 @@ impl Through {
         let is_taken = match passes {
             Some(Passes::Skin(_)) => lead > Angle::ZERO,
             Some(Passes::Strips(_)) => roll == Angle::ZERO,
-            Some(Passes::Tracks(_)) => false,
+            Some(Passes::Tracks(_) | Passes::Region) => false,
             None => roll == Angle::ZERO || lead > Angle::ZERO,
         };
         is_taken.then(|| Self {
@@ -202,9 +204,10 @@ fn area_above(from: Point2, to: Point2, z: f64) -> f64 {
 }
 
 fn disc(blade: &Blade, edge: ir::Disc, passes: Option<Passes>) -> Disc {
-    let limits = passes.map(|passes| match passes {
-        Passes::Strips(strips) => (strips.depth, strips.width),
-        Passes::Skin(skin) | Passes::Tracks(Tracks { skin, .. }) => (skin.depth, skin.width),
+    let limits = passes.and_then(|passes| match passes {
+        Passes::Strips(strips) => Some((strips.depth, strips.width)),
+        Passes::Skin(skin) | Passes::Tracks(Tracks { skin, .. }) => Some((skin.depth, skin.width)),
+        Passes::Region => None,
     });
     let (depth, width) = limits.unzip();
     Disc {
@@ -301,7 +304,7 @@ impl<'p> Player<'p> {
                 self.section.pass_unguarded(&through.disc, &pass)
             }
             // They are no passes, see `Through::of`.
-            Some(Passes::Tracks(_)) => return,
+            Some(Passes::Tracks(_) | Passes::Region) => return,
             // What a pass takes off does not depend on what it is for.
             None if through.roll == Angle::ZERO => {
                 let pass = through.strip(None, self.section.surface());

@@ -361,7 +361,9 @@ impl<'t> Reader<'t> {
                 | Curve::Arc { .. }
                 | Curve::Bezier { .. }
                 | Curve::Spline { .. }
-                | Curve::Polyline { .. } => self.statement(Kind::Curve, span.bytes().end),
+                | Curve::Polyline { .. }
+                | Curve::Open { .. }
+                | Curve::Circle { .. } => self.statement(Kind::Curve, span.bytes().end),
             },
             Entry::Row { span, .. } | Entry::ControlRow { span, .. } => {
                 self.statement(Kind::Curve, span.bytes().end)

@@ -81,8 +81,8 @@ fn stage(written: &Point, heights: Range, reader: &mut Reader<'_>) -> Checked<Bo
         let value = reader.within(expr, range, taker, Some(typical))?;
         Ok(sourced(Length::from_base(value), expr.span))
     };
-    let from = length(&written.x, heights, "the height of a stage", "40 mm");
-    let radius = length(&written.z, SIZE, "the radius of a stage", "8 mm");
+    let from = length(&written.first, heights, "the height of a stage", "40 mm");
+    let radius = length(&written.second, SIZE, "the radius of a stage", "8 mm");
     Ok(BodyStage {
         from: from?,
         radius: radius?,
@@ -113,7 +113,7 @@ fn over_rim(
     let diagnostic = Diagnostic::new(
         Code::OutOfRange,
         format!("the body has a radius of {radius} beside the disc, whose edge has {rim}"),
-        written.z.span,
+        written.second.span,
         "would hide the edge",
     );
     let diagnostic = match edge.span {
@@ -135,7 +135,7 @@ fn beside_edge(stage: BodyStage, written: &Point, edge: Sourced<Length>) -> Opti
     let diagnostic = Diagnostic::new(
         Code::OutOfRange,
         format!("the body begins at {from}, beside the edge of {length}"),
-        written.x.span,
+        written.first.span,
         "would hide part of the edge",
     );
     let diagnostic = match edge.span {
@@ -144,7 +144,7 @@ fn beside_edge(stage: BodyStage, written: &Point, edge: Sourced<Length>) -> Opti
     };
     Some(diagnostic.fix(
         format!("let it begin at {length} or above"),
-        written.x.span,
+        written.first.span,
         length,
     ))
 }
@@ -159,7 +159,7 @@ fn not_above(before: BodyStage, place: Span, stage: BodyStage, written: &Point) 
     let diagnostic = Diagnostic::new(
         Code::OutOfRange,
         format!("a stage of the body begins at {from}, not above the one before it at {below}"),
-        written.x.span,
+        written.first.span,
         "heights must rise",
     );
     Some(

@@ -61,6 +61,7 @@ impl Drawing<'_> {
             Curve::Bezier { control, to } => self.through(piece, control, to, Shape::bezier, session),
             Curve::Spline { through, to } => self.through(piece, through, to, Shape::spline, session),
             Curve::Polyline { through, to } => self.through(piece, through, to, Shape::polyline, session),
+            Curve::Open { .. } | Curve::Circle { .. } => Err(session.reports.push(of_regions(piece))),
             Curve::Points { path, options } => {
                 self.must_be_first(piece, &mut session.reports)?;
                 let points = data::points(path, options, piece.span, self.scope, session);
@@ -261,16 +262,30 @@ impl Drawing<'_> {
                 self.trace.extend(points);
                 Ok(())
             }
-            Err(error) => Err(reports.push(impossible(piece, error, spans))),
+            Err(error) => Err(reports.push(impossible((piece.curve, piece.span), error, spans))),
         }
     }
 }
 
-/// The diagnostic for a curve that does not exist. `spans` are: all of the piece for its start, then its points.
-fn impossible(piece: &Piece<'_>, error: CurveError, spans: &[Span]) -> Diagnostic {
+/// A piece that only a region has.
+fn of_regions(piece: &Piece<'_>) -> Diagnostic {
     let words = curve_words(piece.curve);
-    let last = spans.last().copied().unwrap_or(piece.span);
-    let place = |index: usize| spans.get(index).copied().unwrap_or(piece.span);
+    Diagnostic::new(
+        Code::Misplaced,
+        format!("{words} does not belong in `profile`"),
+        piece.span,
+        "describes a region in the plan of the stock",
+    )
+    .help(
+        "move it into a `region NAME { ... }` block, or draw this part of the profile with `line` and `arc`",
+    )
+}
+
+/// The diagnostic for a curve that does not exist. `spans` are: all of the piece for its start, then its points.
+pub(crate) fn impossible((curve, whole): (&Curve, Span), error: CurveError, spans: &[Span]) -> Diagnostic {
+    let words = curve_words(curve);
+    let last = spans.last().copied().unwrap_or(whole);
+    let place = |index: usize| spans.get(index).copied().unwrap_or(whole);
     let fault = |message: String, span: Span, label: &str| {
         Diagnostic::new(Code::ImpossibleCurve, message, span, label)
     };
@@ -310,13 +325,13 @@ fn impossible(piece: &Piece<'_>, error: CurveError, spans: &[Span]) -> Diagnosti
         .help("delete one of the two"),
         CurveError::TooFewPoints => fault(
             format!("{words} needs at least two points"),
-            piece.span,
+            whole,
             "too few points",
         )
         .help("add where it ends with `to (x, z)`"),
         CurveError::TooManyControlPoints => fault(
             format!("{words} has too many control points"),
-            piece.span,
+            whole,
             "more than 64 points, its ends included",
         )
         .help("split it into several curves, or use `spline`"),
@@ -328,7 +343,7 @@ fn impossible(piece: &Piece<'_>, error: CurveError, spans: &[Span]) -> Diagnosti
         .help("check the units of its coordinates"),
         CurveError::TooManyPoints => fault(
             format!("{words} is too large to follow within 1 um"),
-            piece.span,
+            whole,
             "millions of points are not enough for it",
         )
         .help("check the units of its coordinates"),

@@ -1,7 +1,8 @@
-//! Profiles from drawings: `dxf "file.dxf"` and `svg "file.svg"`.
+//! Drawings, DXF and SVG, and profiles from them: `dxf "file.dxf"` and `svg "file.svg"`.
 //!
 //! A reader of [`vcutc_geometry::import`] turns the file into strokes; here the options say which of them count, what their
-//! unit is and where they lie, and what is wrong is put into words ([`faults`]).
+//! unit is and where they lie, and what is wrong is put into words ([`faults`]). Regions take their loops from drawings in the
+//! same way.
 
 mod faults;
 mod unread;
@@ -14,7 +15,7 @@ use crate::sema::part::{Part, Section};
 use crate::sema::read::{Reader, words_of};
 use crate::sema::report::Checked;
 use crate::sema::session::Session;
-use faults::Told;
+pub(crate) use faults::{Told, View, joining};
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{FileId, Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -25,29 +26,44 @@ use vcutc_geometry::import::drawing::{
 use vcutc_geometry::import::{self, DataError, NoText};
 use vcutc_syntax::ast::Entry;
 
-/// A format of drawings.
+/// A format of drawings, and the fields behind such a file.
 #[derive(Debug)]
 pub(crate) struct Format {
-    /// The fields behind the file.
     pub(crate) spec: BlockSpec,
+    pub(crate) file: FileKind,
+}
+
+/// A kind of files.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FileKind {
     /// Units that the job may give, in mm.
     units: &'static [(&'static str, f64)],
     read: fn(&str, Option<&str>) -> Result<Drawing, DataError>,
     load: fn(&Spanned<String>, &mut Session<'_>) -> Checked<FileId>,
 }
 
-pub(crate) static DXF: Format = Format {
-    spec: spec("`dxf`", DXF_FIELDS),
+/// Files of DXF.
+pub(crate) const DXF_FILE: FileKind = FileKind {
     units: DXF_UNITS,
     read: import::dxf,
     load: load_dxf,
 };
 
-pub(crate) static SVG: Format = Format {
-    spec: spec("`svg`", SVG_FIELDS),
+/// Files of SVG.
+pub(crate) const SVG_FILE: FileKind = FileKind {
     units: SVG_UNITS,
     read: import::svg,
     load: load_svg,
+};
+
+pub(crate) static DXF: Format = Format {
+    spec: spec("`dxf`", DXF_FIELDS),
+    file: DXF_FILE,
+};
+
+pub(crate) static SVG: Format = Format {
+    spec: spec("`svg`", SVG_FIELDS),
+    file: SVG_FILE,
 };
 
 const DXF_UNITS: &[(&str, f64)] = &[
@@ -67,22 +83,38 @@ const SVG_UNITS: &[(&str, f64)] = &[
     ("pt", 25.4 / 72.0),
 ];
 
-const DXF_FIELDS: &[FieldSpec] = &fields(|| words_of(DXF_UNITS));
-const SVG_FIELDS: &[FieldSpec] = &fields(|| words_of(SVG_UNITS));
+/// `unit = mm` of a DXF.
+pub(crate) const DXF_UNIT: FieldSpec = value("unit", "mm").takes(Takes::Words(|| words_of(DXF_UNITS)));
+/// `unit = mm` of an SVG.
+pub(crate) const SVG_UNIT: FieldSpec = value("unit", "mm").takes(Takes::Words(|| words_of(SVG_UNITS)));
 
-const fn fields(units: fn() -> Vec<&'static str>) -> [FieldSpec; 7] {
+const DXF_FIELDS: &[FieldSpec] = &fields(SKIN, SIDE, DXF_UNIT, "z");
+const SVG_FIELDS: &[FieldSpec] = &fields(SKIN, SIDE, SVG_UNIT, "z");
+
+const SKIN: FieldSpec = value("layer", "\"SKIN\"");
+const SIDE: FieldSpec = value("side", "upper").takes(Takes::Words(|| words_of(SIDES)));
+
+/// The fields of a drawing: its layer, one of what it is drawn for, its unit, and where it lies; `up` is the name of its
+/// coordinate that is not x.
+pub(crate) const fn fields(
+    layer: FieldSpec,
+    own: FieldSpec,
+    unit: FieldSpec,
+    up: &'static str,
+) -> [FieldSpec; 7] {
     [
-        value("layer", "\"SKIN\""),
-        value("side", "upper").takes(Takes::Words(|| words_of(SIDES))),
+        layer,
+        own,
         value("tolerance", "0.01 mm").within(JOINING),
-        value("unit", "mm").takes(Takes::Words(units)),
+        unit,
         value("scale", "1").within(SCALE),
         value("x", "0 mm").within(COORDINATE),
-        value("z", "0 mm").within(COORDINATE),
+        value(up, "0 mm").within(COORDINATE),
     ]
 }
 
-const fn spec(title: &'static str, fields: &'static [FieldSpec]) -> BlockSpec {
+/// The table of such fields.
+pub(crate) const fn spec(title: &'static str, fields: &'static [FieldSpec]) -> BlockSpec {
     BlockSpec {
         title,
         fields,
@@ -95,15 +127,15 @@ const SIDES: &[(&str, Side)] = &[("upper", Side::Upper), ("lower", Side::Lower)]
 /// Ends of lines that are joined when the job does not say how far they may be apart.
 const JOINED: Length = Length::mm(0.01);
 
-struct Options {
-    layer: Option<Spanned<String>>,
-    side: Option<Side>,
-    tolerance: Length,
+/// What the job says of a drawing, whatever it is drawn for.
+pub(crate) struct Options {
+    pub(crate) layer: Option<Spanned<String>>,
+    pub(crate) tolerance: Length,
     /// In mm.
     unit: Option<f64>,
     scale: f64,
     x: Length,
-    z: Length,
+    up: Length,
 }
 
 /// Points of an outline, with the place in the drawing that drew them.
@@ -119,27 +151,27 @@ pub(super) fn read(
     session: &mut Session<'_>,
 ) -> Checked<(Section, Vec<Stretch>)> {
     let fields = Fields::sort(&format.spec, place_of(path, piece), options, session);
-    let file = (format.load)(path, session);
+    let file = format.file.load(path, session);
     let mut reader = Reader {
         scope,
         reports: &mut session.reports,
     };
-    let options = read_options(format, &fields, &mut reader);
-    let (file, options) = (file?, options?);
-    let text = session.sources.get(file).map_or("", |file| file.text.as_str());
-    let layer = options.layer.as_ref().map(|layer| layer.node.as_str());
-    let drawing = (format.read)(text, layer);
-    let drawing = drawing.map_err(|error| session.reports.push(bad_data(error, file, path)))?;
+    let options = Options::read(&format.file, &fields, "z", &mut reader);
+    let side = reader.choice(&fields, "side", SIDES);
+    let (file, options, side) = (file?, options?, side?.map(|side| side.value));
+    let drawing = format.file.read(file, options.layer.as_ref(), path, session)?;
     let told = Told {
         path,
         file,
         fields: &fields,
         drawing: &drawing,
         layer: options.layer.as_ref(),
+        view: View::Profile,
         sources: &*session.sources,
     };
-    let outline = profile_of(&told, &options);
-    let remarks = told.remarks(outline.as_ref().ok().map(|(_, outline)| outline));
+    let outline = profile_of(&told, &options, side);
+    let repeated = outline.as_ref().map(|(_, outline)| outline.repeated.as_slice());
+    let remarks = told.remarks(repeated.unwrap_or_default());
     session.reports.append(remarks);
     match outline {
         Ok((map, outline)) => {
@@ -148,7 +180,7 @@ pub(super) fn read(
                 strokes: drawing.strokes,
                 map,
                 joined: options.tolerance,
-                side: options.side,
+                side,
             };
             Ok((section, stretches))
         }
@@ -156,37 +188,72 @@ pub(super) fn read(
     }
 }
 
-fn read_options(format: &Format, fields: &Fields<'_>, reader: &mut Reader<'_>) -> Checked<Options> {
-    let layer = reader.text(fields, "layer");
-    let side = reader.choice(fields, "side", SIDES);
-    let tolerance = reader.defaulted(fields, "tolerance", JOINED);
-    let unit = reader.choice(fields, "unit", format.units);
-    let scale = reader.defaulted(fields, "scale", 1.0);
-    let x = reader.defaulted(fields, "x", Length::ZERO);
-    let z = reader.defaulted(fields, "z", Length::ZERO);
-    Ok(Options {
-        layer: layer?,
-        side: side?.map(|side| side.value),
-        tolerance: tolerance?.value,
-        unit: unit?.map(|unit| unit.value),
-        scale: scale?.value,
-        x: x?.value,
-        z: z?.value,
-    })
+impl FileKind {
+    /// Puts the text of a file among the sources of the run.
+    pub(crate) fn load(&self, path: &Spanned<String>, session: &mut Session<'_>) -> Checked<FileId> {
+        (self.load)(path, session)
+    }
+
+    /// What such a file shows on a layer, or on all of them.
+    pub(crate) fn read(
+        &self,
+        file: FileId,
+        layer: Option<&Spanned<String>>,
+        path: &Spanned<String>,
+        session: &mut Session<'_>,
+    ) -> Checked<Drawing> {
+        let text = session.sources.get(file).map_or("", |file| file.text.as_str());
+        let drawing = (self.read)(text, layer.map(|layer| layer.node.as_str()));
+        drawing.map_err(|error| session.reports.push(bad_data(error, file, path)))
+    }
+}
+
+impl Options {
+    /// Reads them; `up` is the field of the coordinate that is not x.
+    pub(crate) fn read(
+        file: &FileKind,
+        fields: &Fields<'_>,
+        up: &str,
+        reader: &mut Reader<'_>,
+    ) -> Checked<Self> {
+        let layer = reader.text(fields, "layer");
+        let tolerance = reader.defaulted(fields, "tolerance", JOINED);
+        let unit = reader.choice(fields, "unit", file.units);
+        let scale = reader.defaulted(fields, "scale", 1.0);
+        let x = reader.defaulted(fields, "x", Length::ZERO);
+        let up = reader.defaulted(fields, up, Length::ZERO);
+        Ok(Self {
+            layer: layer?,
+            tolerance: tolerance?.value,
+            unit: unit?.map(|unit| unit.value),
+            scale: scale?.value,
+            x: x?.value,
+            up: up?.value,
+        })
+    }
+
+    /// The map from a drawing to the workpiece. The drawing must have the layer, and something on it.
+    pub(crate) fn map(&self, told: &Told<'_>) -> Result<Affine, Box<Diagnostic>> {
+        told.must_have_layer()?;
+        if told.drawing.strokes.is_empty() {
+            return Err(Box::new(told.nothing()));
+        }
+        let unit = match (self.unit, told.drawing.unit) {
+            (Some(unit), _) | (None, Unit::Known(unit)) => unit,
+            (None, Unit::Unsaid(place)) => return Err(Box::new(told.no_unit(place))),
+        };
+        let factor = unit * self.scale;
+        Ok(Affine::shift(self.x.to_mm(), self.up.to_mm()).after(Affine::stretch(factor, factor)))
+    }
 }
 
 /// The one chain that a drawing is, or the wanted side of it, with the map from the drawing to the workpiece.
-fn profile_of(told: &Told<'_>, options: &Options) -> Result<(Affine, Outline), Box<Diagnostic>> {
-    told.must_have_layer()?;
-    if told.drawing.strokes.is_empty() {
-        return Err(Box::new(told.nothing()));
-    }
-    let unit = match (options.unit, told.drawing.unit) {
-        (Some(unit), _) | (None, Unit::Known(unit)) => unit,
-        (None, Unit::Unsaid(place)) => return Err(Box::new(told.no_unit(place))),
-    };
-    let factor = unit * options.scale;
-    let map = Affine::shift(options.x.to_mm(), options.z.to_mm()).after(Affine::stretch(factor, factor));
+fn profile_of(
+    told: &Told<'_>,
+    options: &Options,
+    wanted: Option<Side>,
+) -> Result<(Affine, Outline), Box<Diagnostic>> {
+    let map = options.map(told)?;
     let strokes = &told.drawing.strokes;
     // Lines drawn over each other are the cause of many faults that look like others.
     let twice =
@@ -196,7 +263,7 @@ fn profile_of(told: &Told<'_>, options: &Options) -> Result<(Affine, Outline), B
         let otherwise = told.no_outline(error, options.tolerance);
         is_torn.then(twice).flatten().unwrap_or(otherwise)
     })?;
-    let outline = match options.side {
+    let outline = match wanted {
         None if whole.is_closed => Err(Box::new(told.which_side(&whole))),
         None if turns_back(&whole) => twice().map_or(Ok(whole), Err),
         None => Ok(whole),

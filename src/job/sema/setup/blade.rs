@@ -121,7 +121,7 @@ fn find<'b>(
     };
     let blade = match names.get(name).map(|definition| definition.thing) {
         Some(Thing::Blade(index)) => blades.get(index),
-        Some(Thing::Let(_) | Thing::Machine(_)) | None => None,
+        Some(Thing::Let(_) | Thing::Region(_) | Thing::Machine(_)) | None => None,
     };
     match blade {
         Some(Ok(blade)) => Ok(blade),

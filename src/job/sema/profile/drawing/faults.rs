@@ -14,19 +14,49 @@ use vcutc_geometry::import::drawing::{
 /// Most layers or chains that are listed.
 const MOST_LISTED: usize = 12;
 
-/// A drawing and the piece of the profile that names it.
-pub(super) struct Told<'a> {
-    pub(super) path: &'a Spanned<String>,
-    pub(super) file: FileId,
-    pub(super) fields: &'a Fields<'a>,
-    pub(super) drawing: &'a Drawing,
-    pub(super) layer: Option<&'a Spanned<String>>,
-    pub(super) sources: &'a SourceMap,
+/// What a drawing is drawn for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum View {
+    /// A profile, in x and z.
+    Profile,
+    /// A region, in x and y.
+    Plan,
+}
+
+impl View {
+    /// A layer that such a drawing may have.
+    const fn layer(self) -> &'static str {
+        match self {
+            Self::Profile => "SKIN",
+            Self::Plan => "SEAT",
+        }
+    }
+
+    /// A point of the workpiece.
+    fn shown(self, at: Point2) -> String {
+        let (x, up) = (mm(at.x), mm(at.z));
+        match self {
+            Self::Profile => format!("x = {x}, z = {up}"),
+            Self::Plan => format!("({x}, {up})"),
+        }
+    }
+}
+
+/// A drawing and the piece of the job that names it.
+#[derive(Clone, Copy)]
+pub(crate) struct Told<'a> {
+    pub(crate) path: &'a Spanned<String>,
+    pub(crate) file: FileId,
+    pub(crate) fields: &'a Fields<'a>,
+    pub(crate) drawing: &'a Drawing,
+    pub(crate) layer: Option<&'a Spanned<String>>,
+    pub(crate) view: View,
+    pub(crate) sources: &'a SourceMap,
 }
 
 impl Told<'_> {
     /// The wanted layer must be one of the drawing's.
-    pub(super) fn must_have_layer(&self) -> Result<(), Box<Diagnostic>> {
+    pub(crate) fn must_have_layer(&self) -> Result<(), Box<Diagnostic>> {
         let Some(wanted) = self.layer else {
             return Ok(());
         };
@@ -75,14 +105,22 @@ impl Told<'_> {
     }
 
     /// Layers may be the reason for too many or too few lines.
-    fn with_layers(&self, diagnostic: Diagnostic) -> Diagnostic {
+    pub(crate) fn with_layers(&self, diagnostic: Diagnostic) -> Diagnostic {
         match self.layers() {
             Some(list) if self.layer.is_none() && self.drawing.layers.len() > 1 => self.with_list(
-                diagnostic.help("say which layer the outline is on, like `layer = \"SKIN\"`"),
+                diagnostic.help(format!(
+                    "say which layer the outline is on, like `layer = \"{}\"`",
+                    self.view.layer()
+                )),
                 &list,
             ),
             Some(_) | None => diagnostic,
         }
+    }
+
+    /// A point of the workpiece.
+    pub(crate) fn shown(&self, at: Point2) -> String {
+        self.view.shown(at)
     }
 
     fn with_list(&self, diagnostic: Diagnostic, list: &str) -> Diagnostic {
@@ -90,19 +128,19 @@ impl Told<'_> {
     }
 
     /// Where to point in the job: at the layer, or else at the file.
-    fn place(&self) -> Span {
+    pub(crate) fn place(&self) -> Span {
         self.layer.map_or(self.path.span, |layer| layer.span)
     }
 
     /// What is spoken of.
-    fn subject(&self) -> String {
+    pub(crate) fn subject(&self) -> String {
         match self.layer {
             Some(layer) => format!("layer `{}` of `{}`", layer.node, self.path.node),
             None => format!("`{}`", self.path.node),
         }
     }
 
-    fn span(&self, place: Place) -> Span {
+    pub(crate) fn span(&self, place: Place) -> Span {
         Span {
             file: self.file,
             start: place.start,
@@ -110,13 +148,13 @@ impl Told<'_> {
         }
     }
 
-    fn stroke(&self, stroke: usize) -> Span {
+    pub(crate) fn stroke(&self, stroke: usize) -> Span {
         let place = self.drawing.strokes.get(stroke).map(|stroke| stroke.place);
         place.map_or(self.path.span, |place| self.span(place))
     }
 
     /// Nothing is drawn.
-    pub(super) fn nothing(&self) -> Diagnostic {
+    pub(crate) fn nothing(&self) -> Diagnostic {
         let diagnostic = Diagnostic::new(
             Code::NothingDrawn,
             format!("there is no line in {}", self.subject()),
@@ -131,7 +169,7 @@ impl Told<'_> {
     }
 
     /// The file does not say its unit.
-    pub(super) fn no_unit(&self, place: Place) -> Diagnostic {
+    pub(crate) fn no_unit(&self, place: Place) -> Diagnostic {
         let diagnostic = Diagnostic::new(
             Code::UnknownScale,
             format!("`{}` does not state its unit", self.path.node),
@@ -144,7 +182,7 @@ impl Told<'_> {
     }
 
     /// The outline is closed, and nothing says which side counts.
-    pub(super) fn which_side(&self, outline: &Outline) -> Diagnostic {
+    pub(crate) fn which_side(&self, outline: &Outline) -> Diagnostic {
         let (low, high) = outline
             .points
             .iter()
@@ -162,7 +200,7 @@ impl Told<'_> {
     }
 
     /// The strokes are no single chain.
-    pub(super) fn no_outline(&self, error: OutlineError, tolerance: Length) -> Box<Diagnostic> {
+    pub(crate) fn no_outline(&self, error: OutlineError, tolerance: Length) -> Box<Diagnostic> {
         let broken = |message: String, label: String| {
             Diagnostic::new(Code::BrokenOutline, message, self.place(), label)
         };
@@ -186,7 +224,7 @@ impl Told<'_> {
             .help("check `unit` and `scale`"),
             OutlineError::Branch { at, strokes } => {
                 let diagnostic = broken(
-                    format!("the outline in {} branches at {}", self.subject(), shown(at)),
+                    format!("the outline in {} branches at {}", self.subject(), self.shown(at)),
                     format!("{} lines meet there", strokes.len().max(2)),
                 );
                 let diagnostic = strokes.iter().take(3).fold(diagnostic, |told, &stroke| {
@@ -195,7 +233,7 @@ impl Told<'_> {
                 self.with_layers(diagnostic.help("delete the lines that are not part of the outline"))
             }
             OutlineError::Crowded { at } => broken(
-                format!("too many lines of {} end near {}", self.subject(), shown(at)),
+                format!("too many lines of {} end near {}", self.subject(), self.shown(at)),
                 format!(
                     "more ends within {} than can be distinguished",
                     mm(tolerance.to_mm())
@@ -207,13 +245,13 @@ impl Told<'_> {
     }
 
     /// Two lines lie on each other.
-    pub(super) fn drawn_over(&self, overlap: Overlap) -> Box<Diagnostic> {
+    pub(crate) fn drawn_over(&self, overlap: Overlap) -> Box<Diagnostic> {
         let Overlap { from, to, strokes } = overlap;
         let message = format!(
             "a line of {} is drawn twice, from {} to {}",
             self.subject(),
-            shown(from),
-            shown(to)
+            self.shown(from),
+            self.shown(to)
         );
         let diagnostic = Diagnostic::new(
             Code::DrawnOver,
@@ -264,15 +302,15 @@ impl Told<'_> {
                 "the outline in {} has a gap of {} at {}",
                 self.subject(),
                 mm(gap.size().to_mm()),
-                shown(gap.from)
+                self.shown(gap.from)
             ),
             Some(_) | None => format!("{} is {} separate lines, not one", self.subject(), chains.len()),
         };
         let label = match nearest {
             Some(gap) => format!(
                 "ends at {} and {}, {} apart",
-                shown(gap.from),
-                shown(gap.to),
+                self.shown(gap.from),
+                self.shown(gap.to),
                 mm(gap.size().to_mm())
             ),
             None => "none of them connects to another".to_owned(),
@@ -293,14 +331,15 @@ impl Told<'_> {
         }
         let diagnostic = match nearest.and_then(joining) {
             Some(tolerance) => diagnostic.help(format!(
-                "close the gap in the drawing, or join over it with `tolerance = {tolerance}`"
+                "close the gap in the drawing, or join over it with `tolerance = {}`",
+                mm(tolerance.to_mm())
             )),
             None => diagnostic.help("delete the lines that are not part of the outline"),
         };
         self.with_layers(diagnostic)
     }
 
-    fn chain(&self, chain: &Chain) -> String {
+    pub(crate) fn chain(&self, chain: &Chain) -> String {
         let kind = self
             .drawing
             .strokes
@@ -311,14 +350,18 @@ impl Told<'_> {
             several => format!("{several} pieces, the first a {kind}"),
         };
         if chain.is_closed {
-            format!("a ring through {}: {pieces}", shown(chain.from))
+            format!("a ring through {}: {pieces}", self.shown(chain.from))
         } else {
-            format!("from {} to {}: {pieces}", shown(chain.from), shown(chain.to))
+            format!(
+                "from {} to {}: {pieces}",
+                self.shown(chain.from),
+                self.shown(chain.to)
+            )
         }
     }
 
     /// The outline has no such side.
-    pub(super) fn no_side(&self, error: SideError, tolerance: Length) -> Box<Diagnostic> {
+    pub(crate) fn no_side(&self, error: SideError, tolerance: Length) -> Box<Diagnostic> {
         let subject = self.subject();
         Box::new(match error {
             SideError::Open(gap) => {
@@ -328,14 +371,15 @@ impl Told<'_> {
                     self.place(),
                     format!(
                         "ends at {} and {}, {} apart",
-                        shown(gap.from),
-                        shown(gap.to),
+                        self.shown(gap.from),
+                        self.shown(gap.to),
                         mm(gap.size().to_mm())
                     ),
                 );
                 match joining(gap) {
                     Some(wider) => diagnostic.help(format!(
-                        "close it in the drawing, or join over the gap with `tolerance = {wider}`; it is {} now",
+                        "close it in the drawing, or join over the gap with `tolerance = {}`; it is {} now",
+                        mm(wider.to_mm()),
                         mm(tolerance.to_mm())
                     )),
                     None => diagnostic.help("delete `side`: an open outline is itself the profile"),
@@ -369,7 +413,11 @@ impl Told<'_> {
     fn crossed(&self, at: Point2, strokes: [usize; 2]) -> Diagnostic {
         let diagnostic = Diagnostic::new(
             Code::BrokenOutline,
-            format!("the outline in {} meets itself at {}", self.subject(), shown(at)),
+            format!(
+                "the outline in {} meets itself at {}",
+                self.subject(),
+                self.shown(at)
+            ),
             self.place(),
             "has no upper and no lower side",
         );
@@ -385,15 +433,10 @@ impl Told<'_> {
     }
 }
 
-/// A point of the workpiece.
-fn shown(at: Point2) -> String {
-    format!("x = {}, z = {}", mm(at.x), mm(at.z))
-}
-
 /// A tolerance that joins over a gap, if one of the drawing's own kind would: rounded up to a micrometre.
-fn joining(gap: Gap) -> Option<String> {
+pub(crate) fn joining(gap: Gap) -> Option<Length> {
     /// Wider gaps are no slips of whoever drew.
     const WIDEST: f64 = 1.0;
     let size = gap.size().to_mm();
-    (size <= WIDEST).then(|| mm(libm::ceil(size * 1000.0) / 1000.0))
+    (size <= WIDEST).then(|| Length::mm(libm::ceil(size * 1000.0) / 1000.0))
 }

@@ -3,14 +3,14 @@
 use super::faults::Told;
 use vcutc_diagnostics::position::position;
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_geometry::import::drawing::{Outline, Place, Unread, Why};
+use vcutc_geometry::import::drawing::{Place, Unread, Why};
 
 /// Most lines of one kind of remark.
 const MOST_LINES: usize = 8;
 
 impl Told<'_> {
-    /// The warning, if there is anything to tell. Without an outline nobody knows what is drawn twice.
-    pub(super) fn remarks(&self, outline: Option<&Outline>) -> Vec<Diagnostic> {
+    /// The warning, if there is anything to tell. `repeated` are the strokes that are drawn twice, as far as that is known.
+    pub(crate) fn remarks(&self, repeated: &[usize]) -> Vec<Diagnostic> {
         let drawing = self.drawing;
         let mut notes = Vec::new();
         for unread in &drawing.unread {
@@ -22,7 +22,6 @@ impl Told<'_> {
                 self.line_of(unread.first)
             ));
         }
-        let repeated = outline.map_or(&[][..], |outline| &outline.repeated);
         if let Some(first) = repeated.first().and_then(|&stroke| drawing.strokes.get(stroke)) {
             notes.push(format!(
                 "{} drawn over lines that are there already, and counted once; the first is the {} in line {}",

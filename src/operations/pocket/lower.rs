@@ -1,0 +1,76 @@
+//! The moves of clearing a pocket: for each layer the ways down, the passes with their links, and the ways up.
+
+use crate::decided::Planned;
+use crate::plan::path::Pace;
+use core::num::NonZeroU32;
+use vcutc_backend_api::builder::ProgramBuilder;
+use vcutc_backend_api::geometry::Orientation;
+use vcutc_backend_api::ir::{Edges, Flank, OperationKind, Site, SourceRef};
+use vcutc_backend_api::units::{Angle, Length};
+use vcutc_process::beside::{Drive, Stage, Step, Writer};
+use vcutc_process::lower::BLEND;
+use vcutc_process::posture::{Feed, Holder};
+
+/// What programs call it.
+pub(crate) const KIND: OperationKind = OperationKind::named("clear_pocket").unwrap();
+
+/// How the crusher is held: upright, as every operation holds an upright blade.
+pub(crate) fn upright() -> Orientation {
+    let holder = Holder {
+        swing: Angle::ZERO,
+        rake: Angle::deg(90.0),
+        edges: Edges::Double,
+    };
+    holder.cutting(Flank::Left, Feed::Forward)
+}
+
+/// Appends the ops of one operation.
+pub(crate) fn lower(planned: &Planned, source: SourceRef, builder: &mut ProgramBuilder) {
+    let asked = &planned.asked;
+    let operation = builder.operation(KIND, asked.crusher.in_program(), source);
+    builder.blend(BLEND);
+    let stage = Stage {
+        operation,
+        feed: builder.feed(asked.setup.cut_feed.value),
+        extension: Length::ZERO,
+        hang: Length::ZERO,
+        drives: &[Drive::Spindle],
+    };
+    let mut writer = Writer::new(stage, &asked.setup, builder);
+    let [travel, plunge, cut] = [
+        asked.setup.travel_feed.value,
+        asked.plunge_feed.value,
+        asked.setup.cut_feed.value,
+    ]
+    .map(|feed| writer.feed_of(feed));
+    let feed = |pace: Pace| match pace {
+        Pace::Travel => travel,
+        Pace::Plunge => plunge,
+        Pace::Cut => cut,
+    };
+    let mut number = NonZeroU32::MIN;
+    for layer in planned.paths() {
+        let mut pass = NonZeroU32::MIN;
+        for path in layer {
+            let steps: Vec<Step> = path
+                .stretches
+                .iter()
+                .map(|stretch| Step {
+                    to: stretch.to,
+                    via: stretch.via,
+                    feed: feed(stretch.pace),
+                    joint: stretch.joint,
+                })
+                .collect();
+            let site = Site::Cut {
+                operation,
+                layer: number,
+                cut: pass,
+            };
+            writer.path(site, path.from, upright(), &steps);
+            pass = pass.saturating_add(1);
+        }
+        number = number.saturating_add(1);
+    }
+    writer.leave();
+}

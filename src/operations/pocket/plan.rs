@@ -1,0 +1,324 @@
+//! The plan of a pocket: layers, and in each the same passes in the same order.
+
+mod entry;
+mod lay;
+mod limits;
+mod order;
+pub mod path;
+
+use crate::asked::{ClearPocket, Pattern};
+use crate::refused::Why;
+use lay::Laid;
+use limits::Standing;
+use order::Room;
+use vcutc_backend_api::units::{Angle, Area, Duration, Length};
+use vcutc_job::Auto;
+use vcutc_job::operation::Ground;
+use vcutc_process::lower::BLEND;
+use vcutc_region::distance::Walls;
+use vcutc_region::pattern::Tool;
+use vcutc_region::piece::Piece;
+use vcutc_region::place::Place;
+use vcutc_simulation::surface::Surface;
+
+/// A pocket with every choice made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    pub pattern: Pattern,
+    pub step: Length,
+    /// The largest radius of rounded corners, as far as the job asks for one.
+    pub corners: Option<Length>,
+    /// Where rows go.
+    pub angle: Angle,
+    /// The height of the stock over the region, in mm.
+    pub top: f64,
+    /// The height from which on all is air, in mm.
+    pub air: f64,
+    /// The floors of the layers from the top, in mm.
+    pub floors: Vec<f64>,
+    /// How many passes a layer has.
+    pub passes: usize,
+    /// What the lines of a sound field came to, where passes follow them.
+    pub field: Option<FieldFigures>,
+    /// What is cut in each layer.
+    pub runs: Vec<Run>,
+    /// How long a layer takes by each pattern that was compared.
+    pub tried: Vec<(Pattern, Duration)>,
+}
+
+/// What the lines of a sound field came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldFigures {
+    /// How far they lie over the sources.
+    pub lift: Length,
+    /// How many there are.
+    pub lines: usize,
+    /// How many of them end within the region.
+    pub broken: usize,
+    /// How many passes clear what they leave.
+    pub extra: usize,
+    /// How much ground these clear.
+    pub cleared: Area,
+}
+
+/// A way of the tool in the plan from where it goes down to where it goes up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    pub entry: Entry,
+    pub legs: Vec<Leg>,
+}
+
+/// How the tool gets to the floor of a layer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Entry {
+    /// Down to and fro along a line, from where it begins.
+    Ramp { line: Piece },
+    /// Straight down to this place, where the tool has been in this layer.
+    Return { at: Place },
+    /// Through an open side: at depth from this place beside the stock.
+    Open { from: Place },
+}
+
+/// A piece of a run at the floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leg {
+    pub piece: Piece,
+    pub kind: Kind,
+}
+
+/// What a leg is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// It clears uncut ground, with half the rim in the material, or with more of it than the limit allows at the speed of cutting.
+    Opening,
+    /// It clears ground beside what is cleared.
+    Pass,
+    /// It leads from pass to pass.
+    Link,
+}
+
+impl Kind {
+    /// Whether the tool has to be slow.
+    #[must_use]
+    pub const fn is_slow(self) -> bool {
+        match self {
+            Self::Opening | Self::Link => true,
+            Self::Pass => false,
+        }
+    }
+}
+
+/// How far passes keep from walls beyond what must be kept, so that rounding to the grid of programs takes nothing of it, in mm.
+const GRID: f64 = 0.002;
+
+/// With how much a machine is taken to brake and start again at corners, in mm/s2: it weighs patterns, and enters nothing else.
+const ACCELERATION: f64 = 2000.0;
+
+/// Plans a pocket in what the operations before it have left.
+///
+/// # Errors
+/// Why there is no plan.
+pub(crate) fn plan(asked: &ClearPocket, ground: &Ground<'_>) -> Result<Plan, Why> {
+    let stock = ground.job.stock;
+    let mut before = ground.before.clone();
+    let top = highest(&mut before, asked);
+    let floors = floors(asked, top)?;
+    let region = &asked.region.region;
+    let walls = Walls::of(region);
+    let radius = asked.crusher.radius.value.to_mm();
+    let step = match asked.step.value {
+        Auto::Given(step) => step.to_mm(),
+        // No place between two passes is farther from the outer one.
+        Auto::Auto => radius,
+    };
+    let bounds = region.bounds();
+    let narrow = (bounds.high.x - bounds.low.x).min(bounds.high.y - bounds.low.y);
+    if narrow / 2.0 > MOST_LEVELS * step {
+        return Err(Why::TooLarge);
+    }
+    let keep = radius + asked.allowance.value.to_mm() + BLEND.to_mm();
+    let tool = Tool {
+        radius,
+        standoff: keep + GRID - radius,
+        run_out: asked.setup.run_out.value.to_mm(),
+    };
+    let room = Room {
+        walls: &walls,
+        stock: [stock.width, stock.depth].map(Length::to_mm),
+        run_out: asked.setup.run_out.value.to_mm(),
+        keep,
+        step,
+        radius,
+    };
+    let patterns: Vec<Pattern> = match asked.pattern.value {
+        Auto::Given(pattern) => vec![pattern],
+        Auto::Auto => Pattern::COMPARED.to_vec(),
+    };
+    let mut compared = Compared::default();
+    let deep = floors.first().map_or(0.0, |floor| top - floor);
+    for pattern in patterns {
+        match lay::lay(asked, region, &tool, step, pattern) {
+            Ok(choices) => {
+                for laid in choices {
+                    let runs = match order::runs(&laid.passes, &laid.extra, room) {
+                        Ok(runs) => limits::slowed(runs, asked),
+                        Err(why) => {
+                            compared.fault = Some(why);
+                            continue;
+                        }
+                    };
+                    let standing = limits::standing(&runs, asked, keep);
+                    compared.take(laid, runs, (standing, |runs: &[Run]| time(runs, asked, deep)));
+                }
+            }
+            Err(why) => compared.fault = Some(why),
+        }
+    }
+    let Compared { best, tried, fault } = compared;
+    let Some(Candidate { laid, runs, .. }) = best else {
+        return Err(fault.unwrap_or(Why::TooLarge));
+    };
+    Ok(Plan {
+        pattern: laid.pattern,
+        step: Length::mm(step),
+        corners: laid.corners,
+        angle: laid.angle,
+        top,
+        air: stock.height.to_mm(),
+        floors,
+        passes: laid.passes.len() + laid.extra.len(),
+        field: laid.field,
+        runs,
+        tried,
+    })
+}
+
+/// What was compared.
+#[derive(Default)]
+struct Compared {
+    best: Option<Candidate>,
+    /// The least time of each pattern.
+    tried: Vec<(Pattern, Duration)>,
+    fault: Option<Why>,
+}
+
+/// A way to clear a layer.
+struct Candidate {
+    standing: Standing,
+    time: Duration,
+    laid: Laid,
+    runs: Vec<Run>,
+}
+
+impl Compared {
+    /// Keeps what takes the least time of all that keep the limits.
+    fn take(
+        &mut self,
+        laid: Laid,
+        runs: Vec<Run>,
+        (standing, time): (Standing, impl Fn(&[Run]) -> Duration),
+    ) {
+        let time = time(&runs);
+        match self
+            .tried
+            .iter_mut()
+            .find(|(pattern, _)| *pattern == laid.pattern)
+        {
+            Some((_, known)) => *known = known.min(time),
+            None => self.tried.push((laid.pattern, time)),
+        }
+        let is_better = self
+            .best
+            .as_ref()
+            .is_none_or(|best| standing > best.standing || standing == best.standing && time < best.time);
+        if is_better {
+            self.best = Some(Candidate {
+                standing,
+                time,
+                laid,
+                runs,
+            });
+        }
+    }
+}
+
+/// The highest of the stock over the region and what of the tool is beside it.
+fn highest(before: &mut Surface, asked: &ClearPocket) -> f64 {
+    let bounds = asked.region.region.bounds();
+    let radius = asked.crusher.radius.value.to_mm();
+    before.highest(bounds.low.x - radius, bounds.high.x + radius)
+}
+
+/// Floors of equal layers, each no thicker than the tool cuts.
+fn floors(asked: &ClearPocket, top: f64) -> Result<Vec<f64>, Why> {
+    let floor = asked.floor.value.to_mm();
+    let deep = top - floor;
+    if deep < THINNEST {
+        return Err(Why::NothingThere { top: Length::mm(top) });
+    }
+    let thickest = asked.layer.value.or(asked.crusher.height.value).to_mm();
+    // A stock is no higher than a hundred metres; a layer that is thinner than a thousandth of it is refused.
+    let count = libm::ceil(deep / thickest - 1e-9).max(1.0);
+    if count > MOST_LAYERS {
+        return Err(Why::TooLarge);
+    }
+    let layers = count as u32;
+    let at = |layer: u32| top - deep * (f64::from(layer) / count);
+    Ok((1..=layers)
+        .map(|layer| if layer == layers { floor } else { at(layer) })
+        .collect())
+}
+
+/// A pocket that is less deep is none, in mm: far below what a machine repeats.
+const THINNEST: f64 = 0.01;
+
+/// Most levels across a region.
+const MOST_LEVELS: f64 = 1000.0;
+
+/// Most layers of a pocket.
+const MOST_LAYERS: f64 = 10_000.0;
+
+/// How long the runs of a layer of this thickness take: their ways, their ways down, and the stops at their corners.
+fn time(runs: &[Run], asked: &ClearPocket, deep: f64) -> Duration {
+    let (cut, slow) = (asked.setup.cut_feed.value, asked.plunge_feed.value);
+    let feed = |leg: &Leg| if leg.kind.is_slow() { slow } else { cut };
+    let legs = runs.iter().flat_map(|run| &run.legs);
+    let ways: Duration = legs.map(|leg| Length::mm(leg.piece.length()) / feed(leg)).sum();
+    let stop = Duration::s(cut.to_mm_per_s() / ACCELERATION);
+    let stops: usize = runs.iter().map(|run| 1 + corners(&run.legs)).sum();
+    let ramps = runs.iter().map(|run| match run.entry {
+        Entry::Ramp { line } => deep / libm::sin(asked.crusher.ramp.value.to_rad()) + 2.0 * line.length(),
+        Entry::Return { .. } | Entry::Open { .. } => 0.0,
+    });
+    let ramps = Length::mm(ramps.sum()) / slow;
+    // Up, across and down again: twice the clearance at the speed of travel.
+    let lift = asked.setup.clearance.value * 2.0 / asked.setup.travel_feed.value;
+    ways + ramps + stop * stops as f64 + lift * runs.len() as f64
+}
+
+/// How many corners a run has at which it comes to a stop.
+fn corners(legs: &[Leg]) -> usize {
+    let pairs = legs.iter().zip(legs.iter().skip(1));
+    pairs
+        .filter(|(before, after)| {
+            let (out, on) = (before.piece.direction(1.0), after.piece.direction(0.0));
+            libm::atan2(out.cross(on), out.dot(on)).abs() > vcutc_backend_api::verify::LARGEST_KINK.to_rad()
+        })
+        .count()
+}
+
+impl Run {
+    /// Whether the tool leaves it upwards, and not through an open side.
+    #[must_use]
+    pub fn leaves_upwards(&self) -> bool {
+        true
+    }
+}
+
+impl Plan {
+    /// How long it takes at the programmed speeds, about.
+    pub(crate) fn time(&self, asked: &ClearPocket) -> Duration {
+        let deep = self.floors.first().map_or(0.0, |floor| self.top - floor);
+        time(&self.runs, asked, deep) * self.floors.len() as f64
+    }
+}

@@ -1,0 +1,123 @@
+//! The plan of a pocket as the stages after planning see it.
+
+use crate::asked::Axis;
+use crate::decided::Planned;
+use crate::{lower, verdict, words};
+use std::sync::Arc;
+use vcutc_backend_api::builder::ProgramBuilder;
+use vcutc_backend_api::ir::SourceRef;
+use vcutc_backend_api::units::{Angle, Area, Length};
+use vcutc_diagnostics::Diagnostic;
+use vcutc_geometry::curve::Point2;
+use vcutc_geometry::profile::Profile;
+use vcutc_job::description::{ParameterFigure, ParameterTable};
+use vcutc_job::operation::{Operation, Trials, WorksThere};
+use vcutc_job::planned::{Estimate, PlannedTip};
+use vcutc_job::{Clearing, PlannedOperation, SoundField, Sources};
+use vcutc_simulation::prove::{Bound, Finding, Passes};
+use vcutc_simulation::report::Report;
+
+impl PlannedOperation for Planned {
+    fn asked(&self) -> &dyn Operation {
+        &self.asked
+    }
+
+    fn asked_mut(&mut self) -> &mut dyn Operation {
+        &mut self.asked
+    }
+
+    fn cuts(&self) -> usize {
+        self.plan.runs.len() * self.plan.floors.len()
+    }
+
+    /// No section shows its passes.
+    fn tips(&self) -> Vec<PlannedTip> {
+        Vec::new()
+    }
+
+    fn swing(&self) -> Angle {
+        Angle::ZERO
+    }
+
+    fn extension(&self) -> Length {
+        self.asked.crusher.radius.value + self.asked.setup.run_out.value
+    }
+
+    fn bound(&self) -> Bound<'_> {
+        Bound {
+            passes: Some(Passes::Region),
+            ..Bound::of(&self.part)
+        }
+    }
+
+    fn clearing(&self) -> Option<Clearing> {
+        let asked = &self.asked;
+        Some(Clearing {
+            region: Arc::clone(&asked.region.region),
+            floor: asked.floor.value,
+            allowance: asked.allowance.value,
+            uncut: asked.limits.uncut.value,
+            engagement: asked.limits.engagement.map(|limit| limit.value),
+            slow: asked.plunge_feed.value,
+            field: self.plan.field.map(|field| SoundField {
+                step: self.plan.step,
+                lift: field.lift,
+                sources: match asked.axis.value {
+                    Axis::Exact => Sources::OnAxis,
+                    Axis::Simplified => Sources::Simplified,
+                },
+                radius: asked.crusher.radius.value,
+            }),
+        })
+    }
+
+    fn estimate(&self) -> Estimate {
+        Estimate {
+            time: self.plan.time(&self.asked),
+            cuts: self.cuts() as f64,
+        }
+    }
+
+    fn lower(&self, source: SourceRef, builder: &mut ProgramBuilder) {
+        lower::lower(self, source, builder);
+    }
+
+    fn explain(
+        &self,
+        finding: Finding,
+        _: usize,
+        trials: &mut dyn Trials,
+        _: &mut WorksThere<'_>,
+    ) -> Diagnostic {
+        verdict::explained(&self.asked, finding, trials)
+    }
+
+    /// Nothing that a section shows.
+    fn to_remove(&self, _: &Profile, _: &[Point2]) -> Area {
+        Area::mm2(0.0)
+    }
+
+    fn warnings(&self) -> Vec<Diagnostic> {
+        verdict::of_field(self).into_iter().collect()
+    }
+
+    fn parameters(&self) -> Vec<ParameterFigure> {
+        words::parameters(self)
+    }
+
+    fn tables(&self) -> Vec<ParameterTable> {
+        words::tables(self)
+    }
+
+    fn summary(&self, _: &Report) -> Vec<(&'static str, String)> {
+        words::summary(self)
+    }
+
+    fn chosen(&self, field: &str) -> Option<(String, String)> {
+        words::chosen(self, field)
+    }
+
+    fn layout(&self) -> [String; 2] {
+        words::layout(self)
+    }
+}

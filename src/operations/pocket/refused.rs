@@ -1,0 +1,245 @@
+//! Why there is no plan of a pocket, and what its fields contradict each other in.
+
+use crate::asked::ClearPocket;
+use vcutc_backend_api::ir::Stock;
+use vcutc_backend_api::units::Length;
+use vcutc_cancellation::{Effort, Wanted};
+use vcutc_diagnostics::number::show;
+use vcutc_diagnostics::source::Spanned;
+use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::operation::{Unplanned, WorksThere};
+use vcutc_region::region::Side;
+
+/// Why there is no plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Why {
+    /// The tool fits nowhere: the widest circle within the region.
+    TooNarrow {
+        /// How wide, in mm.
+        wide: f64,
+        /// Where.
+        at: [f64; 2],
+    },
+    /// The floor is not below the stock that the operations before have left.
+    NothingThere {
+        /// The highest of it over the region.
+        top: Length,
+    },
+    /// The passes are too many.
+    TooLarge,
+    /// There is no room to go down.
+    NoWayDown {
+        /// Where a way down was looked for.
+        at: [f64; 2],
+    },
+    /// There is no sound field over the region.
+    NoField,
+}
+
+/// An operation without a plan.
+pub(crate) struct Refused<'j> {
+    pub(crate) asked: &'j ClearPocket,
+    pub(crate) why: Why,
+}
+
+impl Unplanned for Refused<'_> {
+    fn diagnostics(&self, _: &Wanted, _: &mut Effort, _: &mut WorksThere<'_>) -> Vec<Diagnostic> {
+        vec![self.diagnostic()]
+    }
+}
+
+impl Refused<'_> {
+    fn diagnostic(&self) -> Diagnostic {
+        let asked = self.asked;
+        let name = &asked.region.name;
+        match self.why {
+            Why::TooNarrow { wide, at: [x, y] } => {
+                let radius = asked.crusher.radius.value.to_mm();
+                // Passes keep what a control may cut off at joints, and what rounding takes.
+                let besides = asked.allowance.value.to_mm() + 0.007;
+                let needs = 2.0 * (radius + besides);
+                let largest = down(wide / 2.0 - besides);
+                Diagnostic::new(
+                    Code::PocketTooNarrow,
+                    format!(
+                        "`{}` needs {} mm between walls; the widest circle in `{name}` has {} mm, at ({} mm, {} mm)",
+                        asked.crusher.name,
+                        show(needs),
+                        show(down(wide)),
+                        show(x),
+                        show(y)
+                    ),
+                    asked.region_span,
+                    "too narrow for the tool",
+                )
+                .and(asked.crusher.radius.span.unwrap_or(asked.crusher.span), "its radius")
+                .help(if largest > 0.0 {
+                    format!("use a tool with a radius of at most {} mm", show(largest))
+                } else {
+                    "use a smaller allowance".to_owned()
+                })
+            }
+            Why::NothingThere { top } => Diagnostic::new(
+                Code::PocketOutside,
+                format!(
+                    "the floor of the pocket is {} mm high, the stock over `{name}` {} mm",
+                    show(asked.floor.value.to_mm()),
+                    show(top.to_mm())
+                ),
+                asked.floor.span.unwrap_or(asked.setup.head_span),
+                "nothing to clear above it",
+            )
+            .help(format!("use a floor below {} mm", show(top.to_mm()))),
+            Why::NoWayDown { at: [x, y] } => Diagnostic::new(
+                Code::PocketTooNarrow,
+                format!(
+                    "`{}` fits into `{name}`, but has no room to go down at ({} mm, {} mm): a crusher does not cut at its centre",
+                    asked.crusher.name,
+                    show(x),
+                    show(y)
+                ),
+                asked.region_span,
+                "hardly wider than the tool",
+            )
+            .help("use a narrower tool"),
+            Why::NoField => Diagnostic::new(
+                Code::PocketTooNarrow,
+                format!("the sound field over `{name}` cannot be computed"),
+                asked.region_span,
+                "has too many sides, or is too large for this step",
+            )
+            .help("use another pattern, such as `pattern = sfs`, or a wider `step`"),
+            Why::TooLarge => Diagnostic::new(
+                Code::PocketTooNarrow,
+                format!("`{name}` takes more passes than are planned"),
+                asked.region_span,
+                "too large for this step",
+            )
+            .help("use a wider tool, or a wider `step`"),
+        }
+    }
+}
+
+/// Rounded down to a hundredth, so that the number shown works.
+fn down(value: f64) -> f64 {
+    (value * 100.0).floor() / 100.0
+}
+
+pub(crate) fn step_too_wide(asked: &ClearPocket, step: Length) -> Diagnostic {
+    let radius = asked.crusher.radius;
+    Diagnostic::new(
+        Code::OutOfRange,
+        format!(
+            "passes {} mm apart leave core between them: `{}` is {} mm wide",
+            show(step.to_mm()),
+            asked.crusher.name,
+            show(2.0 * radius.value.to_mm())
+        ),
+        asked.step.span.unwrap_or(asked.setup.head_span),
+        "wider than the tool",
+    )
+    .and(radius.span.unwrap_or(asked.crusher.span), "its radius")
+    .help(format!(
+        "use a step of at most {} mm, which leaves nothing",
+        show(radius.value.to_mm())
+    ))
+}
+
+pub(crate) fn too_thick(asked: &ClearPocket, layer: Length) -> Diagnostic {
+    let height = asked.crusher.height;
+    Diagnostic::new(
+        Code::LayerTooThick,
+        format!(
+            "a layer of {} mm, and `{}` cuts {} mm at once",
+            show(layer.to_mm()),
+            asked.crusher.name,
+            show(height.value.to_mm())
+        ),
+        asked.layer.span.unwrap_or(asked.setup.head_span),
+        "thicker than the tool is high",
+    )
+    .and(height.span.unwrap_or(asked.crusher.span), "its height")
+    .help(format!("use `layer = {} mm`", show(height.value.to_mm())))
+}
+
+pub(crate) fn floor_above_stock(asked: &ClearPocket, stock: Spanned<Stock>) -> Diagnostic {
+    Diagnostic::new(
+        Code::PocketOutside,
+        format!(
+            "the floor of the pocket is {} mm high, the stock {} mm",
+            show(asked.floor.value.to_mm()),
+            show(stock.node.height.to_mm())
+        ),
+        asked.floor.span.unwrap_or(asked.setup.head_span),
+        "nothing to clear above it",
+    )
+    .and(stock.span, "the stock")
+    .help(format!(
+        "use a floor below {} mm",
+        show(stock.node.height.to_mm())
+    ))
+}
+
+/// Coordinates that should be equal may differ by this, in mm.
+const SAME: f64 = 1e-6;
+
+/// A region that leaves the stock, or is open towards core.
+pub(crate) fn beyond_stock(asked: &ClearPocket, stock: Spanned<Stock>) -> Option<Diagnostic> {
+    let region = &asked.region;
+    let [width, depth] = [stock.node.width, stock.node.depth].map(Length::to_mm);
+    let bounds = region.region.bounds();
+    let (low, high) = (bounds.low, bounds.high);
+    let is_within = low.x >= -SAME && low.y >= -SAME && high.x <= width + SAME && high.y <= depth + SAME;
+    if !is_within {
+        let diagnostic = Diagnostic::new(
+            Code::PocketOutside,
+            format!(
+                "`{}` reaches from ({} mm, {} mm) to ({} mm, {} mm), the stock from (0 mm, 0 mm) to ({} mm, {} mm)",
+                region.name,
+                show(low.x),
+                show(low.y),
+                show(high.x),
+                show(high.y),
+                show(width),
+                show(depth)
+            ),
+            asked.region_span,
+            "reaches out of the stock",
+        );
+        return Some(
+            diagnostic
+                .and(region.span, "defined here")
+                .and(stock.span, "the stock")
+                .help("end the region at the side of the stock, with `open to` along it"),
+        );
+    }
+    let open = region.region.edges().filter(|edge| edge.side == Side::Open);
+    let mut inner = open.filter(|edge| {
+        let ends = [edge.piece.from, edge.piece.to];
+        let on = |is_on: &dyn Fn(vcutc_region::place::Place) -> bool| ends.iter().all(|&end| is_on(end));
+        let is_at_a_side = on(&|end| end.x.abs() <= SAME)
+            || on(&|end| (end.x - width).abs() <= SAME)
+            || on(&|end| end.y.abs() <= SAME)
+            || on(&|end| (end.y - depth).abs() <= SAME);
+        !is_at_a_side
+    });
+    let edge = inner.next()?;
+    let (from, to) = (edge.piece.from, edge.piece.to);
+    Some(
+        Diagnostic::new(
+            Code::OpenSideBlocked,
+            format!(
+                "core stands beyond the open side from ({} mm, {} mm) to ({} mm, {} mm) of `{}`",
+                show(from.x),
+                show(from.y),
+                show(to.x),
+                show(to.y),
+                region.name
+            ),
+            asked.region_span,
+            "open where core stands",
+        )
+        .and(region.span, "defined here")
+        .help("draw it with `line to`, or along a side of the stock"),
+    )
+}

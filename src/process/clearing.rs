@@ -1,0 +1,315 @@
+//! The proof of passes over regions, from the lines and arcs of a finished program.
+//!
+//! Nothing of it comes from the plan but the region and what the operation is held to ([`Clearing`]). Walls are upright, so all is
+//! seen in the plan: the tool is a circle, its way at each floor is lines and arcs, and its ways down and up keep from the walls as
+//! its passes do.
+
+pub mod shown;
+mod sides;
+mod stated;
+
+use stated::{Layer, layers};
+use vcutc_backend_api::ir::{Blade, BodyStage, Crusher, OperationId, Program, Shape};
+use vcutc_backend_api::units::{Angle, Area, Length};
+use vcutc_geometry::curve::Point2;
+use vcutc_job::{Clearing, PlannedJob};
+use vcutc_region::clearance::{Clearance, clearance};
+use vcutc_region::coverage::{Coverage, Tool, coverage, unreachable};
+use vcutc_region::distance::Walls;
+use vcutc_region::engagement::{Engagement, engagement};
+use vcutc_region::pass::Pass;
+use vcutc_region::place::Place;
+use vcutc_simulation::prove::{Cleared, ClearingFault, CutFault, Finding, Findings};
+use vcutc_simulation::surface::Surface;
+
+/// How far a number of a program may be beyond its limit by rounding, in mm.
+const ROUNDING: f64 = 1e-6;
+
+/// Judges the passes over regions of a program, in what its other cuts leave: adds what is wrong, and says what they do.
+#[must_use]
+pub fn judged(
+    plan: &PlannedJob,
+    before: &mut Surface,
+    program: &Program,
+    findings: &mut Findings,
+) -> Vec<Cleared> {
+    let numbered = (0..).map(OperationId).zip(&plan.operations);
+    let held = numbered.filter_map(|(operation, planned)| Some((operation, planned.clearing()?)));
+    let judged = held.filter_map(|(operation, held)| {
+        let judge = Judge {
+            operation,
+            held: &held,
+            program,
+            findings,
+        };
+        judge.all(before)
+    });
+    judged.collect()
+}
+
+struct Judge<'j> {
+    operation: OperationId,
+    held: &'j Clearing,
+    program: &'j Program,
+    findings: &'j mut Findings,
+}
+
+/// What the passes of a layer do in the plan.
+#[derive(Clone, Debug)]
+struct Seen {
+    clearance: Clearance,
+    coverage: Coverage,
+    engagement: Engagement,
+}
+
+impl Judge<'_> {
+    fn all(mut self, before: &mut Surface) -> Option<Cleared> {
+        let layers = layers(self.program, self.operation);
+        let first = layers.first()?;
+        let blade = self.program.blade(first.tool)?;
+        let Shape::Crusher(crusher) = blade.shape else {
+            return None;
+        };
+        let tool = Tool {
+            radius: crusher.radius.to_mm(),
+            keep: (crusher.radius + self.held.allowance + self.program.blend).to_mm(),
+        };
+        let mut done = Cleared {
+            operation: self.operation,
+            layers: layers.len(),
+            pieces: 0,
+            way: Length::ZERO,
+            to_wall: Length::mm(f64::INFINITY),
+            uncut: Area::mm2(0.0),
+            widest: Length::ZERO,
+            beyond_reach: self.beyond_reach(tool.radius),
+            mean_engagement: Angle::ZERO,
+            engagement: Angle::ZERO,
+        };
+        let mut above = self.highest(before, tool.radius);
+        let top = above;
+        let mut known: Option<(Layer, Seen)> = None;
+        for layer in layers {
+            self.stands(&layer);
+            self.depth(&layer, above, crusher);
+            above = layer.floor();
+            let seen = match known {
+                Some((same, seen)) if same.flat() == layer.flat() => seen,
+                _ => match self.seen(&layer, tool) {
+                    Some(seen) => seen,
+                    None => {
+                        self.note(&layer, Place::new(0.0, 0.0), ClearingFault::Undecided);
+                        return Some(done);
+                    }
+                },
+            };
+            self.judge(&layer, &seen, tool);
+            self.bodies(&layer, &seen, (blade, top));
+            done.pieces += layer.flat().iter().map(|pass| pass.pieces.len()).sum::<usize>();
+            done.way += Length::mm(layer.flat().iter().map(|pass| pass.length()).sum());
+            done.uncut = done.uncut.max(Area::mm2(seen.coverage.uncut));
+            let widths = seen.coverage.spots.iter().map(|spot| Length::mm(spot.width));
+            done.widest = widths.fold(done.widest, Length::max);
+            if let Some(near) = seen.clearance.least {
+                done.to_wall = done.to_wall.min(Length::mm(near.distance - tool.radius));
+            }
+            done.mean_engagement = Angle::rad(seen.engagement.mean);
+            if let Some((angle, _)) = self.most_engaged(&layer, &seen.engagement) {
+                done.engagement = done.engagement.max(angle);
+            }
+            known = Some((layer, seen));
+        }
+        Some(done)
+    }
+}
+
+impl Judge<'_> {
+    fn seen(&self, layer: &Layer, tool: Tool) -> Option<Seen> {
+        let region = &self.held.region;
+        let passes = layer.flat();
+        Some(Seen {
+            clearance: clearance(region, &layer.all()),
+            coverage: coverage(region, passes, tool).ok()?,
+            engagement: engagement(region, passes, tool.radius).ok()?,
+        })
+    }
+
+    /// How much of the region no tool reaches that keeps the allowance; none where that is beyond what is looked at.
+    fn beyond_reach(&self, radius: f64) -> Area {
+        let keep = radius + self.held.allowance.to_mm();
+        let left = unreachable(&self.held.region, Tool { radius, keep });
+        Area::mm2(left.map_or(0.0, |left| left.uncut))
+    }
+
+    /// The highest of the stock over the region and what of the tool is beside it.
+    fn highest(&self, before: &mut Surface, beside: f64) -> f64 {
+        let bounds = self.held.region.bounds();
+        before.highest(bounds.low.x - beside, bounds.high.x + beside)
+    }
+
+    fn note(&mut self, layer: &Layer, at: Place, fault: ClearingFault) {
+        let finding = Finding {
+            operation: self.operation,
+            layer: layer.number,
+            kind: self.program.cut_kind(self.operation, layer.tool),
+            cut: layer.cut,
+            tip: Point2::new(at.x, layer.floor()),
+            y: Some(at.y),
+            fault: CutFault::Clearing(fault),
+        };
+        self.findings.note_clearing(finding, fault);
+    }
+
+    fn stands(&mut self, layer: &Layer) {
+        if let Some(at) = layer.leaning {
+            self.note(layer, at, ClearingFault::Leans);
+        }
+    }
+
+    fn depth(&mut self, layer: &Layer, above: f64, crusher: Crusher) {
+        let at = layer.lowest;
+        let below = self.held.floor.to_mm() - layer.floor();
+        if below > ROUNDING {
+            self.note(
+                layer,
+                at,
+                ClearingFault::Floor {
+                    by: Length::mm(below),
+                },
+            );
+        }
+        let thick = above - layer.floor();
+        let limit = crusher.height;
+        if thick > limit.to_mm() + ROUNDING {
+            let layer_of = Length::mm(thick);
+            self.note(
+                layer,
+                at,
+                ClearingFault::Thick {
+                    layer: layer_of,
+                    limit,
+                },
+            );
+        }
+    }
+
+    fn judge(&mut self, layer: &Layer, seen: &Seen, tool: Tool) {
+        let Seen {
+            clearance,
+            coverage,
+            engagement,
+        } = seen;
+        if let Some(near) = clearance.least {
+            let by = tool.keep + layer.slack - near.distance;
+            if by > ROUNDING {
+                self.note(layer, near.on_pass, ClearingFault::Wall { by: Length::mm(by) });
+            }
+        }
+        let all = layer.all();
+        let astray = clearance
+            .astray
+            .iter()
+            .filter_map(|&astray| all.get(astray)?.pieces.first());
+        if let Some(at) = astray
+            .map(|piece| piece.from)
+            .find(|at| self.is_over_the_stock(*at))
+        {
+            let by = Length::mm(tool.radius);
+            self.note(layer, at, ClearingFault::Wall { by });
+        }
+        if let Some((by, at)) = self.beyond_a_side(&all, tool.radius) {
+            self.note(layer, at, ClearingFault::Wall { by: Length::mm(by) });
+        }
+        let limit = self.held.uncut;
+        if coverage.uncut > limit.to_mm2()
+            && let Some(widest) = coverage.spots.iter().max_by(|a, b| a.width.total_cmp(&b.width))
+        {
+            let fault = ClearingFault::Uncut {
+                area: Area::mm2(coverage.uncut),
+                places: coverage.spots.len(),
+                widest: Length::mm(widest.width),
+                limit,
+            };
+            self.note(layer, widest.at, fault);
+        }
+        if let (Some(limit), Some((angle, at))) = (self.held.engagement, self.most_engaged(layer, engagement))
+            && angle > limit + Angle::rad(ROUNDING)
+        {
+            self.note(layer, at, ClearingFault::Engaged { angle, limit });
+        }
+    }
+
+    fn is_over_the_stock(&self, at: Place) -> bool {
+        let stock = self.program.stock;
+        let within = |at: f64, length: Length| at > ROUNDING && at < length.to_mm() - ROUNDING;
+        within(at.x, stock.width) && within(at.y, stock.depth)
+    }
+
+    /// How far the tool enters the stock from beside it, other than through an open side, and where: ways beyond open sides have the
+    /// sides of the stock beside these for walls.
+    fn beyond_a_side(&self, passes: &[Pass], radius: f64) -> Option<(f64, Place)> {
+        let sides = Walls::of_pieces(
+            sides::closed(&self.held.region, self.program.stock)
+                .into_iter()
+                .enumerate(),
+        );
+        let mut deepest: Option<(f64, Place)> = None;
+        for piece in passes.iter().flat_map(|pass| &pass.pieces) {
+            let ends = [piece.from, piece.to];
+            if ends.iter().all(|end| self.is_over_the_stock(*end)) {
+                continue;
+            }
+            if let Some((at, near)) = sides.nearest_to(*piece) {
+                let by = radius - near.distance;
+                if by > ROUNDING && deepest.is_none_or(|(known, _)| by > known) {
+                    deepest = Some((by, at));
+                }
+            }
+        }
+        deepest
+    }
+
+    /// How much of the rim is in the material at most where the tool is not slow, and where that is.
+    fn most_engaged(&self, layer: &Layer, engagement: &Engagement) -> Option<(Angle, Place)> {
+        let mut most: Option<(f64, Place)> = None;
+        for (number, (pass, profile)) in layer.flat().iter().zip(&engagement.profiles).enumerate() {
+            let mut begun = 0.0;
+            let mut at = 0;
+            for stretch in profile {
+                while at < stretch.piece {
+                    begun += pass.pieces.get(at).map_or(0.0, |piece| piece.length());
+                    at += 1;
+                }
+                let is_slow = layer
+                    .speed(number, stretch.piece)
+                    .is_none_or(|speed| speed <= self.held.slow);
+                if is_slow || most.is_some_and(|(known, _)| known >= stretch.bound) {
+                    continue;
+                }
+                let Some(piece) = pass.pieces.get(stretch.piece) else {
+                    continue;
+                };
+                let middle = f64::midpoint(stretch.way[0], stretch.way[1]) - begun;
+                most = Some((stretch.bound, piece.at(middle / piece.length())));
+            }
+        }
+        most.map(|(angle, at)| (Angle::rad(angle), at))
+    }
+
+    /// Bodies wider than the edge have to keep from the walls that are beside them.
+    fn bodies(&mut self, layer: &Layer, seen: &Seen, (blade, top): (&Blade, f64)) {
+        let Some(near) = seen.clearance.least else { return };
+        let stages: &[BodyStage] = blade.body.as_deref().unwrap_or_default();
+        let within = stages
+            .iter()
+            .filter(|stage| layer.floor() + stage.from.to_mm() < top - ROUNDING);
+        let widest = within.max_by(|a, b| a.radius.total_cmp(&b.radius));
+        if let Some(stage) = widest {
+            let by = stage.radius.to_mm() + layer.slack - near.distance;
+            if by > ROUNDING {
+                let (above, by) = (stage.from, Length::mm(by));
+                self.note(layer, near.on_pass, ClearingFault::Body { above, by });
+            }
+        }
+    }
+}

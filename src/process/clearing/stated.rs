@@ -1,0 +1,210 @@
+//! The passes over a region as a program states them.
+
+use core::num::NonZeroU32;
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{Action, OperationId, Program, Site, ToolId};
+use vcutc_backend_api::segments::LinearSegment;
+use vcutc_backend_api::units::Speed;
+use vcutc_region::pass::Pass;
+use vcutc_region::piece::Piece;
+use vcutc_region::place::Place;
+
+/// Heights this close are one, in mm.
+const LEVEL: f64 = 1e-6;
+
+/// How upright a tool stands that does, as the cosine that it lacks.
+const UPRIGHT: f64 = 1e-12;
+
+/// How far the lines that stand for an arc that goes down may be off it, in mm.
+const CHORD: f64 = 1e-3;
+
+/// The passes of a layer.
+#[derive(Clone, Debug)]
+pub(super) struct Layer {
+    pub(super) number: NonZeroU32,
+    /// The first chain of it.
+    pub(super) cut: NonZeroU32,
+    pub(super) tool: ToolId,
+    /// Where the tool goes down the farthest first.
+    pub(super) lowest: Place,
+    /// Where the tool does not stand upright, if anywhere.
+    pub(super) leaning: Option<Place>,
+    /// How far what stands for ways down may be off them, in mm.
+    pub(super) slack: f64,
+    floor: f64,
+    /// The speed of each piece of `flat`.
+    speeds: Vec<Vec<Option<Speed>>>,
+    flat: Vec<Pass>,
+    sloping: Vec<Pass>,
+}
+
+impl Layer {
+    /// How far down the tool goes, in mm.
+    pub(super) const fn floor(&self) -> f64 {
+        self.floor
+    }
+
+    /// What runs along the floor, chain by chain.
+    pub(super) fn flat(&self) -> &[Pass] {
+        &self.flat
+    }
+
+    /// The programmed speed of a piece of that.
+    pub(super) fn speed(&self, pass: usize, piece: usize) -> Option<Speed> {
+        *self.speeds.get(pass)?.get(piece)?
+    }
+
+    /// All ways, those down and up among them.
+    pub(super) fn all(&self) -> Vec<Pass> {
+        self.flat.iter().chain(&self.sloping).cloned().collect()
+    }
+}
+
+/// A piece of a chain, and how the tool is held on it.
+struct Stated {
+    layer: NonZeroU32,
+    cut: NonZeroU32,
+    tool: ToolId,
+    line: LinearSegment,
+    is_upright: bool,
+}
+
+/// The layers of an operation, in the order of the program.
+pub(super) fn layers(program: &Program, operation: OperationId) -> Vec<Layer> {
+    let stated: Vec<Stated> = stated(program, operation).collect();
+    let layers = stated.chunk_by(|one, next| one.layer == next.layer);
+    layers.filter_map(layer).collect()
+}
+
+fn stated(program: &Program, operation: OperationId) -> impl Iterator<Item = Stated> {
+    program.segments().filter_map(move |segment| {
+        let (
+            Site::Cut {
+                operation: of,
+                layer,
+                cut,
+            },
+            Action::Follow { .. },
+        ) = (segment.op.site, segment.op.action)
+        else {
+            return None;
+        };
+        let line = segment.line().filter(|_| of == operation)?;
+        let is_upright = [line.from, line.to].iter().all(|pose| {
+            let held = program.orientation(pose.orientation);
+            held.is_some_and(|held| held.matrix()[2][2] <= -1.0 + UPRIGHT)
+        });
+        Some(Stated {
+            layer,
+            cut,
+            tool: segment.before.tool,
+            line,
+            is_upright,
+        })
+    })
+}
+
+fn layer(pieces: &[Stated]) -> Option<Layer> {
+    let first = pieces.first()?;
+    let ends = pieces
+        .iter()
+        .flat_map(|piece| [piece.line.from.tip, piece.line.to.tip]);
+    let lowest = ends.min_by(|one, other| one.z.total_cmp(&other.z))?;
+    let mut layer = Layer {
+        number: first.layer,
+        cut: first.cut,
+        tool: first.tool,
+        lowest: plan_of(lowest),
+        leaning: None,
+        slack: 0.0,
+        floor: lowest.z,
+        speeds: Vec::new(),
+        flat: Vec::new(),
+        sloping: Vec::new(),
+    };
+    for chain in pieces.chunk_by(|one, next| one.cut == next.cut) {
+        let mut flat = Vec::new();
+        let mut speeds = Vec::new();
+        for piece in chain {
+            if !piece.is_upright && layer.leaning.is_none() {
+                layer.leaning = Some(plan_of(piece.line.from.tip));
+            }
+            match level(&piece.line, layer.floor) {
+                Some(level) => {
+                    flat.push(level);
+                    speeds.push(piece.line.feed);
+                }
+                None => layer.slopes(&piece.line),
+            }
+        }
+        if !flat.is_empty() {
+            layer.speeds.push(speeds);
+            layer.flat.push(Pass {
+                level: 0,
+                pieces: flat,
+            });
+        }
+    }
+    Some(layer)
+}
+
+impl Layer {
+    fn slopes(&mut self, line: &LinearSegment) {
+        let pieces = sloping(line);
+        if line.via.is_some() {
+            self.slack = CHORD;
+        }
+        if !pieces.is_empty() {
+            self.sloping.push(Pass { level: 0, pieces });
+        }
+    }
+}
+
+const fn plan_of(point: Point3) -> Place {
+    Place::new(point.x, point.y)
+}
+
+/// A piece along the floor, in the plan.
+fn level(line: &LinearSegment, floor: f64) -> Option<Piece> {
+    let points = [Some(line.from.tip), line.via, Some(line.to.tip)];
+    if points
+        .iter()
+        .flatten()
+        .any(|point| (point.z - floor).abs() > LEVEL)
+    {
+        return None;
+    }
+    let [from, to] = [line.from.tip, line.to.tip].map(plan_of);
+    Some(match line.via.map(plan_of) {
+        None => Piece::line(from, to),
+        Some(via) => Piece::arc(from, to, sweep(from, via, to)),
+    })
+}
+
+/// The angle of the arc through three places: twice that between both chords (inscribed angles).
+fn sweep(from: Place, via: Place, to: Place) -> f64 {
+    let (first, second) = (via.minus(from), to.minus(via));
+    2.0 * libm::atan2(first.cross(second), first.dot(second))
+}
+
+/// A way down or up as lines of the plan.
+fn sloping(line: &LinearSegment) -> Vec<Piece> {
+    let ends = [line.from.tip, line.to.tip].map(plan_of);
+    let places: Vec<Place> = match line.arc() {
+        None => ends.to_vec(),
+        Some(arc) => {
+            let radius = arc.radius().to_mm();
+            let widest = 2.0 * libm::acos((1.0 - CHORD / radius).clamp(-1.0, 1.0));
+            // An arc of a program has less than a whole turn, so this is a few thousand at most for radii up to kilometres.
+            let count = libm::ceil(arc.sweep().to_rad() / widest.max(1e-3)).max(1.0) as u32;
+            let points =
+                (0..=count).map(|k| arc.at(arc.sweep().to_rad() * (f64::from(k) / f64::from(count))));
+            points.map(|[x, y, _]| Place::new(x, y)).collect()
+        }
+    };
+    let pairs = places.iter().zip(places.iter().skip(1));
+    pairs
+        .filter(|(from, to)| from != to)
+        .map(|(&from, &to)| Piece::line(from, to))
+        .collect()
+}
