@@ -17,7 +17,7 @@ pub enum Detail {
     True,
 }
 
-/// Why there is no axis.
+/// The reasons for which a region has no axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisError {
     /// The region has more edges than are taken.

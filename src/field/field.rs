@@ -7,7 +7,7 @@ use vcutc_region::place::Place;
 /// Sources of a field at most.
 const MOST_SOURCES: usize = 20_000;
 
-/// Why there is no field.
+/// The reasons for which a region has no field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FieldError {
     /// Step, lift or reference is not a number above 0.

@@ -55,7 +55,7 @@ pub enum PassesError {
     TooWide,
     /// The axis of the region could not be found.
     Axis(AxisError),
-    /// There is no field.
+    /// The field cannot be computed.
     Field(FieldError),
     /// The field has no lines.
     Lines(LinesError),

@@ -59,7 +59,7 @@ pub(crate) fn circle(boundary: &Boundary, own: usize, place: Place, normal: Plac
         .checked_sub(count)
         .and_then(|corner| boundary.corners.get(corner));
     let meets = |number: usize| own_corner.is_some_and(|corner| corner.walls.contains(&Some(number)));
-    // What a circle through the place touches is no farther than its diameter.
+    // A circle through the place touches only what lies within its diameter.
     let reach = |best: &Option<(f64, Touched)>| {
         best.map_or(f64::INFINITY, |(radius, _)| 2.0 * radius * (1.0 + SAME_AS_OWN))
     };

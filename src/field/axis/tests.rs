@@ -112,7 +112,7 @@ fn the_simplified_axis_has_one_piece_or_two_between_nodes() {
     }
 }
 
-/// A circle has a point for an axis, which is no piece; a ring has an axis without ends.
+/// The axis of a circle is a point, so it has no pieces; the axis of a ring is closed.
 #[test]
 fn circles_and_rings() {
     let disc = bulged(&[(10.0, 0.0, 1.0), (-10.0, 0.0, 1.0)]);

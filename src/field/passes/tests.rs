@@ -268,7 +268,7 @@ fn bad_numbers_are_refused() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(6))]
 
-    /// Whatever the region: passes keep from walls, and what stays is no more than is asked for.
+    /// In any region, passes keep their distance to walls, and at most the allowed area stays.
     #[test]
     fn random_regions_are_cleared(region in any_region(), share in 0.6..1.0f64, lift in 0.1..2.0f64) {
         let tool = Tool { radius: 4.0, ..TOOL };

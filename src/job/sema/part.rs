@@ -195,7 +195,7 @@ impl Part {
         }
     }
 
-    /// The same part, with all cuts that rough it along that spine. None where there is no such spine, or no shadow.
+    /// The same part, with all cuts that rough it along that spine. None without such a spine or shadow.
     pub(crate) fn along(&self, rising: Rising, stock: Stock) -> Option<Self> {
         let Shape::Surface(shaded) = &self.shape else {
             return None;

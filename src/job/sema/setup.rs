@@ -139,19 +139,7 @@ pub fn check_of_two(
     written: Written<'_>,
     session: &mut Session<'_>,
 ) -> Checked<(Setup, Sourced<Speed>)> {
-    let feeds = fields
-        .required_block("feed", &mut session.reports)
-        .and_then(|inner| {
-            let (feeds, fields) = feeds(&FEEDS_OF_TWO, inner, written, session)?;
-            let mut reader = Reader::new(written.scope, &mut session.reports);
-            Ok((feeds, reader.required(&fields, "free")?))
-        });
-    let (feeds, free) = match feeds {
-        Ok((feeds, free)) => (Ok(feeds), Ok(free)),
-        Err(reported) => (Err(reported), Err(reported)),
-    };
-    let setup = with_feeds(feeds, Blades::Both, fields, written, session);
-    Ok((setup?, free?))
+    with_speed((&FEEDS_OF_TWO, "free"), Blades::Both, fields, written, session)
 }
 
 /// The same of an operation with [`FEED_OF_A_CRUSHER`], with the speed of its way down.
@@ -160,19 +148,36 @@ pub fn check_of_a_crusher(
     written: Written<'_>,
     session: &mut Session<'_>,
 ) -> Checked<(Setup, Sourced<Speed>)> {
-    let feeds = fields
+    with_speed(
+        (&FEEDS_OF_A_CRUSHER, "plunge"),
+        Blades::Round,
+        fields,
+        written,
+        session,
+    )
+}
+
+/// The setup, and one more speed of its block of feeds.
+fn with_speed(
+    (spec, name): (&'static BlockSpec, &str),
+    blades: Blades,
+    fields: &Fields<'_>,
+    written: Written<'_>,
+    session: &mut Session<'_>,
+) -> Checked<(Setup, Sourced<Speed>)> {
+    let both = fields
         .required_block("feed", &mut session.reports)
         .and_then(|inner| {
-            let (feeds, fields) = feeds(&FEEDS_OF_A_CRUSHER, inner, written, session)?;
+            let (feeds, fields) = feeds(spec, inner, written, session)?;
             let mut reader = Reader::new(written.scope, &mut session.reports);
-            Ok((feeds, reader.required(&fields, "plunge")?))
+            Ok((feeds, reader.required(&fields, name)?))
         });
-    let (feeds, plunge) = match feeds {
-        Ok((feeds, plunge)) => (Ok(feeds), Ok(plunge)),
+    let (feeds, speed) = match both {
+        Ok((feeds, speed)) => (Ok(feeds), Ok(speed)),
         Err(reported) => (Err(reported), Err(reported)),
     };
-    let setup = with_feeds(feeds, Blades::Round, fields, written, session);
-    Ok((setup?, plunge?))
+    let setup = with_feeds(feeds, blades, fields, written, session);
+    Ok((setup?, speed?))
 }
 
 // The block of feeds comes first: it needs the session, of which the reader holds a part.

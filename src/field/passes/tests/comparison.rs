@@ -1,4 +1,4 @@
-//! The tables in `docs/pocket_patterns.md`: patterns of passes for five pockets, held against each other.
+//! The tables in `docs/pocket_patterns.md`: they compare patterns of passes on five pockets.
 //!
 //! `UPDATE_DOCS=1 cargo test -p vcutc-field comparison` writes them anew.
 

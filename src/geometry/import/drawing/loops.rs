@@ -46,7 +46,7 @@ pub struct Loops {
 /// Why strokes are no loops.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LoopsError {
-    /// They form no chains: nothing is drawn, something is no curve, or ends cannot be paired.
+    /// The strokes do not chain: nothing is drawn, a shape is not a curve, or ends cannot be paired.
     Strokes(OutlineError),
     /// Some chains do not close.
     Open {

@@ -19,7 +19,7 @@ pub type SideName = (usize, usize);
 /// Why lines mark no sides.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OpenError {
-    /// A stroke is no curve, or there is none.
+    /// A stroke is not a curve, or nothing is drawn.
     Strokes(OutlineError),
     /// A stroke is curved; open sides are straight.
     Curved {
