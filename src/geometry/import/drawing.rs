@@ -17,6 +17,8 @@ mod ring;
 mod route;
 mod shape;
 mod sides;
+#[cfg(test)]
+mod strokes;
 
 pub use affine::Affine;
 pub(super) use affine::sincos_degrees;

@@ -1,23 +1,10 @@
 //! Loops of drawings: as they are drawn, in pieces, apart, twice, and as layers of DXF and SVG files.
 
 use super::*;
-use crate::import::drawing::Place;
+use crate::import::drawing::strokes::{line, stroke};
 use crate::import::{dxf, svg};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use proptest::prelude::*;
-
-fn stroke(shapes: Vec<Shape>) -> Stroke {
-    Stroke {
-        kind: "LINE",
-        place: Place { start: 0, end: 0 },
-        shapes,
-    }
-}
-
-fn line(points: &[(f64, f64)]) -> Stroke {
-    let points = points.iter().map(|&(x, z)| Point2::new(x, z)).collect();
-    stroke(vec![Shape::Polyline(points)])
-}
 
 fn arc(from: (f64, f64), to: (f64, f64), sweep: f64) -> Stroke {
     stroke(vec![Shape::Arc {

@@ -1,21 +1,9 @@
 //! Lines drawn twice, whole and in part.
 
-use super::super::{Place, outline};
+use super::super::outline;
+use super::super::strokes::{line, stroke};
 use super::*;
 use proptest::prelude::*;
-
-fn stroke(shapes: Vec<Shape>) -> Stroke {
-    Stroke {
-        kind: "LINE",
-        place: Place { start: 0, end: 0 },
-        shapes,
-    }
-}
-
-fn line(points: &[(f64, f64)]) -> Stroke {
-    let points = points.iter().map(|&(x, z)| Point2::new(x, z)).collect();
-    stroke(vec![Shape::Polyline(points)])
-}
 
 fn found(strokes: &[Stroke]) -> Option<Overlap> {
     drawn_over(strokes, Affine::IDENTITY, Length::mm(1e-3), Length::mm(0.01))
