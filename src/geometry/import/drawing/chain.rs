@@ -58,18 +58,18 @@ pub struct Chain {
     pub strokes: usize,
 }
 
-/// Why strokes are no outline.
+/// What prevents strokes from forming an outline.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OutlineError {
     /// There is none, or none of any extent.
     Nothing,
-    /// A stroke is no curve.
+    /// A stroke has no length, or numbers that a curve cannot have.
     Curve {
         stroke: usize,
         /// Why not.
         error: CurveError,
     },
-    /// A stroke is no B-spline.
+    /// A stroke that should be a B-spline has knots, weights or points that no B-spline can have.
     Nurbs {
         stroke: usize,
         /// Why not.

@@ -40,7 +40,7 @@ pub enum Shape {
     Nurbs(Nurbs),
 }
 
-/// Why a shape is no curve.
+/// What is wrong with a shape that should be a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ShapeError {
     Curve(CurveError),
