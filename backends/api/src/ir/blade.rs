@@ -230,6 +230,15 @@ impl Straight {
         [1.0, -1.0].map(|side| [side * sine * length, 0.0, -cosine * length])
     }
 
+    /// The smallest and the largest coordinate along +x from its tip, in mm, of all between its edges.
+    #[must_use]
+    pub fn across(&self, held: Orientation) -> [f64; 2] {
+        let [along, aside, down] = held.matrix()[0];
+        let aside = aside.abs() * self.thickness.to_mm() / 2.0;
+        let [one, other] = self.edge_ends().map(|[ahead, _, up]| along * ahead + down * up);
+        [one.min(other).min(0.0) - aside, one.max(other).max(0.0) + aside]
+    }
+
     /// The tool axis makes an angle with +y; both edges lie half the apex angle off it, in the blade's plane.
     fn extent(&self, held: Orientation) -> Extent {
         let axis = libm::acos((-held.matrix()[1][2]).clamp(-1.0, 1.0));

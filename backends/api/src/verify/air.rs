@@ -114,7 +114,17 @@ impl Walk<'_> {
                     _ => Extent::TIP,
                 }
             }
-            Some(_) | None => Extent::TIP,
+            Some(blade) => {
+                // Held alike all along it may pass the stock at its sides too: there all of its edges count.
+                let [from, to] = held;
+                let held = self.program.orientation(from).filter(|_| from == to);
+                let across = blade.straight().zip(held);
+                Extent {
+                    x: across.map(|(straight, held)| straight.across(held)),
+                    ..Extent::TIP
+                }
+            }
+            None => Extent::TIP,
         }
     }
 

@@ -146,7 +146,8 @@ struct Course<'l> {
 const LEANS_BACK: f64 = 1e-6;
 
 impl Course<'_> {
-    /// Whether a straight blade follows the piece in its own plane, an edge in front and its shank not leaning back.
+    /// Whether a straight blade follows the piece in its own plane, with an edge in front that does not lean back, or into the
+    /// material and out of it within its own outline.
     ///
     /// With `y` the normal of the blade's plane, which turns by the vector `b`, and `t` the direction of the way, which turns by `a`
     /// (both in rad a piece), `(y t)' = (b - a) (y x t)`. As `y x t` is square to `y`, that is at most `|(b - a) x y|`; and `y`
@@ -155,15 +156,47 @@ impl Course<'_> {
         let between = self.changes_by_at_most(self.axis(0, 1));
         let slips = self.ends().map(|(end, way)| dot(self.axis(end, 1), way).abs());
         let slip = slips.fold(0.0, f64::max) + 0.5 * between;
-        let leads = self.ends().all(|(end, way)| {
-            let edge = match blade.edges {
-                Edges::Double => true,
-                Edges::Single => dot(self.axis(end, 0), way) > 0.0,
-            };
-            // Where a way bends, the blade lies between its directions.
-            -dot(self.axis(end, 2), way) >= -libm::sin(LARGEST_SLIP.to_rad()) && self.stands(end) && edge
-        });
-        slip <= libm::sin(LARGEST_SLIP.to_rad()) && leads
+        let stands = self.ends().all(|(end, _)| self.stands(end));
+        let leads = self.ends().all(|(end, way)| self.leads(blade, end, way));
+        slip <= libm::sin(LARGEST_SLIP.to_rad()) && stands && (leads || self.stays_within_its_outline(blade))
+    }
+
+    /// Whether an edge that cuts is in front and does not lean back: it may stand square to the way, as where a slit ends at a corner.
+    /// Where a way bends, the blade lies between its directions.
+    fn leads(&self, blade: Straight, end: usize, way: [f64; 3]) -> bool {
+        let ahead = dot(self.axis(end, 0), way);
+        let front = match blade.edges {
+            Edges::Double if ahead < 0.0 => -1.0,
+            Edges::Double => 1.0,
+            Edges::Single if ahead > 0.0 => 1.0,
+            Edges::Single => return false,
+        };
+        dot(self.edge(blade, end, front), way) >= -libm::sin(LARGEST_SLIP.to_rad())
+    }
+
+    /// Whether a blade goes straight into the material or out of it, between the directions of its edges: all that it passes lies
+    /// within its outline at the deeper end. A back that does not cut goes along itself.
+    fn stays_within_its_outline(&self, blade: Straight) -> bool {
+        let (Some((_, way)), false, None) = (self.ends().next(), self.line.turns(), self.line.via) else {
+            return false;
+        };
+        let along = |direction: [f64; 3], widest: Angle| dot(direction, way) >= libm::cos(widest.to_rad());
+        let outline = blade.half_apex + LARGEST_SLIP;
+        let goes_out = along(scaled(self.axis(0, 2), -1.0), outline);
+        let goes_in = match blade.edges {
+            Edges::Double => along(self.axis(0, 2), outline),
+            Edges::Single => along(scaled(self.edge(blade, 0, -1.0), -1.0), LARGEST_SLIP),
+        };
+        goes_in || goes_out
+    }
+
+    /// The direction of an edge from the tip up: the leading one (1), or the other one (-1).
+    fn edge(&self, blade: Straight, end: usize, side: f64) -> [f64; 3] {
+        let (sin, cos) = libm::sincos(blade.half_apex.to_rad());
+        minus(
+            scaled(self.axis(end, 0), side * sin),
+            scaled(self.axis(end, 2), cos),
+        )
     }
 
     /// Whether a round blade goes down, seen along its own axis, no more steeply than this. For the axis holds what

@@ -2,7 +2,7 @@
 
 use super::{Rule, verify};
 use crate::geometry::Point3;
-use crate::ir::{Action, Joint, OpId, Program, Switch};
+use crate::ir::{Action, Edges, Joint, OpId, Program, Switch};
 use crate::testkit::{Recipe, chained};
 use crate::units::{Angle, Length};
 use proptest::prelude::*;
@@ -101,6 +101,97 @@ fn a_blade_that_does_not_turn_with_its_way_is_held_wrongly() {
         *orientation = along;
     }
     assert!(broken(program, second).contains(&Rule::ChainPosture));
+}
+
+/// An edge may stand square to its way, as where a slit ends at a corner; one that leans back would push the core, not cut it.
+#[test]
+fn the_leading_edge_leans_forward_or_stands() {
+    let half_apex = Recipe::default().program().blades[0]
+        .straight_mut()
+        .unwrap()
+        .half_apex;
+    for (rake, stands) in [
+        (half_apex + Angle::deg(90.0), true),
+        (half_apex + Angle::deg(91.0), false),
+    ] {
+        let program = chained(Recipe::default().program(), rake, Length::mm(0.1));
+        let second = pieces(&program)[1];
+        let faults = broken(program, second);
+        assert_eq!(
+            !faults.contains(&Rule::ChainPosture),
+            stands,
+            "{rake:?}: {faults:?}"
+        );
+    }
+}
+
+/// The sample with its chain begun by a piece that goes this far along y and z, with an upright blade.
+fn entered(edges: Edges, [along, down]: [f64; 2]) -> (Program, usize) {
+    let recipe = Recipe {
+        edges,
+        ..Recipe::default()
+    };
+    let mut program = chained(recipe.program(), Angle::deg(90.0), Length::mm(0.1));
+    let first = pieces(&program)[0];
+    let mut down_to = program.ops[first];
+    if let Action::Follow { to, joint, .. } = &mut down_to.action {
+        to.y -= 20.0;
+        to.z -= down;
+        *joint = Joint::Stop;
+    }
+    if let Some(begin) = down_to.action.tip() {
+        for op in &mut program.ops[..first] {
+            if let Action::Approach { to, .. } | Action::Travel { to, .. } = &mut op.action
+                && to.x == begin.x
+            {
+                to.y = begin.y - along;
+                to.z = to.z.max(begin.z + down);
+            }
+        }
+        program.ops[first - 1].action = Action::Approach {
+            to: Point3 {
+                y: begin.y - along,
+                z: begin.z + down,
+                ..begin
+            },
+            feed: crate::ir::FeedId(1),
+        };
+    }
+    program.ops.insert(first, down_to);
+    (program, first)
+}
+
+#[test]
+fn a_blade_goes_in_and_out_within_its_outline() {
+    let half_apex = Recipe::default().program().blades[0]
+        .straight_mut()
+        .unwrap()
+        .half_apex;
+    let beside = 10.0 * half_apex.tan();
+    for (edges, way, is_good) in [
+        (Edges::Double, [0.0, 10.0], true),
+        (Edges::Double, [0.0, -10.0], true),
+        (Edges::Double, [0.99 * beside, 10.0], true),
+        (Edges::Double, [-0.99 * beside, 10.0], true),
+        (Edges::Double, [-1.2 * beside, 10.0], false),
+        (Edges::Single, [beside, 10.0], true),
+        (Edges::Single, [0.0, 10.0], false),
+        (Edges::Single, [0.0, -10.0], true),
+    ] {
+        let (program, first) = entered(edges, way);
+        let at = Some(OpId(u32::try_from(first).unwrap()));
+        let faults = verify(program).err().unwrap_or_default();
+        let faults: Vec<Rule> = faults
+            .into_iter()
+            .filter(|fault| fault.op == at)
+            .map(|fault| fault.rule)
+            .collect();
+        assert_eq!(
+            !faults.contains(&Rule::ChainPosture),
+            is_good,
+            "{edges:?} {way:?}: {faults:?}"
+        );
+    }
 }
 
 #[test]
