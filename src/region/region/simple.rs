@@ -162,10 +162,9 @@ impl Prover<'_> {
             // Once is a touch, but of two lines.
             return first.cross(second).abs() > NEAR;
         };
-        // Circles that cross twice within a little lap by `w^2 |k - k'| / 8`.
+        // Circles that cross twice at the angle a lap by about `w a / 4`.
         let width = begin.distance(end);
-        let bend = (one.curve.bend - other.curve.bend * first.dot(second).signum()).abs();
-        width * width * bend / 8.0 > NEAR
+        width * first.cross(second).abs() / 4.0 > NEAR
     }
 }
 

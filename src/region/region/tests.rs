@@ -175,6 +175,19 @@ fn crossings_and_overlaps_are_named() {
     ));
 }
 
+/// Circles cross or do not, however their radii compare: by the distance of their centres.
+#[test]
+fn circles_cross_where_their_centres_are_near() {
+    for radius in [5.0, 10.0, 20.0] {
+        for apart in [1.0, 6.0, 10.0, 14.9, 15.1, 19.0, 29.9, 30.1, 40.0] {
+            let loops = vec![circle(0.0, 0.0, 10.0), circle(apart, 0.0, radius)];
+            let crosses = (radius - 10.0_f64).abs() < apart && apart < radius + 10.0;
+            let found = matches!(Region::new(loops), Err(RegionFault::Crosses { .. }));
+            assert_eq!(found, crosses, "radius {radius}, {apart} apart");
+        }
+    }
+}
+
 #[test]
 fn touching_in_a_place_is_no_crossing() {
     let outline = rectangle(0.0, 0.0, 100.0, 80.0);
