@@ -76,8 +76,32 @@ pub struct Step {
     pub to: Point3,
     /// A point on the way of an arc; none of a line.
     pub via: Option<Point3>,
+    /// How the blade is held there.
+    pub held: Orientation,
     pub feed: FeedId,
     pub joint: Joint,
+}
+
+/// Where a chain begins, and how the blade gets there.
+#[derive(Clone, Copy, Debug)]
+pub struct Entrance<'e> {
+    pub tip: Point3,
+    /// How the blade is held there.
+    pub held: Orientation,
+    /// Postures through which it turns before, where one turn would not say which way round.
+    pub by_way_of: &'e [Orientation],
+}
+
+impl Entrance<'_> {
+    /// With one turn.
+    #[must_use]
+    pub const fn of(tip: Point3, held: Orientation) -> Self {
+        Self {
+            tip,
+            held,
+            by_way_of: &[],
+        }
+    }
 }
 
 /// Where the blade is between cuts.
@@ -176,7 +200,7 @@ impl<'b> Writer<'b> {
         let Some((first, rest)) = poses.split_first() else {
             return;
         };
-        self.begin_chain(site, first.tip, first.held);
+        self.begin_chain(site, Entrance::of(first.tip, first.held));
         for stand in rest {
             let action = Action::Follow {
                 to: stand.tip,
@@ -191,15 +215,14 @@ impl<'b> Writer<'b> {
         self.end_chain(site);
     }
 
-    /// A chain of lines and arcs from a place in the air, with the tool held alike all along, over the safe plane from wherever the
-    /// tool is. It ends where the way up is free.
-    pub fn path(&mut self, site: Site, from: Point3, held: Orientation, steps: &[Step]) {
-        self.begin_chain(site, from, held);
-        let orientation = self.builder.orientation(held);
+    /// A chain of lines and arcs from a place in the air, over the safe plane from wherever the tool is. It ends where the way up is
+    /// free.
+    pub fn path(&mut self, site: Site, from: Entrance<'_>, steps: &[Step]) {
+        self.begin_chain(site, from);
         for step in steps {
             let action = Action::Follow {
                 to: step.to,
-                orientation,
+                orientation: self.builder.orientation(step.held),
                 via: step.via.map(|via| self.builder.via(via)),
                 feed: step.feed,
                 rate: self.rate,
@@ -216,22 +239,36 @@ impl<'b> Writer<'b> {
     }
 
     /// Over the safe plane to where a chain begins, and straight down.
-    fn begin_chain(&mut self, site: Site, tip: Point3, held: Orientation) {
+    fn begin_chain(&mut self, site: Site, from: Entrance<'_>) {
+        let Entrance { tip, held, by_way_of } = from;
         let above = Point3 { z: self.safe, ..tip };
         match self.at {
             At::Above => {
                 let way = layer_of(site).unwrap_or(site);
                 self.rise_to_turn(way);
+                self.turn(way, by_way_of);
                 self.travel_to(way, above, held);
                 self.start(way);
             }
             At::Beside(_) | At::AfterChain => {
                 self.rise();
+                self.turn(site, by_way_of);
                 self.travel_to(site, above, held);
             }
         }
         let feed = self.travel;
         self.go(site, tip, Action::Approach { to: tip, feed });
+    }
+
+    /// Turns from posture to posture, if it is known where the blade is.
+    fn turn(&mut self, site: Site, postures: &[Orientation]) {
+        if !self.builder.knows_tip() {
+            return;
+        }
+        for posture in postures {
+            let to = self.builder.orientation(*posture);
+            self.builder.op(site, Action::Turn { to, rate: self.rate });
+        }
     }
 
     fn end_chain(&mut self, site: Site) {
@@ -373,6 +410,14 @@ impl<'b> Writer<'b> {
             let off = drive.switched(Switch::Off);
             self.builder.op(Site::Operation(self.stage.operation), off);
         }
+    }
+}
+
+impl Writer<'_> {
+    /// As [`Writer::leave`], and turns on from posture to posture up there: another operation finds the blade as it holds it.
+    pub fn leave_turned(&mut self, postures: &[Orientation]) {
+        self.leave();
+        self.turn(Site::Operation(self.stage.operation), postures);
     }
 }
 

@@ -6,6 +6,7 @@ pub mod beside;
 pub mod clearing;
 pub mod comparison;
 pub mod lower;
+pub mod pen;
 pub mod plan;
 pub mod posture;
 pub mod standoff;

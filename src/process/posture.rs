@@ -105,6 +105,17 @@ impl Holder {
         orientation(DQuat::from_rotation_x(pitch) * DQuat::from_xyzw(x, y, z, w))
     }
 
+    /// The posture of an upright plane turned by `yaw` about z, counter-clockwise seen from above, with the feed along the turned y.
+    #[must_use]
+    pub fn turned(self, yaw: Angle, feed: Feed) -> Orientation {
+        let upright = Self {
+            swing: Angle::ZERO,
+            ..self
+        };
+        let [w, x, y, z] = upright.cutting(Flank::Left, feed).quaternion();
+        orientation(DQuat::from_rotation_z(yaw.to_rad()) * DQuat::from_xyzw(x, y, z, w))
+    }
+
     /// The posture by way of which a turn is made that would otherwise come near half a revolution.
     #[must_use]
     pub fn by_way_of(self, from: Orientation, to: Orientation) -> Option<Orientation> {

@@ -2,8 +2,9 @@
 
 use crate::asked::ClearPocket;
 use crate::plan::Plan;
-use crate::plan::path::{self, Layer, LayerPlace, Path};
+use crate::plan::path::{self, Layer, LayerPlace};
 use vcutc_geometry::profile::Profile;
+use vcutc_process::pen::Path;
 
 /// Clearing a pocket, planned.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,14 +1,14 @@
 //! The moves of clearing a pocket: for each layer the ways down, the passes with their links, and the ways up.
 
 use crate::decided::Planned;
-use crate::plan::path::Pace;
 use core::num::NonZeroU32;
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::geometry::Orientation;
 use vcutc_backend_api::ir::{Edges, Flank, OperationKind, Site, SourceRef};
 use vcutc_backend_api::units::{Angle, Length};
-use vcutc_process::beside::{Drive, Stage, Step, Writer};
+use vcutc_process::beside::{Drive, Entrance, Stage, Step, Writer};
 use vcutc_process::lower::BLEND;
+use vcutc_process::pen::Pace;
 use vcutc_process::posture::{Feed, Holder};
 
 /// What programs call it.
@@ -58,6 +58,7 @@ pub(crate) fn lower(planned: &Planned, source: SourceRef, builder: &mut ProgramB
                 .map(|stretch| Step {
                     to: stretch.to,
                     via: stretch.via,
+                    held: upright(),
                     feed: feed(stretch.pace),
                     joint: stretch.joint,
                 })
@@ -67,7 +68,7 @@ pub(crate) fn lower(planned: &Planned, source: SourceRef, builder: &mut ProgramB
                 layer: number,
                 cut: pass,
             };
-            writer.path(site, path.from, upright(), &steps);
+            writer.path(site, Entrance::of(path.from, upright()), &steps);
             pass = pass.saturating_add(1);
         }
         number = number.saturating_add(1);
