@@ -320,6 +320,10 @@ codes! {
     PocketUncut = "VC1105", Error, "ground of a pocket uncut";
     /// A layer is thicker than its tool.
     LayerTooThick = "VC1108", Error, "layer thicker than the tool";
+    /// More stays at the foot of a wall than may, or the blade has no room in a hollow one.
+    WallLeft = "VC1109", Error, "wall that a straight blade cannot follow";
+    /// A blade meets another wall than the one that it follows.
+    WallTooShort = "VC1110", Error, "wall without room for the blade";
     /// Core stands beyond an open side.
     OpenSideBlocked = "VC1112", Error, "open side where core stands";
     /// A pocket reaches out of the stock, or into another one.

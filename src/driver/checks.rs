@@ -32,6 +32,8 @@ pub enum Check {
     Tracks,
     /// The tool keeps off the walls and the floors of pockets, and what it leaves uncut there is bounded.
     Pockets,
+    /// The blade keeps off the walls that it slits and off the floors, and what it leaves at their foot is bounded.
+    Walls,
     /// The same of strips and of what stays, between these sections.
     BetweenSections,
     /// Of an air cut, which cuts nothing: the tip stays above the stock.
@@ -163,8 +165,9 @@ impl Checks {
             Bodies::LackingOf(blades) => not_made(Check::Holder(blades), Reason::NoBody),
         };
         let mut all = Vec::new();
-        // Pockets alone free no chips, and cut into no part.
-        if report.cleared.is_empty() || report.removed > Area::mm2(0.0) {
+        // Pockets and slits along walls alone free no chips, and cut into no part.
+        let is_of_regions = !report.cleared.is_empty() || !report.slit.is_empty();
+        if !is_of_regions || report.removed > Area::mm2(0.0) {
             all.extend([made(Check::Chips), made(Check::Part)]);
         }
         if !report.tracked.is_empty() {
@@ -173,6 +176,9 @@ impl Checks {
         }
         if !report.cleared.is_empty() {
             all.push(made(Check::Pockets));
+        }
+        if !report.slit.is_empty() {
+            all.push(made(Check::Walls));
         }
         Self::after(all, carried, basis, holder)
     }
@@ -240,6 +246,7 @@ impl Checks {
                 | Check::Part
                 | Check::Tracks
                 | Check::Pockets
+                | Check::Walls
                 | Check::BetweenSections
                 | Check::AboveStock
                 | Check::Accelerations

@@ -16,7 +16,7 @@ use vcutc_job::{BladeRef, Order, PlannedJob};
 use vcutc_motion::pace::Basis;
 use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 use vcutc_simulation::body::Passage;
-use vcutc_simulation::prove::{Cleared, Tracked};
+use vcutc_simulation::prove::{Cleared, Slit, Tracked};
 use vcutc_simulation::report::Report;
 use vcutc_surface::residual::{Over, Volume};
 
@@ -46,7 +46,8 @@ pub fn summary(
             .iter()
             .map(|cleared| row("cleared", &pocket(cleared))),
     );
-    if is_of_pockets(plan) {
+    lines.extend(report.slit.iter().map(|slit| row("slit", &walls(slit))));
+    if is_of_regions(plan) {
         lines.extend(of_machine(reach));
         return lines;
     }
@@ -91,9 +92,11 @@ fn of_machine(reach: Option<&ReachFigures>) -> impl Iterator<Item = String> {
     reach.map(|(name, text)| row(name, &text))
 }
 
-/// Whether a job does nothing that a section shows.
-fn is_of_pockets(plan: &PlannedJob) -> bool {
-    plan.operations.iter().all(|planned| planned.clearing().is_some())
+/// Whether a job does nothing that a section shows: it works in regions of the plan only.
+#[must_use]
+pub fn is_of_regions(plan: &PlannedJob) -> bool {
+    let mut operations = plan.operations.iter();
+    operations.all(|planned| planned.clearing().is_some() || planned.slitting().is_some())
 }
 
 /// `1.53 m in 2 layers; 0.00 mm2 uncut, 27.3 mm2 in corners beyond reach; rim in the material 78 deg on average, at most 121 deg`.
@@ -110,6 +113,27 @@ fn pocket(cleared: &Cleared) -> String {
         cleared.beyond_reach.to_mm2(),
         cleared.mean_engagement.to_deg(),
         cleared.engagement.to_deg(),
+    )
+}
+
+/// `0.26 m in 5 slits; the sides of the blade stay at least 0.009 mm off the walls, and at most 0.03 mm of core stays at their foot; ...`.
+fn walls(slit: &Slit) -> String {
+    let slits = match slit.slits {
+        1 => "1 slit".to_owned(),
+        slits => format!("{slits} slits"),
+    };
+    let corners = if slit.in_corners > Length::ZERO {
+        format!(", {:.3} mm in acute corners", slit.in_corners.to_mm())
+    } else {
+        String::new()
+    };
+    format!(
+        "{:.2} m in {slits}; the sides of the blade stay at least {:.3} mm off the walls, and at most {:.3} mm of core stays at their \
+         foot{corners}; at most {:.1} mm of edge is used",
+        slit.way.to_mm() / 1000.0,
+        slit.to_wall.to_mm(),
+        slit.stays.to_mm(),
+        slit.edge.to_mm(),
     )
 }
 
@@ -236,7 +260,7 @@ fn headline(plan: &PlannedJob, report: &Report, basis: Basis, reach: Option<&Rea
             None => format!("scallop {height:.2} mm"),
         },
     ];
-    if is_of_pockets(plan) {
+    if is_of_regions(plan) {
         parts.truncate(2);
     }
     parts.extend(reach.map(reach_summary::least_margin));

@@ -32,6 +32,18 @@ pub struct Clearing {
     pub field: Option<SoundField>,
 }
 
+/// What an operation that slits the walls of a region is held to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slitting {
+    pub region: Arc<Region>,
+    /// The height of the floor.
+    pub floor: Length,
+    /// How far the sides of the blade keep from walls.
+    pub allowance: Length,
+    /// How much more may stay at the foot of walls.
+    pub residual: Length,
+}
+
 /// A sound field over a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoundField {

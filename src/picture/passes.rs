@@ -21,6 +21,8 @@ pub struct Passes<'a> {
     pub walls: &'a [Vec<Point>],
     /// Sides without a wall.
     pub open: &'a [Vec<Point>],
+    /// Slits along walls: the ways of the blade's tip.
+    pub slits: &'a [Vec<Point>],
     /// Stretches of passes, each with the engagement of the tool there.
     pub stretches: &'a [Stretch],
     /// Where the tool goes down.
@@ -36,6 +38,9 @@ pub struct Stretch {
     /// The angle of the tool's rim in the material.
     pub engagement: f64,
 }
+
+/// The colour of slits.
+const SLIT: &str = "#d4351c";
 
 /// The width of a class of engagement.
 const CLASS: f64 = 30.0;
@@ -54,7 +59,7 @@ pub fn draw(passes: &Passes<'_>) -> String {
         heading: passes.heading,
         description: description(passes),
         plot: tiles.plot(Room::of(passes.heading.ids)),
-        labels: ["x across the cuts, mm", "y along the cuts, mm"],
+        labels: ["x, mm", "y, mm"],
         series: series(passes),
         along: Some(Along::Width),
     }
@@ -76,13 +81,20 @@ fn series(passes: &Passes<'_>) -> Vec<Series> {
             series.push(Series::new(Shape::Lines(lines), paint(class)).named(words(class)));
         }
     }
-    let line = |lines: &[Vec<Point>], words: &str, dashes: &str| {
+    let line = |lines: &[Vec<Point>], words: &str, stroke: String| {
         let lines = segments(lines.iter().map(Vec::as_slice));
-        let paint = format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"2.5\"{dashes}");
+        let paint = format!("fill=\"none\" {stroke}");
         (!lines.is_empty()).then(|| Series::new(Shape::Lines(lines), paint).named(words))
     };
-    series.extend(line(passes.walls, "walls", ""));
-    series.extend(line(passes.open, "open sides", " stroke-dasharray=\"8 5\""));
+    let wall = format!("stroke=\"{INK}\" stroke-width=\"2.5\"");
+    series.extend(line(
+        passes.open,
+        "open sides",
+        format!("{wall} stroke-dasharray=\"8 5\""),
+    ));
+    series.extend(line(passes.walls, "walls", wall));
+    let slit = format!("stroke=\"{SLIT}\" stroke-width=\"1.5\"");
+    series.extend(line(passes.slits, "slits along walls", slit));
     for (number, entry) in passes.entries.iter().enumerate() {
         let mark = Series::mark(Mark::RING, *entry, None);
         series.push(if number == 0 {
@@ -141,8 +153,16 @@ fn description(passes: &Passes<'_>) -> String {
         1 => "1 way down".to_owned(),
         count => format!("{count} ways down"),
     };
+    let slits = match passes.slits.len() {
+        0 => String::new(),
+        1 => " 1 slit along walls.".to_owned(),
+        count => format!(" {count} slits along walls."),
+    };
+    if passes.stretches.is_empty() {
+        return format!("Walls of a region of the plan.{slits}");
+    }
     format!(
-        "Passes over a region of the plan, {entries}. At most {:.0} deg of the rim are in the material.",
+        "Passes over a region of the plan, {entries}. At most {:.0} deg of the rim are in the material.{slits}",
         largest.fold(0.0, f64::max)
     )
 }

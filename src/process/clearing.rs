@@ -5,7 +5,7 @@
 //! its passes do.
 
 pub mod shown;
-mod sides;
+pub(crate) mod sides;
 mod stated;
 
 use stated::{Layer, layers};
@@ -157,7 +157,7 @@ impl Judge<'_> {
             y: Some(at.y),
             fault: CutFault::Clearing(fault),
         };
-        self.findings.note_clearing(finding, fault);
+        self.findings.note_of_region(finding);
     }
 
     fn stands(&mut self, layer: &Layer) {

@@ -9,6 +9,7 @@ pub mod lower;
 pub mod pen;
 pub mod plan;
 pub mod posture;
+pub mod slitting;
 pub mod standoff;
 pub mod tracks;
 pub mod verdict;

@@ -5,10 +5,10 @@
 mod attempts;
 mod bodies;
 
-use crate::clearing;
 use crate::lower;
 use crate::plan::plan_while;
 use crate::tracks::proof::judged;
+use crate::{clearing, slitting};
 use attempts::Attempts;
 pub use bodies::headline as body_in_work;
 use vcutc_backend_api::ir::OperationId;
@@ -25,7 +25,7 @@ use vcutc_job::search::{RouteSet, SearchSpace};
 use vcutc_job::{CheckedJob, PlannedJob, PlannedOperation, Sourced};
 use vcutc_simulation::body::{self, Bodies};
 use vcutc_simulation::disc::{Hold, PassFault, Stretch};
-use vcutc_simulation::prove::{self, Bound, ClearingFault, CutFault, Finding, Findings, Replay};
+use vcutc_simulation::prove::{self, Bound, ClearingFault, CutFault, Finding, Findings, Replay, SlitFault};
 use vcutc_simulation::report::{Report, report};
 use vcutc_simulation::timing::{timing, total};
 
@@ -85,7 +85,9 @@ pub fn replay(plan: &PlannedJob, program: &VerifiedProgram) -> Replay {
         let (before, program) = (&replay.surface, program.program());
         replay.tracked = judged(part.surface(), before, program, &bounds, &mut replay.findings);
     }
-    replay.cleared = clearing::judged(plan, &mut replay.surface, program.program(), &mut replay.findings);
+    let (surface, findings) = (&mut replay.surface, &mut replay.findings);
+    replay.cleared = clearing::judged(plan, surface, program.program(), findings);
+    replay.slit = slitting::judged(plan, surface, program.program(), findings);
     replay
 }
 
@@ -221,6 +223,17 @@ pub fn explained(asked: &dyn Operation, finding: Finding) -> Diagnostic {
             };
             Diagnostic::new(code, message, span, "a pass of this operation")
         }
+        CutFault::Slit(fault) => {
+            let message = format!("at {}, {}", place(&finding), slit_words(fault));
+            let code = match fault {
+                SlitFault::Wall { .. } | SlitFault::Floor { .. } => Code::Overcut,
+                SlitFault::Edge { .. } => Code::LayerTooThick,
+                SlitFault::Body { .. } => Code::BodyInWork,
+                SlitFault::Stays { .. } => Code::WallLeft,
+                SlitFault::Strays | SlitFault::Undecided => Code::Internal,
+            };
+            Diagnostic::new(code, message, span, "a slit of this operation")
+        }
         CutFault::Stays { at, height, limit } => {
             let (what, label) = stays_words(at, height, limit);
             let place = place(&finding);
@@ -241,6 +254,36 @@ pub fn explained(asked: &dyn Operation, finding: Finding) -> Diagnostic {
             };
             Diagnostic::new(code, message, span, label)
         }
+    }
+}
+
+/// What is wrong with a slit along a wall, after "at layer 1, cut 2 (x 12 mm, y 40 mm, z 16 mm), ".
+#[must_use]
+pub fn slit_words(fault: SlitFault) -> String {
+    let mm = |length: Length| show((length.to_mm() * 1e6).ceil() / 1e6);
+    match fault {
+        SlitFault::Wall { by } => format!("the blade enters a wall by {} mm", mm(by)),
+        SlitFault::Floor { by } => format!("the blade goes below the floor by {} mm", mm(by)),
+        SlitFault::Strays => "the blade goes neither along a wall nor straight down".to_owned(),
+        SlitFault::Edge { needed, available } => {
+            format!(
+                "the blade needs {} mm of edge and has {} mm",
+                mm(needed),
+                mm(available)
+            )
+        }
+        SlitFault::Body { above, by } => format!(
+            "the body of the blade, from {} mm above its tip, is below the top of the stock by {} mm",
+            mm(above),
+            mm(by)
+        ),
+        SlitFault::Stays { by, limit } if by.is_finite() => format!(
+            "{} mm stay at the foot of the wall, the limit is {} mm",
+            show((by.to_mm() * 1e3).ceil() / 1e3),
+            show(limit.to_mm())
+        ),
+        SlitFault::Stays { .. } => "no slit reaches the floor".to_owned(),
+        SlitFault::Undecided => "the walls are too many to say what stays at their foot".to_owned(),
     }
 }
 

@@ -438,6 +438,13 @@ impl Read<'_> {
                     format!("at x {} mm, y {} mm", show(finding.tip.x), show(y)),
                 )
             }
+            CutFault::Slit(fault) => {
+                let y = finding.y.unwrap_or_default();
+                (
+                    format!("at {place}, {}", verdict::slit_words(fault)),
+                    format!("at x {} mm, y {} mm", show(finding.tip.x), show(y)),
+                )
+            }
             CutFault::Strays { y, by } => (
                 format!(
                     "{place} leaves the spine that all cuts follow by {} mm",

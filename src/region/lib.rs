@@ -10,6 +10,7 @@ pub mod coverage;
 pub mod curve;
 pub mod distance;
 pub mod engagement;
+pub mod foot;
 pub mod links;
 pub mod offset;
 pub mod order;
@@ -17,8 +18,10 @@ pub mod pass;
 pub mod pattern;
 pub mod piece;
 pub mod place;
+pub mod plate;
 pub mod region;
 mod rounded;
+pub mod slits;
 
 #[cfg(any(test, feature = "testkit"))]
 pub mod testkit;

@@ -10,6 +10,7 @@ pub const OPERATIONS: Operations = Operations(&[
     &vcutc_auto::Auto,
     &vcutc_finish::Finish,
     &vcutc_pocket::Pocket,
+    &vcutc_slit::Slit,
 ]);
 
 /// All backends, in the order of their names.

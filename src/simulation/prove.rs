@@ -24,6 +24,7 @@ mod findings;
 mod flank;
 mod overcut;
 mod piece;
+mod slit;
 mod strip;
 #[cfg(test)]
 mod tests;
@@ -42,6 +43,7 @@ pub use findings::Findings;
 use findings::{is_longer, note};
 use flank::{FlankGeometry, flanks};
 use piece::Piece;
+pub use slit::{Slit, SlitFault};
 use std::collections::BTreeMap;
 use strip::Through;
 pub use strip::{Passes, Skin, Strips, Tracked, Tracks};
@@ -140,6 +142,8 @@ pub enum CutFault {
     Strip(PassFault),
     /// A pass over a region does what it must not, or not what it is for.
     Clearing(ClearingFault),
+    /// A slit along a wall does.
+    Slit(SlitFault),
     /// More stays on the part beside a track than may.
     Stays {
         /// Where that is the most.
@@ -166,6 +170,8 @@ pub struct Replay {
     pub tracked: Vec<Tracked>,
     /// What passes over regions do, operation by operation; empty until they are judged where the regions are known.
     pub cleared: Vec<Cleared>,
+    /// What slits along walls do, likewise.
+    pub slit: Vec<Slit>,
 }
 
 /// Replays a program's cuts. `bounds` are the operations' own, in order.
@@ -680,6 +686,7 @@ impl<'p> Player<'p> {
                 .collect(),
             tracked: Vec::new(),
             cleared: Vec::new(),
+            slit: Vec::new(),
         }
     }
 }

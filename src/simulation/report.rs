@@ -2,7 +2,7 @@
 
 use super::body::Passage;
 use super::contour::{Sampled, Scallop, farthest};
-use super::prove::{Cleared, Replay, Tracked};
+use super::prove::{Cleared, Replay, Slit, Tracked};
 use super::timing::Times;
 use vcutc_backend_api::ir::{OperationId, Stock};
 use vcutc_backend_api::units::{Area, Length};
@@ -39,6 +39,8 @@ pub struct Report {
     pub tracked: Vec<Tracked>,
     /// What passes over regions do, operation by operation.
     pub cleared: Vec<Cleared>,
+    /// What slits along walls do.
+    pub slit: Vec<Slit>,
 }
 
 impl Report {
@@ -86,6 +88,7 @@ pub fn report(replay: Replay, stock: Stock, part: &Profile, times: Times) -> Rep
         body: None,
         tracked: replay.tracked,
         cleared: replay.cleared,
+        slit: replay.slit,
         contour: corners,
     }
 }

@@ -89,6 +89,7 @@ mod serial_arm;
 #[cfg(feature = "krl")]
 mod shop;
 mod skim;
+mod slit;
 #[cfg(feature = "krl")]
 #[cfg(feature = "krl")]
 mod spine;

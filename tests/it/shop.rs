@@ -32,11 +32,13 @@ pub(crate) const POCKET_CELLS: &[(&str, &str)] = &[
     ("pocket_gantry", "gcode"),
 ];
 
-/// What a machine of the shop cannot hold the blade for: half a turn of a single edge about itself, and a blade that is pitched.
+/// What a machine of the shop cannot hold the blade for: half a turn of a blade about itself, a blade that is pitched, and one that
+/// follows walls in all directions.
 pub(crate) const NOT_ON: &[(&str, &str)] = &[
     ("spoiler_rae2822.vcut", "gantry"),
     ("crown.vcut", "gantry"),
     ("shell.vcut", "changing_gantry"),
+    ("window.vcut", "pocket_gantry"),
 ];
 
 /// What a dialect of G-code has no words for: chains that go on without a stop.

@@ -47,7 +47,7 @@ pub(in crate::cli) struct PlotArgs {
 
     /// For one picture, the file or - for standard output (the default); for all, the folder (default: the current one)
     ///
-    /// Pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine, that of processes `rough auto`, those of the surface and the residual a `surface`, that of passes `clear pocket`.
+    /// Pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine, that of processes `rough auto`, those of the surface and the residual a `surface`, that of passes `clear pocket` or `slit walls`.
     #[arg(short, long, value_name = "FILE.svg|DIR|-")]
     pub(in crate::cli) output: Option<String>,
 
@@ -76,7 +76,7 @@ pub(in crate::cli) enum What {
     Surface,
     /// How high material stands above such a part after all cuts, each cell at its worst place
     Residual,
-    /// The passes of pockets from above, coloured by how much of the tool's rim is in the material
+    /// The passes of pockets from above, coloured by how much of the tool's rim is in the material, and the slits along walls
     Passes,
     /// The wave of the sound field that a pocket is cleared along, and its zero lines
     Field,

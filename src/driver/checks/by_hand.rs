@@ -30,6 +30,9 @@ impl Check {
             Self::Part => "No cut enters the part: measure the first part",
             Self::Tracks => "The disc follows the surface and frees its strips: watch the first part",
             Self::Pockets => "The tool keeps off the walls and floors of pockets: measure the first part",
+            Self::Walls => {
+                "The blade keeps off the walls that it slits, and slits them to the floor: measure the first part"
+            }
             Self::BetweenSections => {
                 "Strips come free and little stays between the sections that were looked at, too: watch and measure the first part"
             }
@@ -99,6 +102,7 @@ mod tests {
             Check::Part,
             Check::Tracks,
             Check::Pockets,
+            Check::Walls,
             Check::BetweenSections,
             Check::AboveStock,
             Check::AxisLimits,

@@ -25,6 +25,7 @@ impl Checks {
             | Check::Part
             | Check::Tracks
             | Check::Pockets
+            | Check::Walls
             | Check::BetweenSections
             | Check::AboveStock
             | Check::Accelerations

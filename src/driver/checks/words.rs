@@ -51,6 +51,12 @@ impl Checks {
                     .to_owned(),
             );
         }
+        if self.is_made(&Check::Walls) {
+            parts.push(
+                "the blade keeps off the walls that it slits, and leaves no more at their foot than may stay, acute corners apart"
+                    .to_owned(),
+            );
+        }
         if self.is_made(&Check::AboveStock) {
             parts.push("the tip stays above the stock".to_owned());
         }
@@ -146,6 +152,7 @@ impl Checks {
                     | Check::Part
                     | Check::Tracks
                     | Check::Pockets
+                    | Check::Walls
                     | Check::BetweenSections
                     | Check::AboveStock
                     | Check::AxisLimits
@@ -190,6 +197,7 @@ impl Check {
             Self::Part => "part",
             Self::Tracks => "tracks",
             Self::Pockets => "pockets",
+            Self::Walls => "walls",
             Self::BetweenSections => "between_sections",
             Self::AboveStock => "above_stock",
             Self::AxisLimits => "axis_limits",
@@ -212,6 +220,7 @@ impl Check {
             Self::Part => "whether cuts enter the part",
             Self::Tracks => "tracks on the surface",
             Self::Pockets => "passes over pockets",
+            Self::Walls => "slits along walls",
             Self::BetweenSections => "what comes free and what stays between sections across the tracks",
             Self::AboveStock => "whether the tip stays above the stock",
             Self::AxisLimits => "reach and the limits of axes",

@@ -3,7 +3,7 @@
 use super::search::RouteSet;
 use super::{Operation, Trials, WorksThere};
 use crate::description::{ParameterFigure, ParameterTable};
-use crate::{BladeRef, Clearing, Machine, Order, Shaded, Sourced};
+use crate::{BladeRef, Clearing, Machine, Order, Shaded, Slitting, Sourced};
 use core::any::Any;
 use core::fmt::Debug;
 use std::sync::Arc;
@@ -113,6 +113,11 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
 
     /// What its passes over a region are held to; none where it clears no region.
     fn clearing(&self) -> Option<Clearing> {
+        None
+    }
+
+    /// What its slits along the walls of a region are held to; none where it makes no such slits.
+    fn slitting(&self) -> Option<Slitting> {
         None
     }
 

@@ -6,8 +6,10 @@
 pub(crate) mod drawing;
 mod faults;
 mod named;
+mod stock;
 
 pub use named::region;
+pub use stock::beyond_stock;
 
 use super::dimension::Dimension;
 use super::eval::Scope;

@@ -54,15 +54,15 @@ const FEEDS_OF_TWO: BlockSpec = BlockSpec {
     inner: Inner::Refused,
 };
 
-/// `feed { ... }` of an operation with a crusher.
-pub const FEED_OF_A_CRUSHER: FieldSpec = block(
+/// `feed { ... }` of an operation whose blade goes down into the material.
+pub const FEED_WITH_PLUNGE: FieldSpec = block(
     "feed",
     "{ cut = 75 mm/s, plunge = 20 mm/s, travel = 200 mm/s, reorient = 90 deg/s }",
 )
 .required()
-.takes(Takes::Fields(&FEEDS_OF_A_CRUSHER));
+.takes(Takes::Fields(&FEEDS_WITH_PLUNGE));
 
-const FEEDS_OF_A_CRUSHER: BlockSpec = BlockSpec {
+const FEEDS_WITH_PLUNGE: BlockSpec = BlockSpec {
     title: "`feed`",
     fields: &[
         value("cut", "75 mm/s").required().within(SPEED),
@@ -142,14 +142,14 @@ pub fn check_of_two(
     with_speed((&FEEDS_OF_TWO, "free"), Blades::Both, fields, written, session)
 }
 
-/// The same of an operation with [`FEED_OF_A_CRUSHER`], with the speed of its way down.
-pub fn check_of_a_crusher(
+/// The same of an operation with [`FEED_WITH_PLUNGE`], with the speed of its way down.
+pub fn check_with_plunge(
     fields: &Fields<'_>,
     written: Written<'_>,
     session: &mut Session<'_>,
 ) -> Checked<(Setup, Sourced<Speed>)> {
     with_speed(
-        (&FEEDS_OF_A_CRUSHER, "plunge"),
+        (&FEEDS_WITH_PLUNGE, "plunge"),
         Blades::Round,
         fields,
         written,

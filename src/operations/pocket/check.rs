@@ -9,7 +9,7 @@ use vcutc_job::sema::field_ranges::{DISTANCE, Range, SIZE};
 use vcutc_job::sema::fields::{BlockSpec, Fields, Inner, Takes, block, limit, value};
 use vcutc_job::sema::kind::Kind;
 use vcutc_job::sema::read::{Reader, default, words_of};
-use vcutc_job::sema::region::region;
+use vcutc_job::sema::region::{beyond_stock, region};
 use vcutc_job::sema::report::Checked;
 use vcutc_job::sema::session::Session;
 use vcutc_job::sema::setup::{self, inner_place};
@@ -42,7 +42,7 @@ pub const SPEC: BlockSpec = BlockSpec {
         value("axis", "exact").takes(Takes::Words(|| words_of(Axis::WORDS))),
         value("allowance", "0 mm").within(DISTANCE),
         block("limits", "{ uncut <= 1 mm2, engagement <= 120 deg }").takes(Takes::Fields(&LIMITS)),
-        setup::FEED_OF_A_CRUSHER,
+        setup::FEED_WITH_PLUNGE,
         setup::CLEARANCE,
         setup::RUN_OUT_FIELD,
     ],
@@ -88,7 +88,7 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<ClearPocket
     let fields = Fields::sort(&SPEC, place, &block.entries, session);
     // Blocks within first: they need the session, of which the reader holds a part.
     let limits = limits(&fields, written, session);
-    let setup = setup::check_of_a_crusher(&fields, written, session);
+    let setup = setup::check_with_plunge(&fields, written, session);
     let crusher: Checked<Crusher> = setup::blade("blade", &fields, written, session);
     let region = region("region", &fields, written, session);
     let mut reader = Reader::new(scope, &mut session.reports);
@@ -143,7 +143,7 @@ fn fault(asked: &ClearPocket, written: Written<'_>) -> Option<vcutc_diagnostics:
     if asked.floor.value >= stock.node.height {
         return Some(refused::floor_above_stock(asked, stock));
     }
-    refused::beyond_stock(asked, stock)
+    beyond_stock(&asked.region, asked.region_span, stock)
 }
 
 fn limits(fields: &Fields<'_>, written: Written<'_>, session: &mut Session<'_>) -> Checked<Limits> {

@@ -8,7 +8,6 @@ use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Spanned;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::operation::{Unplanned, WorksThere};
-use vcutc_region::region::Side;
 
 /// Why there is no plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -178,68 +177,4 @@ pub(crate) fn floor_above_stock(asked: &ClearPocket, stock: Spanned<Stock>) -> D
         "use a floor below {} mm",
         show(stock.node.height.to_mm())
     ))
-}
-
-/// Coordinates that should be equal may differ by this, in mm.
-const SAME: f64 = 1e-6;
-
-/// A region that leaves the stock, or is open towards core.
-pub(crate) fn beyond_stock(asked: &ClearPocket, stock: Spanned<Stock>) -> Option<Diagnostic> {
-    let region = &asked.region;
-    let [width, depth] = [stock.node.width, stock.node.depth].map(Length::to_mm);
-    let bounds = region.region.bounds();
-    let (low, high) = (bounds.low, bounds.high);
-    let is_within = low.x >= -SAME && low.y >= -SAME && high.x <= width + SAME && high.y <= depth + SAME;
-    if !is_within {
-        let diagnostic = Diagnostic::new(
-            Code::PocketOutside,
-            format!(
-                "`{}` reaches from ({} mm, {} mm) to ({} mm, {} mm), the stock from (0 mm, 0 mm) to ({} mm, {} mm)",
-                region.name,
-                show(low.x),
-                show(low.y),
-                show(high.x),
-                show(high.y),
-                show(width),
-                show(depth)
-            ),
-            asked.region_span,
-            "reaches out of the stock",
-        );
-        return Some(
-            diagnostic
-                .and(region.span, "defined here")
-                .and(stock.span, "the stock")
-                .help("end the region at the side of the stock, with `open to` along it"),
-        );
-    }
-    let open = region.region.edges().filter(|edge| edge.side == Side::Open);
-    let mut inner = open.filter(|edge| {
-        let ends = [edge.piece.from, edge.piece.to];
-        let on = |is_on: &dyn Fn(vcutc_region::place::Place) -> bool| ends.iter().all(|&end| is_on(end));
-        let is_at_a_side = on(&|end| end.x.abs() <= SAME)
-            || on(&|end| (end.x - width).abs() <= SAME)
-            || on(&|end| end.y.abs() <= SAME)
-            || on(&|end| (end.y - depth).abs() <= SAME);
-        !is_at_a_side
-    });
-    let edge = inner.next()?;
-    let (from, to) = (edge.piece.from, edge.piece.to);
-    Some(
-        Diagnostic::new(
-            Code::OpenSideBlocked,
-            format!(
-                "core stands beyond the open side from ({} mm, {} mm) to ({} mm, {} mm) of `{}`",
-                show(from.x),
-                show(from.y),
-                show(to.x),
-                show(to.y),
-                region.name
-            ),
-            asked.region_span,
-            "open where core stands",
-        )
-        .and(region.span, "defined here")
-        .help("draw it with `line to`, or along a side of the stock"),
-    )
 }

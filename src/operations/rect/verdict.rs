@@ -34,6 +34,7 @@ pub(crate) fn explain(planned: &Planned, finding: Finding, count: usize) -> Diag
         | CutFault::Strays { .. }
         | CutFault::Stays { .. }
         | CutFault::Clearing(_)
+        | CutFault::Slit(_)
         | CutFault::Strip(_) => explained(asked, finding),
     };
     match count {

@@ -40,9 +40,11 @@ pub(crate) fn explain(
         }
         CutFault::Blocked { at } => blocked(&vcut.asked, finding, at),
         CutFault::Overcut { at, depth } => overcut(&vcut.asked, finding, at, depth),
-        CutFault::Strays { .. } | CutFault::Strip(_) | CutFault::Clearing(_) | CutFault::Stays { .. } => {
-            explained(&vcut.asked, finding)
-        }
+        CutFault::Strays { .. }
+        | CutFault::Strip(_)
+        | CutFault::Clearing(_)
+        | CutFault::Slit(_)
+        | CutFault::Stays { .. } => explained(&vcut.asked, finding),
     }
 }
 

@@ -1,4 +1,4 @@
-//! The pockets of a job: passes from above, and what they clear.
+//! The pockets of a job: passes and slits along walls from above, and what they clear.
 
 use super::figure::{Ids, Zoom, figure};
 use super::{Section, Subject};
@@ -7,14 +7,26 @@ use crate::pictures;
 /// The section; none of a job without pockets.
 pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     let material = &subject.material;
-    if material.compiled.report.cleared.is_empty() {
+    let report = &material.compiled.report;
+    let (has_passes, has_slits) = (!report.cleared.is_empty(), !report.slit.is_empty());
+    if !has_passes && !has_slits {
         return None;
     }
-    let words = format!(
-        "The passes of the first layer of each pocket: {}. The angle of the tool's rim in the material is largest at corners, \
-         and where the tool opens uncut ground.",
-        pictures::pocket_figures(material)
-    );
+    let figures = pictures::pocket_figures(material);
+    let mut words = if has_passes {
+        format!(
+            "The passes of the first layer of each pocket: {figures}. The angle of the tool's rim in the material is largest at \
+             corners, and where the tool opens uncut ground."
+        )
+    } else {
+        format!("Slits along the walls: {figures}.")
+    };
+    if has_slits {
+        words.push_str(
+            " A straight blade stands in the plane of each slit. At inward corners one of its edges stands upright; in hollow \
+             arcs its corners touch the wall at the top.",
+        );
+    }
     Some(Section {
         id: "pockets",
         title: "Pockets",

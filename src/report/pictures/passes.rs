@@ -5,6 +5,7 @@ use vcutc_backend_api::units::Length;
 use vcutc_picture::Prefix;
 use vcutc_picture::passes::{self, Heading, Passes, Stretch};
 use vcutc_process::clearing::shown::{Shown, points, shown};
+use vcutc_process::slitting;
 use vcutc_region::piece::Piece;
 
 /// How far points of arcs lie apart.
@@ -14,13 +15,26 @@ const APART: Length = Length::mm(0.5);
 /// without pockets.
 #[must_use]
 pub fn passes(material: &Material<'_>, ids: Prefix) -> Option<String> {
-    let shown = shown(material.plan, material.compiled.program.verified().program());
-    if shown.is_empty() {
+    let program = material.compiled.program.verified().program();
+    let shown = shown(material.plan, program);
+    let slit = slitting::shown(material.plan, program);
+    if shown.is_empty() && slit.is_empty() {
         return None;
     }
     let lines = |of: fn(&Shown) -> &[Piece]| -> Vec<Vec<[f64; 2]>> {
         shown.iter().flat_map(of).map(|piece| line(*piece)).collect()
     };
+    let mut walls = lines(|shown| &shown.walls);
+    let slit_walls = slit.iter().flat_map(|slit| &slit.walls).map(|wall| line(*wall));
+    for wall in slit_walls {
+        if !walls.contains(&wall) {
+            walls.push(wall);
+        }
+    }
+    let ways = slit.iter().flat_map(|slit| &slit.ways);
+    let slits: Vec<Vec<[f64; 2]>> = ways
+        .map(|way| way.iter().flat_map(|piece| line(*piece)).collect())
+        .collect();
     let stretches: Vec<Stretch> = shown
         .iter()
         .flat_map(|shown| &shown.stretches)
@@ -46,12 +60,13 @@ pub fn passes(material: &Material<'_>, ids: Prefix) -> Option<String> {
     Some(passes::draw(&Passes {
         heading: Heading {
             ids,
-            title: &format!("{}: passes of the first layer of each pocket", material.plan.name),
+            title: &title(material),
             subtitle: &figures(material),
         },
         size: [stock.width, stock.depth].map(Length::to_mm),
-        walls: &lines(|shown| &shown.walls),
+        walls: &walls,
         open: &lines(|shown| &shown.open),
+        slits: &slits,
         stretches: &stretches,
         entries: &entries,
         uncut: &uncut,
@@ -61,16 +76,36 @@ pub fn passes(material: &Material<'_>, ids: Prefix) -> Option<String> {
 /// What the pockets come to, in words.
 #[must_use]
 pub fn figures(material: &Material<'_>) -> String {
-    let cleared = &material.compiled.report.cleared;
-    let uncut = cleared
-        .iter()
-        .map(|cleared| cleared.uncut.to_mm2())
-        .fold(0.0, f64::max);
-    let way: f64 = cleared.iter().map(|cleared| cleared.way.to_mm()).sum();
-    format!(
-        "{:.2} m in all layers, at most {uncut:.2} mm² of a layer stay uncut",
-        way / 1000.0
-    )
+    let report = &material.compiled.report;
+    let mut parts = Vec::new();
+    if !report.cleared.is_empty() {
+        let uncut = report.cleared.iter().map(|cleared| cleared.uncut.to_mm2());
+        let way: f64 = report.cleared.iter().map(|cleared| cleared.way.to_mm()).sum();
+        parts.push(format!(
+            "{:.2} m in all layers, at most {:.2} mm² of a layer stay uncut",
+            way / 1000.0,
+            uncut.fold(0.0, f64::max)
+        ));
+    }
+    if !report.slit.is_empty() {
+        let way: f64 = report.slit.iter().map(|slit| slit.way.to_mm()).sum();
+        let stays = report.slit.iter().map(|slit| slit.stays.to_mm());
+        parts.push(format!(
+            "{:.2} m of slits, at most {:.3} mm left at their foot",
+            way / 1000.0,
+            stays.fold(0.0, f64::max)
+        ));
+    }
+    parts.join("; ")
+}
+
+fn title(material: &Material<'_>) -> String {
+    let what = if material.compiled.report.cleared.is_empty() {
+        "slits along walls"
+    } else {
+        "passes of the first layer of each pocket"
+    };
+    format!("{}: {what}", material.plan.name)
 }
 
 fn line(piece: Piece) -> Vec<[f64; 2]> {

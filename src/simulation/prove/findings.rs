@@ -1,6 +1,7 @@
 //! What a replay found, of each kind the worst.
 
-use super::{ClearingFault, CutFault, Finding};
+use super::{CutFault, Finding};
+use core::mem::{Discriminant, discriminant};
 
 /// All faults of one kind, of which the worst is kept.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,8 +18,8 @@ pub struct Findings {
     pub strips: Option<(usize, Finding)>,
     /// In how many sections too much stays beside tracks on a surface, and the most of that.
     pub stays: Option<(usize, Finding)>,
-    /// What is wrong with passes over regions, of each operation and kind the first.
-    pub clearing: Vec<(usize, Finding)>,
+    /// What is wrong with passes over regions and slits along walls, of each operation and kind the first.
+    pub of_regions: Vec<(usize, Finding)>,
 }
 
 impl Findings {
@@ -26,26 +27,35 @@ impl Findings {
         let overcut = self.overcut.map(|finding| (1, finding));
         let cuts = self.not_freed.into_iter().chain(self.blocked).chain(overcut);
         let others = cuts.chain(self.strays).chain(self.strips).chain(self.stays);
-        others.chain(self.clearing.iter().copied())
+        others.chain(self.of_regions.iter().copied())
     }
 
-    /// Counts a fault of passes over a region, and keeps the first of its kind.
-    pub fn note_clearing(&mut self, finding: Finding, fault: ClearingFault) {
-        let kind = core::mem::discriminant(&fault);
+    /// Counts a fault of passes over a region, or of slits along its walls, and keeps the first of its kind.
+    pub fn note_of_region(&mut self, finding: Finding) {
         let is_known = |known: &Finding| {
-            let is_alike =
-                matches!(known.fault, CutFault::Clearing(known) if core::mem::discriminant(&known) == kind);
-            known.operation == finding.operation && is_alike
+            known.operation == finding.operation && Kind::of(known.fault) == Kind::of(finding.fault)
         };
-        match self.clearing.iter_mut().find(|(_, known)| is_known(known)) {
+        match self.of_regions.iter_mut().find(|(_, known)| is_known(known)) {
             Some((count, _)) => *count += 1,
-            None => self.clearing.push((
-                1,
-                Finding {
-                    fault: CutFault::Clearing(fault),
-                    ..finding
-                },
-            )),
+            None => self.of_regions.push((1, finding)),
+        }
+    }
+}
+
+/// What faults of regions are alike in.
+#[derive(PartialEq, Eq)]
+enum Kind {
+    Clearing(Discriminant<super::ClearingFault>),
+    Slit(Discriminant<super::SlitFault>),
+    Other(Discriminant<CutFault>),
+}
+
+impl Kind {
+    const fn of(fault: CutFault) -> Self {
+        match fault {
+            CutFault::Clearing(fault) => Self::Clearing(discriminant(&fault)),
+            CutFault::Slit(fault) => Self::Slit(discriminant(&fault)),
+            other => Self::Other(discriminant(&other)),
         }
     }
 }
@@ -76,6 +86,7 @@ pub(super) fn is_longer(a: &Finding, b: &Finding) -> bool {
         | CutFault::Strays { .. }
         | CutFault::Strip(_)
         | CutFault::Clearing(_)
+        | CutFault::Slit(_)
         | CutFault::Stays { .. } => 0.0,
     };
     needed(a) > needed(b) + 1e-6

@@ -138,6 +138,16 @@ fn line(
 ) -> Event {
     let to = pose(program, at);
     let turned = from.filter(|from| from.1 != at.1);
+    // On an arc the controller need not limit the turn, so the tip goes as slowly as the turn needs.
+    let feed = match (turned, via, rate) {
+        (Some(from), Some(via), Some(rate)) => {
+            let (_, _, whole) = parts(&pose(program, from).axes, &to.axes);
+            let way = arc_length([from.0, via, at.0].map(Point3::to_array));
+            // Rounded down, so that it is never too fast.
+            feed.min((way * rate / whole.to_degrees() * 1000.0).floor() / 1e6)
+        }
+        _ => feed,
+    };
     let rates = turned.zip(rate).map(|(from, rate)| {
         let (swivel, twist, whole) = parts(&pose(program, from).axes, &to.axes);
         let of = |part: f64| rate * (part / whole).max(0.1);
@@ -150,6 +160,21 @@ fn line(
         rates,
         rounded: false,
     }
+}
+
+/// The length of the arc from one point through another to a third: the radius of their circle by their triangle's sides and area, and
+/// the angles at which the halves are seen from its centre, each below half a turn.
+#[allow(clippy::disallowed_methods, reason = "another arc sine than the writer's")]
+fn arc_length([a, b, c]: [[f64; 3]; 3]) -> f64 {
+    let side = |p: [f64; 3], q: [f64; 3]| (0..3).map(|i| (p[i] - q[i]).powi(2)).sum::<f64>().sqrt();
+    let (first, second, whole) = (side(a, b), side(b, c), side(a, c));
+    let half = (first + second + whole) / 2.0;
+    let area = (half * (half - first) * (half - second) * (half - whole)).sqrt();
+    let radius = first * second * whole / (4.0 * area);
+    [first, second]
+        .iter()
+        .map(|chord| 2.0 * radius * (chord / 2.0 / radius).min(1.0).asin())
+        .sum()
 }
 
 /// How far a turn swivels the tool's x, twists about it, and turns in all: by matrices, in rad. What is left of the turn when x
