@@ -31,6 +31,7 @@ use vcutc_diagnostics::source::SourceMap;
 use vcutc_driver::Outcome;
 use vcutc_driver::checks::ReadBack;
 use vcutc_driver::hints::Hint;
+use vcutc_driver::summary;
 use vcutc_picture::dark;
 
 /// What a page is made from.
@@ -106,12 +107,13 @@ impl Content {
             further,
         };
         let listing = source::Listing::of(subject);
+        let has_section = !summary::is_of_regions(subject.material.plan);
         let sections = [
             Some(played(subject)),
-            Some(cross_section::section(subject)),
+            has_section.then(|| cross_section::section(subject)),
             surface::section(subject),
             pockets::section(subject),
-            Some(deviation::section(subject)),
+            has_section.then(|| deviation::section(subject)),
             machine::section(subject),
             Some(times::section(subject)),
             Some(set_up::section(subject)),

@@ -21,7 +21,7 @@ use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{self, Action, Axis, Blade, Program, Stock, ToolId};
 use vcutc_driver::{Compiled, Finished};
 use vcutc_geometry::curve::Point2;
-use vcutc_job::PlannedJob;
+use vcutc_job::{PlannedJob, PlannedOperation};
 use vcutc_machine::kinematics::linkage::Linkage;
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_motion::rigs::Rigs;
@@ -45,6 +45,10 @@ pub struct Playback<'a> {
     pub changes: Vec<(usize, ToolId)>,
     /// How many operations the program has.
     pub operations: usize,
+    /// The operations that clear regions of the plan with a round tool, counted from 1.
+    pub pockets: Vec<u16>,
+    /// The operations that slit walls of regions, counted from 1.
+    pub walls: Vec<u16>,
     /// What slits and discs take, where there are any: of Vs it follows from their poses.
     pub taken: Option<Taken>,
     /// How the blade is held.
@@ -102,12 +106,21 @@ impl<'a> Playback<'a> {
             blades: &program.blades,
             changes: changes(program),
             operations: program.operations.len(),
+            pockets: numbered(plan, |planned| planned.clearing().is_some()),
+            walls: numbered(plan, |planned| planned.slitting().is_some()),
             taken: Taken::of(compiled.program.verified(), &verdict::bounds(plan)),
             orientations: &program.orientations,
             timeline: Timeline::of(program, &compiled.op_times),
             cell,
         }
     }
+}
+
+/// The numbers of some operations of a plan, counted from 1.
+fn numbered(plan: &PlannedJob, is_one: impl Fn(&dyn PlannedOperation) -> bool) -> Vec<u16> {
+    let operations = (1..).zip(&plan.operations);
+    let ones = operations.filter(|(_, planned)| is_one(&***planned));
+    ones.map(|(number, _)| number).collect()
 }
 
 fn changes(program: &Program) -> Vec<(usize, ToolId)> {
@@ -195,6 +208,7 @@ pub const SCRIPT: &str = concat!(
     include_str!("assets/player/data.js"),
     include_str!("assets/player/machine.js"),
     include_str!("assets/player/timeline.js"),
+    include_str!("assets/player/ground.js"),
     include_str!("assets/player/workpiece.js"),
     include_str!("assets/player/meshes.js"),
     include_str!("assets/player/canvas.js"),

@@ -136,6 +136,8 @@ fn a_page_says_every_op_of_the_program() {
         let cuts = numbers(&columns["cuts"], u32::from_le_bytes);
         let tips = numbers(&columns["tips"], i32::from_le_bytes);
         let held = numbers(&columns["held"], u32::from_le_bytes);
+        let arcs = numbers(&columns["arcs"]["ops"], u32::from_le_bytes);
+        let vias = numbers(&columns["arcs"]["vias"], i32::from_le_bytes);
         let seconds = numbers(&columns["seconds"], f64::from_le_bytes);
         let times = &outcome.compiled.as_ref().unwrap().op_times;
         let program = program(&outcome);
@@ -154,6 +156,13 @@ fn a_page_says_every_op_of_the_program() {
                 pose.map_or(0, |pose| pose.orientation.0 + 1),
                 "{job} {i}"
             );
+            if let Some(via) = op.action.via().and_then(|via| program.via(via)) {
+                let place = arcs.iter().position(|&arc| arc as usize == i).unwrap();
+                let read = vias[3 * place..3 * place + 3]
+                    .iter()
+                    .map(|&part| f64::from(part) / 1000.0);
+                assert_eq!(read.collect::<Vec<_>>(), [via.x, via.y, via.z], "{job} {i}");
+            }
             if let Some(TipPose { tip, .. }) = pose {
                 // To the last bit, for the section is cut with them.
                 let read = tips[3 * i..3 * i + 3].iter().map(|&tip| f64::from(tip) / 1000.0);

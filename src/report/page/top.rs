@@ -2,11 +2,12 @@
 
 use super::Subject;
 use crate::html::{Html, unbroken, with_code};
-use vcutc_backend_api::units::Length;
+use vcutc_backend_api::units::{Angle, Area, Length};
 use vcutc_diagnostics::render::{ColorChoice, render};
 use vcutc_driver::checks::{Checks, Standing};
 use vcutc_driver::summary::{self, time};
 use vcutc_motion::summary::margin_words;
+use vcutc_simulation::report::Report;
 
 /// The header: job, machine, verdict, warnings.
 pub(super) fn header(subject: Subject<'_>) -> Html {
@@ -98,18 +99,8 @@ impl Room {
 }
 
 fn rows(subject: Subject<'_>) -> Vec<Key> {
-    let material = subject.material;
-    let (compiled, report) = (material.compiled, &material.compiled.report);
-    let free = |name, value, remark| Key {
-        name,
-        value,
-        remark,
-        room: Room::Enough,
-    };
-    let limit = material.plan.scallop_limit().map(|(_, limit)| limit.value);
-    let scallop = report.scallop.height;
-    let (edge, blade) = (report.longest_edge, summary::longest_blade(material.plan));
-    let (left, removed) = (report.residual.to_mm2(), report.removed.to_mm2());
+    let compiled = subject.material.compiled;
+    let report = &compiled.report;
     let mut rows = vec![
         free(
             "Time",
@@ -121,6 +112,70 @@ fn rows(subject: Subject<'_>) -> Vec<Key> {
             report.cuts().to_string(),
             format!("in {}", counted(report.layers.len(), "layer")),
         ),
+    ];
+    if !summary::is_of_regions(subject.material.plan) {
+        rows.extend(of_section(subject));
+    }
+    rows.extend(of_regions(report));
+    if let Some(figures) = &compiled.figures {
+        rows.push(Key {
+            name: "Least margin",
+            value: margin_words(figures.margin),
+            remark: format!("{} at {}", figures.least.of, figures.least.at.words),
+            room: Room::of(1.0 - figures.margin),
+        });
+    }
+    rows
+}
+
+const fn free(name: &'static str, value: String, remark: String) -> Key {
+    Key {
+        name,
+        value,
+        remark,
+        room: Room::Enough,
+    }
+}
+
+/// Of pockets and slits along walls.
+fn of_regions(report: &Report) -> Vec<Key> {
+    let mut rows = Vec::new();
+    let uncut = report.cleared.iter().map(|cleared| cleared.uncut);
+    if let Some(uncut) = uncut.max_by(Area::total_cmp) {
+        rows.push(free(
+            "Uncut",
+            format!("{:.2} mm²", uncut.to_mm2()),
+            "of a layer of a pocket, at most".to_owned(),
+        ));
+    }
+    let engaged = report.cleared.iter().map(|cleared| cleared.engagement);
+    if let Some(engaged) = engaged.max_by(Angle::total_cmp) {
+        rows.push(free(
+            "Engagement",
+            format!("{:.0}°", engaged.to_deg()),
+            "of the rim at the speed of cutting, at most".to_owned(),
+        ));
+    }
+    let stays = report.slit.iter().map(|slit| slit.stays);
+    if let Some(stays) = stays.max_by(Length::total_cmp) {
+        rows.push(free(
+            "Left on walls",
+            format!("{:.3} mm", stays.to_mm()),
+            "at their foot, at most".to_owned(),
+        ));
+    }
+    rows
+}
+
+/// Of cuts that a section shows.
+fn of_section(subject: Subject<'_>) -> Vec<Key> {
+    let material = subject.material;
+    let (compiled, report) = (material.compiled, &material.compiled.report);
+    let limit = material.plan.scallop_limit().map(|(_, limit)| limit.value);
+    let scallop = report.scallop.height;
+    let (edge, blade) = (report.longest_edge, summary::longest_blade(material.plan));
+    let (left, removed) = (report.residual.to_mm2(), report.removed.to_mm2());
+    let mut rows = vec![
         Key {
             name: "Largest scallop",
             value: format!("{:.2} mm", scallop.to_mm()),
@@ -174,14 +229,6 @@ fn rows(subject: Subject<'_>) -> Vec<Key> {
             format!("{left:.2} mm² stay on the part"),
         ),
     });
-    if let Some(figures) = &compiled.figures {
-        rows.push(Key {
-            name: "Least margin",
-            value: margin_words(figures.margin),
-            remark: format!("{} at {}", figures.least.of, figures.least.at.words),
-            room: Room::of(1.0 - figures.margin),
-        });
-    }
     rows
 }
 

@@ -26,6 +26,8 @@ pub(super) fn text(playback: &Playback<'_>) -> String {
         "blades": playback.blades.iter().map(blade).collect::<Vec<_>>(),
         "changes": playback.changes.iter().map(|(op, tool)| json!([op, tool.0])).collect::<Vec<_>>(),
         "several": playback.operations > 1,
+        "pockets": playback.pockets,
+        "walls": playback.walls,
         "taken": playback.taken.as_ref().map(taken),
         "orientations": playback.orientations.iter().map(quaternion).collect::<Vec<_>>(),
         "kinds": ActionKind::NAMES,
@@ -103,6 +105,7 @@ fn timeline(timeline: &Timeline) -> Value {
         "cuts": column(&timeline.cuts),
         "tips": column(&timeline.tips),
         "held": column(&timeline.held),
+        "arcs": { "ops": column(&timeline.arcs), "vias": column(&timeline.vias) },
         "seconds": column(&timeline.seconds),
     })
 }
@@ -209,6 +212,8 @@ mod tests {
             blades: &[],
             changes: Vec::new(),
             operations: 1,
+            pockets: Vec::new(),
+            walls: Vec::new(),
             taken: None,
             orientations: &[],
             timeline: Timeline::default(),

@@ -22,6 +22,10 @@ pub struct Timeline {
     pub tips: Vec<i32>,
     /// How the blade is held when the op ends, as a number of the program's orientations counted from 1.
     pub held: Vec<u32>,
+    /// The ops whose tip follows an arc.
+    pub arcs: Vec<u32>,
+    /// A place on the way of each of these, in W, in micrometres: three entries an arc.
+    pub vias: Vec<i32>,
     /// How long it takes, in s.
     pub seconds: Vec<f64>,
 }
@@ -40,6 +44,10 @@ impl Timeline {
             let pose = segment.end();
             if let Some(TipPose { tip: at, .. }) = pose {
                 tip = [at.x, at.y, at.z].map(micrometres);
+            }
+            if let Some(via) = segment.op.action.via().and_then(|via| program.via(via)) {
+                timeline.arcs.push(segment.id.0);
+                timeline.vias.extend([via.x, via.y, via.z].map(micrometres));
             }
             timeline.kinds.push(segment.op.action.kind() as u8);
             timeline.site(segment.op.site);

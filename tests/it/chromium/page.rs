@@ -285,6 +285,31 @@ fn one_cursor_goes_through_all_pictures() {
     assert_is_calm(&tab);
 }
 
+/// The ground that a crusher clears: whole at first, at the floors in the end, and whole again when the time goes back.
+#[test]
+fn pockets_are_cleared_as_time_goes_on() {
+    let Some(browser) = Browser::start() else { return };
+    let (_folder, file) = report("seat", &[]);
+    let tab = browser.open(&file, 1280, 900);
+    let height = |[x, y]: [f64; 2]| tab.number(&format!("vcutPlayback.heightAt({x}, {y})"));
+    // In the seat, on its boss, beside both pockets, and in the bay, which is open at x = 180.
+    let places = [[30.0, 30.0], [60.0, 38.0], [80.0, 70.0], [179.0, 100.0]];
+    let at = |share: f64| {
+        tab.value(&format!("vcutPlayback.seek({share} * vcutPlayback.duration())"));
+        places.map(height)
+    };
+    assert_eq!(at(0.0), [40.0; 4]);
+    assert_eq!(at(1.0), [10.0, 40.0, 40.0, 22.0]);
+    let [seat, boss, beside, bay] = at(0.5);
+    assert!(seat <= 40.0 && [boss, beside, bay] == [40.0; 3], "{seat} {bay}");
+    assert_eq!(at(0.0), [40.0; 4]);
+    // Just within the walls: the tool is upright and as wide as its edge.
+    at(1.0);
+    assert_eq!([15.8, 14.2].map(|y| height([75.0, y])), [10.0, 40.0]);
+    tab.value("document.getElementById('vcut-playback-top').click()");
+    assert_is_calm(&tab);
+}
+
 /// What is said at home is what home is, at the beginning and at the end.
 #[test]
 fn at_home_the_axes_are_exactly_there() {

@@ -224,7 +224,7 @@ class Player {
 
   /** Brings the stock to the time that is shown. Tells whether it changed. */
   cut() {
-    return this.workpiece.goTo(this.timeline.chipsFreeAt(this.time));
+    return this.workpiece.goTo(this.timeline.chipsFreeAt(this.time), this.timeline.at(this.time));
   }
 
   /**

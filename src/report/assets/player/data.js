@@ -8,6 +8,9 @@
  * @property {Blade[]} blades the first is at hand at the start
  * @property {[number, number][]} changes ops that change the blade, and the blade after each
  * @property {boolean} several whether there are more operations than one
+ * @property {Set<number>} pockets operations, counted from 1, that clear regions of the plan
+ * @property {Set<number>} walls those that slit walls of regions
+ * @property {Map<number, Vector>} vias ops that follow an arc, and a place on it
  * @property {Taken | null} taken what slits and discs take; of Vs it follows from their poses
  * @property {number[][]} orientations quaternions
  * @property {string[]} names of the kinds of op
@@ -83,6 +86,9 @@ function unpack(raw) {
     blades: raw.blades,
     changes: raw.changes,
     several: raw.several,
+    pockets: new Set(raw.pockets),
+    walls: new Set(raw.walls),
+    vias: unpackVias(columns.arcs),
     taken: raw.taken && unpackTaken(raw.taken),
     orientations: raw.orientations,
     names: raw.kinds,
@@ -96,6 +102,16 @@ function unpack(raw) {
     starts: summed(seconds, new Float64Array(seconds.length + 1)),
     cell: raw.cell && { ...raw.cell, track: unpackTrack(raw.cell.track) },
   };
+}
+
+/**
+ * @param {any} raw
+ * @returns {Map<number, Vector>}
+ */
+function unpackVias(raw) {
+  const vias = new Int32Array(bytesOf(raw.vias));
+  const ops = [...new Uint32Array(bytesOf(raw.ops))];
+  return new Map(ops.map((op, i) => [op, /** @type {Vector} */ ([0, 1, 2].map((part) => vias[3 * i + part] / 1000))]));
 }
 
 /**

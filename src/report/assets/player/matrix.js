@@ -175,6 +175,14 @@ function along(from, to, radius) {
  * @param {number[]} a
  * @param {number[]} b
  */
+function dot(a, b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/**
+ * @param {number[]} a
+ * @param {number[]} b
+ */
 function cross(a, b) {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }

@@ -22,6 +22,9 @@ const COLOURS = {
   ],
 };
 
+/** How many lines stand for an arc. */
+const ARC_STEPS = 16;
+
 /** @typedef {{robot: boolean, part: boolean, path: boolean, stock: boolean}} Shown */
 
 class Scene {
@@ -37,7 +40,7 @@ class Scene {
     const { program } = timeline;
     const part = program.part.map(([x, z]) => ({ x, z }));
     const { spine, stock } = program;
-    this.stock = canvas.mesh(swept(workpiece.surface.corners(), spine, stock[2]));
+    this.stock = canvas.mesh(workpiece.mesh(program));
     this.part = canvas.mesh(swept(part, spine, stock[2]));
     this.tube = canvas.mesh(unitTube());
     this.ball = canvas.mesh(unitBall());
@@ -62,7 +65,13 @@ class Scene {
       if (from.every((at, i) => at === to[i])) continue;
       const cuts = program.kinds[op] === CUT_LEFT || program.kinds[op] === CUT_RIGHT || program.kinds[op] === FOLLOW;
       const colour = cuts ? COLOURS.cut : COLOURS.way;
-      parts[layerOf[op] - 1].push(...from, ...colour, ...to, ...colour);
+      const steps = program.vias.has(op) ? ARC_STEPS : 1;
+      let before = from;
+      for (let step = 1; step <= steps; step += 1) {
+        const at = step === steps ? to : this.timeline.tipAt(op, step / steps);
+        parts[layerOf[op] - 1].push(...before, ...colour, ...at, ...colour);
+        before = at;
+      }
     }
     this.pathStarts = summed(parts.map((part) => part.length / 6), new Uint32Array(parts.length + 1));
     const numbers = new Float32Array(6 * last(Array.from(this.pathStarts)));
@@ -72,8 +81,7 @@ class Scene {
 
   /** The stock's mesh anew, after chips came free. */
   cut() {
-    const { spine, stock } = this.timeline.program;
-    this.canvas.refill(this.stock, swept(this.workpiece.surface.corners(), spine, stock[2]));
+    this.canvas.refill(this.stock, this.workpiece.mesh(this.timeline.program));
   }
 
   /**
@@ -87,7 +95,7 @@ class Scene {
     const { clientWidth, clientHeight } = canvas.element;
     canvas.begin(camera.view(clientWidth / Math.max(1, clientHeight)), camera.axes().eye);
     const { workpiece, blade } = picture;
-    if (shown.part) canvas.body(this.part, workpiece, COLOURS.part);
+    if (shown.part && this.workpiece.ground === null) canvas.body(this.part, workpiece, COLOURS.part);
     this.drawBlade(picture.tool, blade);
     const length = Math.max(...this.timeline.program.stock);
     this.canvas.lines(this.floor, picture.machine ? picture.scene : workpiece, 0.35);
@@ -110,8 +118,9 @@ class Scene {
   }
 
   /** @param {Picture} picture */
-  drawKerfs({ kerfs, slits, workpiece }) {
-    const numbers = slits.flatMap(({ slit, from, to }) => slitLines(slit, this.workpiece.surface, from, to));
+  drawKerfs({ kerfs, slits, workpiece, moment }) {
+    const numbers = wallLines(this.timeline, moment);
+    numbers.push(...slits.flatMap(({ slit, from, to }) => slitLines(slit, this.workpiece.surface, from, to)));
     numbers.push(...kerfs.flatMap(({ kerf, from, to }) => kerfLines(kerf, this.workpiece.surface, from, to)));
     this.canvas.refill(this.kerfs, new Float32Array(numbers));
     this.canvas.lines(this.kerfs, workpiece);
@@ -293,3 +302,27 @@ function kerfLines({ vee, side }, surface, from, to) {
   return [...across(from), ...across(to), ...line([exit.x, from, exit.z], [exit.x, to, exit.z])];
 }
 
+/**
+ * The lines of slits along walls up to a moment, along their floor and along the top of the stock.
+ * @param {Timeline} timeline
+ * @param {Moment} moment
+ */
+function wallLines(timeline, moment) {
+  const { program } = timeline;
+  const numbers = /** @type {number[]} */ ([]);
+  if (program.walls.size === 0) return numbers;
+  const top = program.stock[2];
+  for (let op = 1; op <= moment.op; op += 1) {
+    if (program.kinds[op] !== FOLLOW || !program.walls.has(program.operations[op])) continue;
+    const done = op < moment.op ? 1 : moment.done;
+    const steps = program.vias.has(op) ? ARC_STEPS : 1;
+    for (let step = 0; step < steps; step += 1) {
+      const ends = [step, step + 1].map((at) => timeline.tipAt(op, (done * at) / steps));
+      const heights = ends.every((end) => end[2] < top - 0.05) ? [0, 1] : [];
+      for (const height of heights) {
+        for (const [x, y, z] of ends) numbers.push(x, y, height === 0 ? z : top, ...COLOURS.kerf);
+      }
+    }
+  }
+  return numbers;
+}

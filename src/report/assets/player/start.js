@@ -202,6 +202,9 @@ function start() {
     });
   }
   for (const name of ["robot", "part", "path", "stock"]) element(`show-${name}`).addEventListener("change", changed);
+  // The part's contour does not show pockets.
+  const { ground } = player.workpiece;
+  for (const part of [element("show-part").parentElement, element("legend-part")]) part.hidden = ground !== null;
   element("follow").addEventListener("change", changed);
   for (const part of document.querySelectorAll("[data-vcut-machine]")) {
     /** @type {HTMLElement} */ (part).hidden = player.program.cell === null;
@@ -255,6 +258,11 @@ function publish(player, camera, changed) {
       /** where the camera looks, in the scene, and how opaque the machine is from there */
       looksAt: () => [...camera.target],
       machineOpacity: () => camera.opacityOfMachine(),
+      /** how high the stock stands over a place of the plan */
+      heightAt: (/** @type {number} */ x, /** @type {number} */ y) => {
+        player.cut();
+        return player.workpiece.heightAt(x, y);
+      },
       section: () => {
         player.cut();
         changed();

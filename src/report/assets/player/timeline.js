@@ -66,7 +66,7 @@ class Timeline {
     const { ops, kinds } = this.program;
     /** @type {{op: number, x: number}[]} */
     this.cuts = this.kerfs.map(({ op, vee }) => ({ op, x: vee.tip.x }));
-    if (this.program.taken === null) return;
+    if (this.program.taken === null && this.program.pockets.size + this.program.walls.size === 0) return;
     this.cuts.push(...this.slits);
     for (let op = 1; op < ops; op += 1) {
       if (kinds[op] === FOLLOW && kinds[op - 1] !== FOLLOW) this.cuts.push({ op, x: tipAfter(this.program, op)[0] });
@@ -165,9 +165,41 @@ class Timeline {
     const then = orientations[held[op] - 1];
     const to = tipAfter(program, op);
     if (op === 0 || held[op - 1] === 0) return pose(then, to);
-    const from = tipAfter(program, op - 1);
-    const tip = from.map((part, i) => part + (to[i] - part) * done);
-    return pose(between(orientations[held[op - 1] - 1], then, done), /** @type {Vector} */ (tip));
+    return pose(between(orientations[held[op - 1] - 1], then, done), this.tipAt(op, done));
+  }
+
+  /**
+   * The tip in W while an op moves it from where the one before it ended, along a line or an arc.
+   * @param {number} op
+   * @param {number} done
+   * @returns {Vector}
+   */
+  tipAt(op, done) {
+    const [from, to] = [tipAfter(this.program, op - 1), tipAfter(this.program, op)];
+    const via = this.program.vias.get(op);
+    if (via !== undefined) return placeOnArc(arcThrough(from, via, to), done);
+    return /** @type {Vector} */ (from.map((part, i) => part + (to[i] - part) * done));
+  }
+
+  /**
+   * How long the way of the tip is during an op, in mm.
+   * @param {number} op
+   */
+  lengthOf(op) {
+    const [from, to] = [tipAfter(this.program, op - 1), tipAfter(this.program, op)];
+    const via = this.program.vias.get(op);
+    if (via === undefined) return Math.hypot(...minus(to, from));
+    const { radius, sweep } = arcThrough(from, via, to);
+    return radius * sweep;
+  }
+
+  /**
+   * Whether a round tool clears ground of a region during an op.
+   * @param {number} op
+   */
+  clears(op) {
+    const { program } = this;
+    return program.kinds[op] === FOLLOW && program.pockets.has(program.operations[op]);
   }
 
   /**
@@ -219,3 +251,37 @@ function countWhile(list, holds) {
   return low;
 }
 
+/** @typedef {{centre: Vector, start: Vector, aside: Vector, radius: number, sweep: number}} Arc */
+
+/**
+ * The arc from one place through another to a third: its centre, its radii at the start and square to that, and the angle it goes
+ * through.
+ * @param {Vector} from
+ * @param {Vector} via
+ * @param {Vector} to
+ * @returns {Arc}
+ */
+function arcThrough(from, via, to) {
+  const [a, b] = [minus(via, from), minus(to, from)];
+  const normal = /** @type {Vector} */ (cross(a, b));
+  const square = dot(normal, normal);
+  const [aa, bb] = [dot(a, a), dot(b, b)];
+  const scaledTo = cross(/** @type {Vector} */ (b.map((part, i) => part * aa - a[i] * bb)), normal);
+  const start = /** @type {Vector} */ (scaledTo.map((part) => part / (-2 * square)));
+  const centre = /** @type {Vector} */ (from.map((part, i) => part - start[i]));
+  const radius = Math.hypot(...start);
+  const aside = /** @type {Vector} */ (cross(normal, start).map((part) => part / Math.sqrt(square)));
+  const end = minus(to, centre);
+  const angle = Math.atan2(dot(end, aside), dot(end, start));
+  return { centre, start, aside, radius, sweep: angle > 0 ? angle : angle + 2 * Math.PI };
+}
+
+/**
+ * @param {Arc} arc
+ * @param {number} done
+ * @returns {Vector}
+ */
+function placeOnArc({ centre, start, aside, sweep }, done) {
+  const [cosine, sine] = [Math.cos(sweep * done), Math.sin(sweep * done)];
+  return /** @type {Vector} */ (centre.map((part, i) => part + start[i] * cosine + aside[i] * sine));
+}
