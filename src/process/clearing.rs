@@ -5,17 +5,17 @@
 //! its passes do.
 
 pub mod shown;
-pub(crate) mod sides;
 mod stated;
 
+use crate::from_above::{closed_sides, highest, is_over};
+use core::num::NonZeroU32;
 use stated::{Layer, layers};
-use vcutc_backend_api::ir::{Blade, BodyStage, Crusher, OperationId, Program, Shape};
+use vcutc_backend_api::ir::{Blade, BodyStage, Crusher, OperationId, Program, Shape, ToolId};
 use vcutc_backend_api::units::{Angle, Area, Length};
 use vcutc_geometry::curve::Point2;
 use vcutc_job::{Clearing, PlannedJob};
 use vcutc_region::clearance::{Clearance, clearance};
 use vcutc_region::coverage::{Coverage, Tool, coverage, unreachable};
-use vcutc_region::distance::Walls;
 use vcutc_region::engagement::{Engagement, engagement};
 use vcutc_region::pass::Pass;
 use vcutc_region::place::Place;
@@ -65,8 +65,8 @@ struct Seen {
 impl Judge<'_> {
     fn all(mut self, before: &mut Surface) -> Option<Cleared> {
         let layers = layers(self.program, self.operation);
-        let first = layers.first()?;
-        let blade = self.program.blade(first.tool)?;
+        let at_hand = *self.program.operation(self.operation)?.tools.first()?;
+        let blade = self.program.blade(at_hand)?;
         let Shape::Crusher(crusher) = blade.shape else {
             return None;
         };
@@ -86,7 +86,7 @@ impl Judge<'_> {
             mean_engagement: Angle::ZERO,
             engagement: Angle::ZERO,
         };
-        let mut above = self.highest(before, tool.radius);
+        let mut above = highest(before, &self.held.region, tool.radius);
         let top = above;
         let mut known: Option<(Layer, Seen)> = None;
         for layer in layers {
@@ -119,6 +119,9 @@ impl Judge<'_> {
             }
             known = Some((layer, seen));
         }
+        if above > self.held.floor.to_mm() + ROUNDING {
+            self.stops_short(above, at_hand);
+        }
         Some(done)
     }
 }
@@ -141,12 +144,6 @@ impl Judge<'_> {
         Area::mm2(left.map_or(0.0, |left| left.uncut))
     }
 
-    /// The highest of the stock over the region and what of the tool is beside it.
-    fn highest(&self, before: &mut Surface, beside: f64) -> f64 {
-        let bounds = self.held.region.bounds();
-        before.highest(bounds.low.x - beside, bounds.high.x + beside)
-    }
-
     fn note(&mut self, layer: &Layer, at: Place, fault: ClearingFault) {
         let finding = Finding {
             operation: self.operation,
@@ -158,6 +155,29 @@ impl Judge<'_> {
             fault: CutFault::Clearing(fault),
         };
         self.findings.note_of_region(finding);
+    }
+
+    /// The last layer ends above the floor, so all of the region stays there.
+    fn stops_short(&mut self, height: f64, tool: ToolId) {
+        let region = &self.held.region;
+        let bounds = region.bounds();
+        let size = bounds.high.minus(bounds.low);
+        let middle = bounds.low.lerp(bounds.high, 0.5);
+        let fault = ClearingFault::Uncut {
+            area: Area::mm2(region.area()),
+            places: 1,
+            widest: Length::mm(size.x.min(size.y)),
+            limit: self.held.uncut,
+        };
+        self.findings.note_of_region(Finding {
+            operation: self.operation,
+            layer: NonZeroU32::MIN,
+            kind: self.program.cut_kind(self.operation, tool),
+            cut: NonZeroU32::MIN,
+            tip: Point2::new(middle.x, height),
+            y: Some(middle.y),
+            fault: CutFault::Clearing(fault),
+        });
     }
 
     fn stands(&mut self, layer: &Layer) {
@@ -212,7 +232,7 @@ impl Judge<'_> {
             .filter_map(|&astray| all.get(astray)?.pieces.first());
         if let Some(at) = astray
             .map(|piece| piece.from)
-            .find(|at| self.is_over_the_stock(*at))
+            .find(|at| is_over(self.program.stock, *at))
         {
             let by = Length::mm(tool.radius);
             self.note(layer, at, ClearingFault::Wall { by });
@@ -239,24 +259,14 @@ impl Judge<'_> {
         }
     }
 
-    fn is_over_the_stock(&self, at: Place) -> bool {
-        let stock = self.program.stock;
-        let within = |at: f64, length: Length| at > ROUNDING && at < length.to_mm() - ROUNDING;
-        within(at.x, stock.width) && within(at.y, stock.depth)
-    }
-
     /// How far the tool enters the stock from beside it, other than through an open side, and where: ways beyond open sides have the
     /// sides of the stock beside these for walls.
     fn beyond_a_side(&self, passes: &[Pass], radius: f64) -> Option<(f64, Place)> {
-        let sides = Walls::of_pieces(
-            sides::closed(&self.held.region, self.program.stock)
-                .into_iter()
-                .enumerate(),
-        );
+        let sides = closed_sides(&self.held.region, self.program.stock);
         let mut deepest: Option<(f64, Place)> = None;
         for piece in passes.iter().flat_map(|pass| &pass.pieces) {
             let ends = [piece.from, piece.to];
-            if ends.iter().all(|end| self.is_over_the_stock(*end)) {
+            if ends.iter().all(|end| is_over(self.program.stock, *end)) {
                 continue;
             }
             if let Some((at, near)) = sides.nearest_to(*piece) {

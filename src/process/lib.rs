@@ -5,6 +5,7 @@
 pub mod beside;
 pub mod clearing;
 pub mod comparison;
+pub mod from_above;
 pub mod lower;
 pub mod pen;
 pub mod plan;

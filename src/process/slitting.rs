@@ -5,20 +5,21 @@
 
 mod stated;
 
-use crate::clearing::sides;
+use crate::from_above::{closed_sides, highest, is_over};
 use core::num::NonZeroU32;
 use stated::{Motion, Stated, stated};
-use vcutc_backend_api::ir::{Blade, OperationId, Program, Straight};
+use vcutc_backend_api::ir::{Blade, OperationId, Program, Straight, ToolId};
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 use vcutc_job::{PlannedJob, Slitting};
+use vcutc_region::boxes::Dense;
 use vcutc_region::clearance::clearance;
 use vcutc_region::distance::Walls;
-use vcutc_region::foot::{Left, Sides, foot};
+use vcutc_region::foot::{Foot, Left, Sides, foot};
 use vcutc_region::pass::Pass;
 use vcutc_region::piece::Piece;
 use vcutc_region::place::Place;
-use vcutc_region::plate::{Reach, Stroke};
+use vcutc_region::plate::Stroke;
 use vcutc_region::region::Side;
 use vcutc_simulation::prove::{CutFault, Finding, Findings, Slit, SlitFault};
 use vcutc_simulation::surface::Surface;
@@ -37,29 +38,44 @@ pub fn judged(
     let numbered = (0..).map(OperationId).zip(&plan.operations);
     let held = numbered.filter_map(|(operation, planned)| Some((operation, planned.slitting()?)));
     let judged = held.filter_map(|(operation, held)| {
-        let first = program
-            .segments()
-            .find(|segment| segment.op.site.operation() == Some(operation))?;
-        let tool = program
-            .operation(operation)?
-            .tools
-            .first()
-            .copied()
-            .unwrap_or(first.before.tool);
-        let blade = program.blade(tool)?;
-        let straight = blade.straight()?;
+        let (tool, blade) = blade_of(program, operation)?;
         let judge = Judge {
             operation,
             held: &held,
             program,
+            tool,
             blade,
-            straight,
+            straight: blade.straight()?,
             walls: Walls::of(&held.region),
             findings,
         };
         Some(judge.all(before))
     });
     judged.collect()
+}
+
+/// The blade of an operation that has one.
+fn blade_of(program: &Program, operation: OperationId) -> Option<(ToolId, &Blade)> {
+    let tool = *program.operation(operation)?.tools.first()?;
+    Some((tool, program.blade(tool)?))
+}
+
+/// The ways along walls among some moves, slit by slit.
+fn ways<'s>(moves: impl Iterator<Item = &'s Stated>) -> Vec<Vec<Piece>> {
+    let mut ways: Vec<Vec<Piece>> = Vec::new();
+    let mut last = None;
+    for stated in moves {
+        let Motion::Along(stroke) = &stated.motion else {
+            continue;
+        };
+        let slit = (stated.layer, stated.cut);
+        match ways.last_mut() {
+            Some(way) if last == Some(slit) => way.push(stroke.way),
+            _ => ways.push(vec![stroke.way]),
+        }
+        last = Some(slit);
+    }
+    ways
 }
 
 /// Slits along the walls of a region for pictures: the ways of the tip, slit by slit, with the walls.
@@ -75,26 +91,17 @@ pub fn shown(plan: &PlannedJob, program: &Program) -> Vec<Shown> {
     let numbered = (0..).map(OperationId).zip(&plan.operations);
     let shown = numbered.filter_map(|(operation, planned)| {
         let held = planned.slitting()?;
-        let tool = program.operation(operation)?.tools.first().copied()?;
-        let blade = program.blade(tool)?.straight()?;
-        let top = program.stock.height.to_mm();
-        let mut ways: Vec<Vec<Piece>> = Vec::new();
-        let mut last = None;
-        for stated in stated(program, operation, blade, top) {
-            let Motion::Along(stroke) = stated.motion else {
-                continue;
-            };
-            let cut = (stated.layer, stated.cut);
-            match ways.last_mut() {
-                Some(way) if last == Some(cut) => way.push(stroke.way),
-                _ => ways.push(vec![stroke.way]),
-            }
-            last = Some(cut);
-        }
+        let (_, blade) = blade_of(program, operation)?;
+        let moves = stated(
+            program,
+            operation,
+            blade.straight()?,
+            program.stock.height.to_mm(),
+        );
         let walls = held.region.edges().filter(|edge| edge.side == Side::Wall);
         Some(Shown {
             walls: walls.map(|edge| edge.piece).collect(),
-            ways,
+            ways: ways(moves.iter()),
         })
     });
     shown.collect()
@@ -104,6 +111,7 @@ struct Judge<'j> {
     operation: OperationId,
     held: &'j Slitting,
     program: &'j Program,
+    tool: ToolId,
     blade: &'j Blade,
     straight: Straight,
     walls: Walls,
@@ -112,61 +120,29 @@ struct Judge<'j> {
 
 impl Judge<'_> {
     fn all(mut self, before: &mut Surface) -> Slit {
-        let bounds = self.held.region.bounds();
-        let beside = self.beside();
-        let top = before.highest(bounds.low.x - beside, bounds.high.x + beside);
+        let top = highest(before, &self.held.region, self.beside());
         let moves = stated(self.program, self.operation, self.straight, top);
-        let mut done = Slit {
-            operation: self.operation,
-            slits: 0,
-            way: Length::ZERO,
-            to_wall: Length::mm(f64::INFINITY),
-            stays: Length::ZERO,
-            in_corners: Length::ZERO,
-            edge: Length::ZERO,
-        };
-        let sides = Walls::of_pieces(
-            sides::closed(&self.held.region, self.program.stock)
-                .into_iter()
-                .enumerate(),
-        );
-        let mut ways: Vec<Pass> = Vec::new();
-        let mut all: Vec<(&Stated, Piece)> = Vec::new();
-        let mut last: Option<(NonZeroU32, NonZeroU32)> = None;
+        let sides = closed_sides(&self.held.region, self.program.stock);
+        let mut to_wall = f64::INFINITY;
         for stated in &moves {
             self.heights(stated, top);
-            done.edge = done.edge.max(Length::mm(stated.edge));
-            let Some(near) = self.clear(stated, &sides) else {
-                continue;
-            };
-            done.to_wall = done.to_wall.min(Length::mm(near));
-            let stroke = match &stated.motion {
-                Motion::Along(stroke) => *stroke,
-                Motion::Down(stroke) => standing(*stroke),
-                Motion::Above | Motion::Otherwise => continue,
-            };
-            all.push((stated, stroke.way));
-            if !matches!(stated.motion, Motion::Along(_)) {
-                continue;
-            }
-            if stated.floor > self.held.floor.to_mm() + ROUNDING {
-                continue;
-            }
-            done.way += Length::mm(stroke.way.length());
-            let cut = (stated.layer, stated.cut);
-            match ways.last_mut() {
-                Some(pass) if last == Some(cut) => pass.pieces.push(stroke.way),
-                _ => ways.push(Pass {
-                    level: 0,
-                    pieces: vec![stroke.way],
-                }),
-            }
-            last = Some(cut);
+            to_wall = to_wall.min(self.clear(stated, &sides));
         }
-        done.slits = ways.len();
-        self.astray(&all);
-        self.foot(&ways, &moves, &mut done);
-        done
+        self.astray(&moves);
+        let floor = self.held.floor.to_mm() + ROUNDING;
+        let slits = ways(moves.iter().filter(|stated| stated.floor <= floor));
+        let pieces: Vec<Piece> = slits.iter().flatten().copied().collect();
+        let edge = moves.iter().map(|stated| stated.edge).fold(0.0, f64::max);
+        let [stays, in_corners] = self.foot(&pieces);
+        Slit {
+            operation: self.operation,
+            slits: slits.len(),
+            way: Length::mm(pieces.iter().map(|piece| piece.length()).sum()),
+            to_wall: Length::mm(to_wall),
+            stays,
+            in_corners,
+            edge: Length::mm(edge),
+        }
     }
 
     /// How far beside its tip the blade reaches at most.
@@ -176,13 +152,18 @@ impl Judge<'_> {
     }
 
     fn note(&mut self, stated: &Stated, at: Place, fault: SlitFault) {
+        let tip = Point2::new(at.x, stated.floor);
+        self.note_of_cut((stated.layer, stated.cut), tip, at.y, fault);
+    }
+
+    fn note_of_cut(&mut self, (layer, cut): (NonZeroU32, NonZeroU32), tip: Point2, y: f64, fault: SlitFault) {
         self.findings.note_of_region(Finding {
             operation: self.operation,
-            layer: stated.layer,
-            kind: self.program.cut_kind(self.operation, stated.tool),
-            cut: stated.cut,
-            tip: Point2::new(at.x, stated.floor),
-            y: Some(at.y),
+            layer,
+            kind: self.program.cut_kind(self.operation, self.tool),
+            cut,
+            tip,
+            y: Some(y),
             fault: CutFault::Slit(fault),
         });
     }
@@ -225,26 +206,23 @@ impl Judge<'_> {
         }
     }
 
-    /// How near the sides of the blade come to walls on a move; none where nothing of it is in the work.
-    fn clear(&mut self, stated: &Stated, sides: &Walls) -> Option<f64> {
-        let (outline, stroke) = match &stated.motion {
-            Motion::Above => return None,
+    /// How near the sides of the blade come to walls on a move, in mm; endless where nothing of it is in the work.
+    fn clear(&mut self, stated: &Stated, sides: &Walls) -> f64 {
+        let stroke = match stated.motion {
+            Motion::Along(stroke) | Motion::Down(stroke) => stroke,
+            Motion::Above => return f64::INFINITY,
             Motion::Otherwise => {
                 self.note(stated, stated.at, SlitFault::Strays);
-                return None;
+                return f64::INFINITY;
             }
-            Motion::Along(stroke) => (stroke.outline(), *stroke),
-            Motion::Down(stroke) => (stroke.stand(0.0).to_vec(), standing(*stroke)),
         };
         if let Some(at) = self.passed_whole(&stroke) {
             let by = Length::mm(2.0 * stroke.half);
             self.note(stated, at, SlitFault::Wall { by });
         }
         self.beside_stock(stated, &stroke, sides);
-        let near = outline.into_iter().filter_map(|side| self.walls.nearest_to(side));
-        let near = near.min_by(|(_, one), (_, other)| one.distance.total_cmp(&other.distance));
-        let Some((at, near)) = near else {
-            return Some(f64::INFINITY);
+        let Some((at, near)) = stroke.nearest_to(&self.walls) else {
+            return f64::INFINITY;
         };
         let free = near.distance - stated.slack - self.program.blend.to_mm();
         let by = self.held.allowance.to_mm() - free;
@@ -257,7 +235,7 @@ impl Judge<'_> {
         if by > ROUNDING {
             self.note(stated, at, SlitFault::Wall { by: Length::mm(by) });
         }
-        Some(free)
+        free
     }
 
     /// A place of a wall that the blade passes without crossing its own outline.
@@ -283,7 +261,7 @@ impl Judge<'_> {
     /// From beside the stock the blade enters it by open sides only.
     fn beside_stock(&mut self, stated: &Stated, stroke: &Stroke, sides: &Walls) {
         let ends = [stroke.way.from, stroke.way.to];
-        if ends.iter().all(|end| self.is_over_the_stock(*end)) {
+        if ends.iter().all(|end| is_over(self.program.stock, *end)) {
             return;
         }
         if let Some((at, near)) = stroke.nearest_to(sides)
@@ -294,80 +272,50 @@ impl Judge<'_> {
         }
     }
 
-    fn is_over_the_stock(&self, at: Place) -> bool {
-        let stock = self.program.stock;
-        let within = |at: f64, length: Length| at > ROUNDING && at < length.to_mm() - ROUNDING;
-        within(at.x, stock.width) && within(at.y, stock.depth)
-    }
-
-    /// Ways of the blade over the stock without a place in the region: what crosses no wall is not in it as a whole.
-    fn astray(&mut self, all: &[(&Stated, Piece)]) {
-        let passes: Vec<Pass> = all
-            .iter()
-            .map(|(_, way)| Pass {
-                level: 0,
-                pieces: vec![*way],
-            })
-            .collect();
-        let astray = clearance(&self.held.region, &passes).astray;
-        let over = astray.into_iter().filter_map(|pass| all.get(pass));
-        let Some(&(stated, way)) = over
-            .into_iter()
-            .find(|(_, way)| self.is_over_the_stock(way.at(0.5)))
-        else {
-            return;
+    /// Strokes over the stock without a place in the region: what crosses no wall lies on one side of it as a whole.
+    fn astray(&mut self, moves: &[Stated]) {
+        let strokes = moves.iter().filter_map(|stated| match stated.motion {
+            Motion::Along(stroke) | Motion::Down(stroke) => Some((stated, stroke.way)),
+            Motion::Above | Motion::Otherwise => None,
+        });
+        let strokes: Vec<(&Stated, Piece)> = strokes.collect();
+        let pass = |way: Piece| Pass {
+            level: 0,
+            pieces: vec![way],
         };
-        let by = self.straight.thickness;
-        self.note(stated, way.at(0.5), SlitFault::Wall { by });
+        let passes: Vec<Pass> = strokes.iter().map(|(_, way)| pass(*way)).collect();
+        let astray = clearance(&self.held.region, &passes).astray;
+        let mut astray = astray.into_iter().filter_map(|number| strokes.get(number));
+        let found = astray.find(|(_, way)| is_over(self.program.stock, way.at(0.5)));
+        if let Some(&(stated, way)) = found {
+            let by = self.straight.thickness;
+            self.note(stated, way.at(0.5), SlitFault::Wall { by });
+        }
     }
 
-    fn foot(&mut self, ways: &[Pass], moves: &[Stated], done: &mut Slit) {
-        let Some(first) = moves.first() else { return };
-        let pieces: Vec<Piece> = ways.iter().flat_map(|pass| pass.pieces.iter().copied()).collect();
+    /// What stays at the foot of walls, and in acute corners, beyond what must.
+    fn foot(&mut self, ways: &[Piece]) -> [Length; 2] {
         let thickness = self.straight.thickness.to_mm();
         let allowance = self.held.allowance.to_mm();
-        let blade = Sides { thickness, allowance };
-        let Ok(found) = foot(&self.held.region, &pieces, blade) else {
-            self.note(first, first.at, SlitFault::Undecided);
-            return;
-        };
+        let found = foot(&self.held.region, ways, Sides { thickness, allowance });
         let beyond = |left: Option<Left>, kept: f64| {
             let far = left.map_or(0.0, |left| left.distance);
             Length::mm((far - thickness / 2.0 - kept).max(0.0))
         };
-        done.stays = beyond(found.walls, allowance);
-        done.in_corners = beyond(found.corners, 0.0);
-        let limit = self.held.residual;
-        if done.stays > limit
-            && let Some(left) = found.walls
-        {
-            let by = done.stays;
-            self.note(first, left.at, SlitFault::Stays { by, limit });
+        let (fault, at, left) = match found {
+            Err(Dense) => (Some(SlitFault::Undecided), None, [Length::ZERO; 2]),
+            Ok(Foot { walls, corners }) => {
+                let (by, limit) = (beyond(walls, allowance), self.held.residual);
+                let fault = (by > limit).then_some(SlitFault::Stays { by, limit });
+                (fault, walls, [by, beyond(corners, 0.0)])
+            }
+        };
+        if let Some(fault) = fault {
+            let at = at.map_or(self.held.region.bounds().low, |left| left.at);
+            let tip = Point2::new(at.x, self.held.floor.to_mm());
+            // It is no single slit that leaves something: the first one stands for all.
+            self.note_of_cut((NonZeroU32::MIN, NonZeroU32::MIN), tip, at.y, fault);
         }
+        left
     }
 }
-
-/// A blade that goes straight down, as a way along which it goes no farther than it reaches.
-fn standing(stroke: Stroke) -> Stroke {
-    let [reach, _] = stroke.reaches;
-    let ahead = stroke.way.direction(0.0);
-    let [from, to] = [-reach.behind, reach.ahead].map(|along| stroke.way.from.plus(ahead.times(along)));
-    let long = reach.behind + reach.ahead;
-    let way = if long > LEAST {
-        Piece::line(from, to)
-    } else {
-        stroke.way.part(0.0, LEAST)
-    };
-    let none = Reach {
-        behind: 0.0,
-        ahead: 0.0,
-    };
-    Stroke {
-        way,
-        reaches: [none; 2],
-        half: stroke.half,
-    }
-}
-
-/// The shortest way that has a direction, in mm.
-const LEAST: f64 = 1e-6;

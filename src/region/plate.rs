@@ -16,6 +16,12 @@ pub struct Reach {
 }
 
 impl Reach {
+    /// Of a blade that reaches no farther than its tip.
+    pub const NONE: Self = Self {
+        behind: 0.0,
+        ahead: 0.0,
+    };
+
     /// Of a blade with this half apex angle at this rake, in rad, between the tip and a height over it, in mm.
     ///
     /// At the height u the blade lies between `u cot(rake + half_apex)` and `u cot(rake - half_apex)` ahead of its tip.

@@ -410,6 +410,25 @@ fn a_program_that_leaves_out_a_way_leaves_core() {
     assert!(faults(&found).iter().any(is_uncut), "{:?}", faults(&found));
 }
 
+/// A program without its last layer, or without any, leaves the ground above the floor.
+#[test]
+fn a_program_that_leaves_out_layers_leaves_core() {
+    let outcome = compiled(&job(&plain().text(), ASKED, ""));
+    for from in [1, 2] {
+        let found = findings_of(&outcome, |program| {
+            program
+                .ops
+                .retain(|op| !matches!(op.site, Site::Cut { layer, .. } if layer.get() >= from));
+        });
+        let region = 90.0 * 55.0 - core::f64::consts::PI * 64.0;
+        assert!(
+            matches!(faults(&found).as_slice(), [ClearingFault::Uncut { area, .. }] if (area.to_mm2() - region).abs() < 1e-6),
+            "from layer {from} on: {:?}",
+            faults(&found)
+        );
+    }
+}
+
 /// The first diagnostic, and the job with its first fix applied.
 fn fixed(text: &str) -> (Code, Option<String>) {
     let outcome = compiled(text);

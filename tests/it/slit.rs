@@ -385,6 +385,18 @@ fn a_program_that_leaves_out_a_slit_leaves_a_wall() {
     );
 }
 
+/// A program whose operation makes no slit at all parts nothing.
+#[test]
+fn a_program_without_slits_leaves_all_walls() {
+    let found = faults_of(&plain(), |program| {
+        program.ops.retain(|op| !matches!(op.site, Site::Cut { .. }));
+    });
+    assert!(
+        matches!(found.as_slice(), [SlitFault::Stays { by, .. }] if !by.is_finite()),
+        "{found:?}"
+    );
+}
+
 /// A blade turned out of the plane of its way, as far as chains allow, sweeps more than its outline.
 #[test]
 fn a_leaning_plane_is_found() {

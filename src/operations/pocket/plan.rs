@@ -14,12 +14,12 @@ use order::Room;
 use vcutc_backend_api::units::{Angle, Area, Duration, Length};
 use vcutc_job::Auto;
 use vcutc_job::operation::Ground;
+use vcutc_process::from_above::highest;
 use vcutc_process::lower::BLEND;
 use vcutc_region::distance::Walls;
 use vcutc_region::pattern::Tool;
 use vcutc_region::piece::Piece;
 use vcutc_region::place::Place;
-use vcutc_simulation::surface::Surface;
 
 /// A pocket with every choice made.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,7 +121,11 @@ const ACCELERATION: f64 = 2000.0;
 pub(crate) fn plan(asked: &ClearPocket, ground: &Ground<'_>) -> Result<Plan, Why> {
     let stock = ground.job.stock;
     let mut before = ground.before.clone();
-    let top = highest(&mut before, asked);
+    let top = highest(
+        &mut before,
+        &asked.region.region,
+        asked.crusher.radius.value.to_mm(),
+    );
     let floors = floors(asked, top)?;
     let region = &asked.region.region;
     let walls = Walls::of(region);
@@ -240,13 +244,6 @@ impl Compared {
             });
         }
     }
-}
-
-/// The highest of the stock over the region and what of the tool is beside it.
-fn highest(before: &mut Surface, asked: &ClearPocket) -> f64 {
-    let bounds = asked.region.region.bounds();
-    let radius = asked.crusher.radius.value.to_mm();
-    before.highest(bounds.low.x - radius, bounds.high.x + radius)
 }
 
 /// Floors of equal layers, each no thicker than the tool cuts.

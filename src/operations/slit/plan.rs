@@ -4,12 +4,13 @@ use crate::asked::SlitWalls;
 use crate::refused::{LOWEST, Why};
 use core::f64::consts::FRAC_PI_2;
 use vcutc_backend_api::units::{Duration, Length};
+use vcutc_geometry::grid;
 use vcutc_job::operation::Ground;
+use vcutc_process::from_above::highest;
 use vcutc_process::lower::BLEND;
 use vcutc_process::pen::step_of;
 use vcutc_region::piece::Piece;
 use vcutc_region::slits::{Knife, Slit, slits};
-use vcutc_simulation::surface::Surface;
 
 /// Slits with every choice made.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +31,8 @@ const GRID: f64 = 0.004;
 /// How much less than a right angle there is between the edges of a blade at most, in rad: one edge upright, the other one would lie.
 const BLUNT: f64 = 0.01;
 
-/// The shortest lines that may stand for an arc, in mm: by the rounding of their ends shorter ones leave the plane of a blade.
+/// The shortest lines that may stand for an arc, in mm: the rounding of their ends turns shorter ones by more than 0.2 deg, and a program
+/// lets a way leave the plane of its blade by 0.45 deg.
 const SHORTEST_STEP: f64 = 0.6;
 
 /// Plans the slits in what the operations before have left.
@@ -39,7 +41,8 @@ const SHORTEST_STEP: f64 = 0.6;
 /// Why there is no plan.
 pub(crate) fn plan(asked: &SlitWalls, ground: &Ground<'_>) -> Result<Plan, Why> {
     let mut before = ground.before.clone();
-    let top = highest(&mut before, asked);
+    let reach = asked.blade.cutting_length.value.to_mm();
+    let top = highest(&mut before, &asked.region.region, reach);
     let floor = asked.floor.value.to_mm();
     let height = top - floor;
     if height < LOWEST {
@@ -64,7 +67,7 @@ pub(crate) fn plan(asked: &SlitWalls, ground: &Ground<'_>) -> Result<Plan, Why> 
         keep: asked.allowance.value.to_mm() + BLEND.to_mm() + GRID,
         height,
         run_out: asked.setup.run_out.value.to_mm(),
-        grid: 0.001,
+        grid: grid::SPACING,
     };
     let slits = slits(&asked.region.region, knife).map_err(Why::Misfit)?;
     if slits.is_empty() {
@@ -81,13 +84,6 @@ pub(crate) fn plan(asked: &SlitWalls, ground: &Ground<'_>) -> Result<Plan, Why> 
         knife,
         slits,
     })
-}
-
-/// The highest of the stock over the region and what of the blade is beside it.
-fn highest(before: &mut Surface, asked: &SlitWalls) -> f64 {
-    let bounds = asked.region.region.bounds();
-    let beside = asked.blade.cutting_length.value.to_mm();
-    before.highest(bounds.low.x - beside, bounds.high.x + beside)
 }
 
 impl Plan {

@@ -1,7 +1,7 @@
 //! The passes over a region as a program states them.
 
+use crate::from_above::{level, place_of};
 use core::num::NonZeroU32;
-use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, OperationId, Program, Site, ToolId};
 use vcutc_backend_api::segments::LinearSegment;
 use vcutc_backend_api::units::Speed;
@@ -114,7 +114,7 @@ fn layer(pieces: &[Stated]) -> Option<Layer> {
         number: first.layer,
         cut: first.cut,
         tool: first.tool,
-        lowest: plan_of(lowest),
+        lowest: place_of(lowest),
         leaning: None,
         slack: 0.0,
         floor: lowest.z,
@@ -127,9 +127,9 @@ fn layer(pieces: &[Stated]) -> Option<Layer> {
         let mut speeds = Vec::new();
         for piece in chain {
             if !piece.is_upright && layer.leaning.is_none() {
-                layer.leaning = Some(plan_of(piece.line.from.tip));
+                layer.leaning = Some(place_of(piece.line.from.tip));
             }
-            match level(&piece.line, layer.floor) {
+            match along_floor(&piece.line, layer.floor) {
                 Some(level) => {
                     flat.push(level);
                     speeds.push(piece.line.feed);
@@ -160,36 +160,14 @@ impl Layer {
     }
 }
 
-const fn plan_of(point: Point3) -> Place {
-    Place::new(point.x, point.y)
-}
-
 /// A piece along the floor, in the plan.
-fn level(line: &LinearSegment, floor: f64) -> Option<Piece> {
-    let points = [Some(line.from.tip), line.via, Some(line.to.tip)];
-    if points
-        .iter()
-        .flatten()
-        .any(|point| (point.z - floor).abs() > LEVEL)
-    {
-        return None;
-    }
-    let [from, to] = [line.from.tip, line.to.tip].map(plan_of);
-    Some(match line.via.map(plan_of) {
-        None => Piece::line(from, to),
-        Some(via) => Piece::arc(from, to, sweep(from, via, to)),
-    })
-}
-
-/// The angle of the arc through three places: twice that between both chords (inscribed angles).
-fn sweep(from: Place, via: Place, to: Place) -> f64 {
-    let (first, second) = (via.minus(from), to.minus(via));
-    2.0 * libm::atan2(first.cross(second), first.dot(second))
+fn along_floor(line: &LinearSegment, floor: f64) -> Option<Piece> {
+    level(line).filter(|_| (line.from.tip.z - floor).abs() <= LEVEL)
 }
 
 /// A way down or up as lines of the plan.
 fn sloping(line: &LinearSegment) -> Vec<Piece> {
-    let ends = [line.from.tip, line.to.tip].map(plan_of);
+    let ends = [line.from.tip, line.to.tip].map(place_of);
     let places: Vec<Place> = match line.arc() {
         None => ends.to_vec(),
         Some(arc) => {

@@ -1,8 +1,9 @@
 //! The slits of an operation as a program states them.
 
+use crate::from_above::{level, place_of};
 use core::num::NonZeroU32;
-use vcutc_backend_api::geometry::{Orientation, Point3};
-use vcutc_backend_api::ir::{Action, OperationId, Program, Site, Straight, ToolId};
+use vcutc_backend_api::geometry::Orientation;
+use vcutc_backend_api::ir::{Action, OperationId, Program, Site, Straight};
 use vcutc_backend_api::segments::LinearSegment;
 use vcutc_region::piece::Piece;
 use vcutc_region::place::Place;
@@ -10,6 +11,9 @@ use vcutc_region::plate::{Reach, Stroke};
 
 /// Heights and places this close are one, in mm.
 const SAME: f64 = 1e-6;
+
+/// The shortest way that has a direction, in mm.
+const LEAST: f64 = 1e-6;
 
 /// How upright the plane of a blade is that stands upright, as the height of its normal.
 const UPRIGHT: f64 = 1e-9;
@@ -19,7 +23,7 @@ const UPRIGHT: f64 = 1e-9;
 pub(super) enum Motion {
     /// It goes level.
     Along(Stroke),
-    /// It goes straight down or up: what it passes lies within where it is at the lower end, where the stroke begins.
+    /// It goes straight down or up: all that it passes lies within where it is at the lower end, as a stroke from its back to its front.
     Down(Stroke),
     /// It is above the walls.
     Above,
@@ -32,7 +36,6 @@ pub(super) enum Motion {
 pub(super) struct Stated {
     pub(super) layer: NonZeroU32,
     pub(super) cut: NonZeroU32,
-    pub(super) tool: ToolId,
     pub(super) motion: Motion,
     /// Where it begins.
     pub(super) at: Place,
@@ -65,14 +68,13 @@ pub(super) fn stated(program: &Program, operation: OperationId, blade: Straight,
         let held = [from?, to?];
         let floor = line.from.tip.z.min(line.to.tip.z);
         let height = (top - floor).max(0.0);
-        let way = way(&line);
+        let way = level(&line).filter(|way| way.from != way.to);
         let poses = held.map(|held| Pose::of(held, blade, height));
         let mut stated = Stated {
             layer,
             cut,
-            tool: segment.before.tool,
             motion: Motion::Otherwise,
-            at: plan_of(line.from.tip),
+            at: place_of(line.from.tip),
             floor,
             slack: 0.0,
             edge: poses.iter().map(|pose| pose.edge).fold(0.0, f64::max),
@@ -92,10 +94,7 @@ pub(super) fn stated(program: &Program, operation: OperationId, blade: Straight,
             }
         } else if is_vertical(&line) && line.from.orientation == line.to.orientation {
             let [pose, _] = poses;
-            let ahead = pose.normal.left().times(-1.0);
-            let way = Piece::line(stated.at, stated.at.plus(ahead));
-            let reaches = [pose.reach(ahead); 2];
-            stated.motion = Motion::Down(Stroke { way, reaches, half });
+            stated.motion = Motion::Down(pose.standing(stated.at, half));
         }
         Some(stated)
     });
@@ -174,6 +173,18 @@ impl Pose {
         }
     }
 
+    /// The blade with its tip at a place, as a stroke from its back to its front.
+    fn standing(&self, tip: Place, half: f64) -> Stroke {
+        let ahead = self.normal.left();
+        let reach = self.reach(ahead);
+        let [from, to] = [-reach.behind, reach.ahead.max(LEAST)].map(|along| tip.plus(ahead.times(along)));
+        Stroke {
+            way: Piece::line(from, to),
+            reaches: [Reach::NONE; 2],
+            half,
+        }
+    }
+
     fn reach(&self, ahead: Place) -> Reach {
         let along = self.edges.map(|edge| edge.dot(ahead));
         Reach {
@@ -183,36 +194,7 @@ impl Pose {
     }
 }
 
-const fn plan_of(point: Point3) -> Place {
-    Place::new(point.x, point.y)
-}
-
 fn is_vertical(line: &LinearSegment) -> bool {
-    let [from, to] = [line.from.tip, line.to.tip].map(plan_of);
+    let [from, to] = [line.from.tip, line.to.tip].map(place_of);
     line.via.is_none() && from.distance(to) <= SAME
-}
-
-/// A level way in the plan; none of others.
-fn way(line: &LinearSegment) -> Option<Piece> {
-    let [from, to] = [line.from.tip, line.to.tip];
-    let is_level = [Some(to), line.via]
-        .iter()
-        .flatten()
-        .all(|point| (point.z - from.z).abs() <= SAME);
-    let [from, to] = [from, to].map(plan_of);
-    if !is_level || from == to {
-        return None;
-    }
-    Some(match line.via.map(plan_of) {
-        None => Piece::line(from, to),
-        Some(via) => {
-            let (first, second) = (via.minus(from), to.minus(via));
-            // The angle of the arc is twice that between both chords (inscribed angles).
-            Piece::arc(
-                from,
-                to,
-                2.0 * libm::atan2(first.cross(second), first.dot(second)),
-            )
-        }
-    })
 }

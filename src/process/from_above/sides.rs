@@ -10,7 +10,7 @@ use vcutc_region::region::{Region, Side};
 const ON_IT: f64 = 1e-6;
 
 /// What of the stock's sides has core right within it that is not of the region.
-pub(crate) fn closed(region: &Region, stock: Stock) -> Vec<Piece> {
+pub(super) fn closed(region: &Region, stock: Stock) -> Vec<Piece> {
     let [width, depth] = [stock.width, stock.depth].map(Length::to_mm);
     let corners = [(0.0, 0.0), (width, 0.0), (width, depth), (0.0, depth)].map(|(x, y)| Place::new(x, y));
     let next = corners.iter().cycle().skip(1);
