@@ -1,9 +1,9 @@
 //! What an operation says of itself to people and to other programs: its parameters with their values and where these are
 //! from, and the words of summary and report.
 
-use super::{Auto, Sourced};
+use super::{Auto, Setup, Sourced};
 use serde::Serialize;
-use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::units::{Angle, Length, Speed};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 
@@ -168,6 +168,19 @@ impl ParameterRow {
             origin: Origin::Written(span),
         }
     }
+}
+
+/// The rows of an operation whose blade goes down into the material, on how it moves.
+#[must_use]
+pub fn motion_rows(setup: &Setup, plunge: Sourced<Speed>) -> Vec<ParameterRow> {
+    let speed = |speed: Speed| format!("{} mm/s", show(speed.to_mm_per_s()));
+    vec![
+        ParameterRow::of("feed cut", setup.cut_feed, speed),
+        ParameterRow::of("feed plunge", plunge, speed),
+        ParameterRow::of("feed travel", setup.travel_feed, speed),
+        ParameterRow::of("clearance", setup.clearance, length_text),
+        ParameterRow::of("run_out", setup.run_out, length_text),
+    ]
 }
 
 /// A length with its unit: `2.5 mm`.

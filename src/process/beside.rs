@@ -1,6 +1,7 @@
 //! Cuts along y, to and fro. Each begins and ends beside the work, far enough out that the blade may turn there; from one to the
 //! next the blade goes up, across and down beside the work. With one feed direction only, it goes back over the safe plane.
 
+use crate::pen::{Pace, Stretch};
 use crate::posture::{Feed, Holder};
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::geometry::{Orientation, Point3};
@@ -80,6 +81,32 @@ pub struct Step {
     pub held: Orientation,
     pub feed: FeedId,
     pub joint: Joint,
+}
+
+/// The speeds of stretches.
+#[derive(Clone, Copy, Debug)]
+pub struct Paces {
+    travel: FeedId,
+    plunge: FeedId,
+    cut: FeedId,
+}
+
+impl Paces {
+    /// A stretch as a piece of a path, at whose end the blade is held so.
+    #[must_use]
+    pub const fn step(self, stretch: &Stretch, held: Orientation) -> Step {
+        Step {
+            to: stretch.to,
+            via: stretch.via,
+            held,
+            feed: match stretch.pace {
+                Pace::Travel => self.travel,
+                Pace::Plunge => self.plunge,
+                Pace::Cut => self.cut,
+            },
+            joint: stretch.joint,
+        }
+    }
 }
 
 /// Where a chain begins, and how the blade gets there.
@@ -233,9 +260,14 @@ impl<'b> Writer<'b> {
         self.end_chain(site);
     }
 
-    /// A speed of the program.
-    pub fn feed_of(&mut self, speed: Speed) -> FeedId {
-        self.builder.feed(speed)
+    /// The speeds of an operation whose blade goes down into the material.
+    pub fn paces(&mut self, setup: &Setup, plunge: Speed) -> Paces {
+        let mut feed = |speed| self.builder.feed(speed);
+        Paces {
+            travel: feed(setup.travel_feed.value),
+            plunge: feed(plunge),
+            cut: feed(setup.cut_feed.value),
+        }
     }
 
     /// Over the safe plane to where a chain begins, and straight down.

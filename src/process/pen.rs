@@ -220,8 +220,7 @@ fn bow(piece: Piece) -> f64 {
 }
 
 /// The directions in which a stretch begins and ends, of length 1.
-#[must_use]
-pub fn directions(from: Point3, stretch: &Stretch) -> [[f64; 3]; 2] {
+fn directions(from: Point3, stretch: &Stretch) -> [[f64; 3]; 2] {
     let [from, to] = [from, stretch.to].map(Point3::to_array);
     let arc = stretch
         .via

@@ -43,7 +43,8 @@ pub const RESOLUTION: f64 = 0.001;
 /// How many places of walls are looked at, at most.
 const MOST: usize = 4_000_000;
 
-/// Centres this close belong to arcs of which one is an offset of the other, in mm: programs round their points.
+/// Centres this close belong to arcs of which one is an offset of the other, in mm: rounding of points moves the centre of a shallow arc
+/// by many times itself.
 const CONCENTRIC: f64 = 0.05;
 
 /// How far a distance may be off by rounding, in mm.

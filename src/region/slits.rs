@@ -6,7 +6,7 @@
 //! | --- | --- | --- |
 //! | straight | beside the wall, half the thickness of the blade away | nothing |
 //! | an arc that bulges into the region | as far away from it; the blade's ends swing away from the wall | nothing |
-//! | a hollow arc of the radius rho | at `sqrt(rho^2 - a^2)` less half the thickness from its centre, so that the corners of the blade, `a` ahead and behind at the top, touch the wall | `rho - sqrt(rho^2 - a^2)` |
+//! | a hollow arc of the radius rho | about its centre, at the radius `sqrt(rho^2 - a^2)` less half the thickness: at the top the corners of the blade, `a` ahead of the tip and `a` after it, touch the wall | `rho - sqrt(rho^2 - a^2)` |
 //!
 //! Towards an inward corner, or a hollow arc, the leading edge stands upright, and away from one the trailing edge does: so nothing
 //! of the blade is beyond its tip. Hollow arcs that go on into each other are one slit, at the distance that the tightest of them
@@ -43,8 +43,7 @@ pub struct Knife {
 pub struct Slit {
     /// Its lines and arcs, at least one, each beginning where the one before it ends, in its direction.
     pub pieces: Vec<SlitPiece>,
-    /// How it begins and ends.
-    pub ends: [End; 2],
+    pub begins: Begin,
 }
 
 /// A line or an arc of a slit.
@@ -55,9 +54,9 @@ pub struct SlitPiece {
     pub rakes: [f64; 2],
 }
 
-/// How a slit begins or ends.
+/// Where a slit begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
+pub enum Begin {
     /// Within the material.
     Within,
     /// Beyond an open side, clear of the material.
@@ -116,8 +115,8 @@ impl Knife {
         }
     }
 
-    /// The least radius of a hollow arc at whose foot the side of the blade is no farther from the wall than this, in mm; none where that
-    /// is what the blade keeps, or less.
+    /// The least radius of a hollow arc, in mm, at whose foot the side of the blade is within `far` of the wall; none where `far` is at
+    /// most what the blade keeps.
     #[must_use]
     pub fn least_radius(&self, far: f64) -> Option<f64> {
         let along = self.reach(FRAC_PI_2).ahead;
@@ -125,7 +124,7 @@ impl Knife {
         (more > 0.0).then(|| (along * along + far * far - keep * keep) / (2.0 * more))
     }
 
-    /// The highest walls with a hollow arc of a radius, in mm, at whose foot the side of the blade is no farther from the wall than this.
+    /// How high the walls of a hollow arc of a radius may be, in mm, so that at their foot the side of the blade is within `far` of them.
     #[must_use]
     pub fn most_height(&self, radius: f64, far: f64) -> f64 {
         let (free, tip) = (radius - self.keep, radius - far);
@@ -133,7 +132,7 @@ impl Knife {
     }
 }
 
-/// A smaller arc of a tip is no way of a machine, in mm.
+/// The smallest arc of a tip, in mm: on smaller ones the grid of programs is a hundredth of the radius.
 const LEAST_RADIUS: f64 = 0.1;
 
 /// Walls that turn by more, in rad, do not go on into each other.

@@ -8,7 +8,6 @@ use vcutc_backend_api::ir::{Edges, Flank, OperationKind, Site, SourceRef};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_process::beside::{Drive, Entrance, Stage, Step, Writer};
 use vcutc_process::lower::BLEND;
-use vcutc_process::pen::Pace;
 use vcutc_process::posture::{Feed, Holder};
 
 /// What programs call it.
@@ -37,17 +36,7 @@ pub(crate) fn lower(planned: &Planned, source: SourceRef, builder: &mut ProgramB
         drives: &[Drive::Spindle],
     };
     let mut writer = Writer::new(stage, &asked.setup, builder);
-    let [travel, plunge, cut] = [
-        asked.setup.travel_feed.value,
-        asked.plunge_feed.value,
-        asked.setup.cut_feed.value,
-    ]
-    .map(|feed| writer.feed_of(feed));
-    let feed = |pace: Pace| match pace {
-        Pace::Travel => travel,
-        Pace::Plunge => plunge,
-        Pace::Cut => cut,
-    };
+    let paces = writer.paces(&asked.setup, asked.plunge_feed.value);
     let mut number = NonZeroU32::MIN;
     for layer in planned.paths() {
         let mut pass = NonZeroU32::MIN;
@@ -55,13 +44,7 @@ pub(crate) fn lower(planned: &Planned, source: SourceRef, builder: &mut ProgramB
             let steps: Vec<Step> = path
                 .stretches
                 .iter()
-                .map(|stretch| Step {
-                    to: stretch.to,
-                    via: stretch.via,
-                    held: upright(),
-                    feed: feed(stretch.pace),
-                    joint: stretch.joint,
-                })
+                .map(|stretch| paces.step(stretch, upright()))
                 .collect();
             let site = Site::Cut {
                 operation,

@@ -2,11 +2,11 @@
 
 use crate::asked::Pattern;
 use crate::decided::Planned;
-use vcutc_backend_api::units::{Length, Speed};
+use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::show;
 use vcutc_job::Auto;
 use vcutc_job::description::{
-    ParameterFigure, ParameterRow, ParameterTable, angle_text, degrees, length_text, millimetres,
+    ParameterFigure, ParameterRow, ParameterTable, angle_text, degrees, length_text, millimetres, motion_rows,
 };
 
 const FASTEST: &str = "the pattern that takes the least time of those that keep the limits";
@@ -19,7 +19,6 @@ const ALONG: &str = "the faster of 0 deg and 90 deg";
 /// The tables: tool, cut, motion.
 pub(crate) fn tables(planned: &Planned) -> Vec<ParameterTable> {
     let asked = &planned.asked;
-    let speed = |speed: Speed| format!("{} mm/s", show(speed.to_mm_per_s()));
     let crusher = &asked.crusher;
     let blade = vec![
         ParameterRow::written("blade", crusher.name.clone(), crusher.span),
@@ -60,13 +59,7 @@ pub(crate) fn tables(planned: &Planned) -> Vec<ParameterTable> {
         Pattern::Offset => {}
     }
     cut.push(ParameterRow::of("allowance", asked.allowance, length_text));
-    let motion = vec![
-        ParameterRow::of("feed cut", asked.setup.cut_feed, speed),
-        ParameterRow::of("feed plunge", asked.plunge_feed, speed),
-        ParameterRow::of("feed travel", asked.setup.travel_feed, speed),
-        ParameterRow::of("clearance", asked.setup.clearance, length_text),
-        ParameterRow::of("run_out", asked.setup.run_out, length_text),
-    ];
+    let motion = motion_rows(&asked.setup, asked.plunge_feed);
     [("Tool", blade), ("Cut", cut), ("Motion", motion)]
         .map(|(caption, rows)| ParameterTable { caption, rows })
         .to_vec()

@@ -99,7 +99,7 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<SlitWalls> 
     }
 }
 
-/// What the fields contradict each other in.
+/// What is wrong between the fields.
 fn fault(asked: &SlitWalls, written: Written<'_>) -> Option<vcutc_diagnostics::Diagnostic> {
     if asked.blade.edges == Edges::Single {
         return Some(refused::one_edge(asked));

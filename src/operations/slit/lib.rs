@@ -5,7 +5,7 @@
 //! | --- | --- |
 //! | what is asked, and its check | [`asked`], `check` |
 //! | the plan: slits, in their order | [`plan`] |
-//! | why there is no plan | `refused` |
+//! | what prevents a plan | `refused` |
 //! | every choice made, and what stages ask of it | `decided`, `planned` |
 //! | motions | `lower` |
 //! | what a proof finds wrong, in words | `verdict` |

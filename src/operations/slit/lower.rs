@@ -16,7 +16,7 @@ use vcutc_process::pen::{Pace, Path, Pen};
 use vcutc_process::posture::{Feed, Holder};
 use vcutc_region::piece::Piece;
 use vcutc_region::place::Place;
-use vcutc_region::slits::{End, Slit};
+use vcutc_region::slits::{Begin, Slit};
 
 /// What programs call it.
 pub(crate) const KIND: OperationKind = OperationKind::named("slit_walls").unwrap();
@@ -41,12 +41,7 @@ pub(crate) fn lower(planned: &Planned, source: SourceRef, builder: &mut ProgramB
         drives: &[Drive::Generator],
     };
     let mut writer = Writer::new(stage, &asked.setup, builder);
-    let [travel, plunge, cut] = [
-        asked.setup.travel_feed.value,
-        asked.plunge_feed.value,
-        asked.setup.cut_feed.value,
-    ]
-    .map(|feed| writer.feed_of(feed));
+    let paces = writer.paces(&asked.setup, asked.plunge_feed.value);
     let mut yaw = Yaw::default();
     let mut number = NonZeroU32::MIN;
     for slit in &planned.plan.slits {
@@ -59,17 +54,7 @@ pub(crate) fn lower(planned: &Planned, source: SourceRef, builder: &mut ProgramB
         };
         let stretches = drawn.path.stretches.iter().enumerate();
         let steps: Vec<Step> = stretches
-            .map(|(at, stretch)| Step {
-                to: stretch.to,
-                via: stretch.via,
-                held: held(at + 1),
-                feed: match stretch.pace {
-                    Pace::Travel => travel,
-                    Pace::Plunge => plunge,
-                    Pace::Cut => cut,
-                },
-                joint: stretch.joint,
-            })
+            .map(|(at, stretch)| paces.step(stretch, held(at + 1)))
             .collect();
         let by_way_of: Vec<Orientation> = turned.before.iter().map(|&yaw| upright(planned, yaw)).collect();
         let site = Site::Cut {
@@ -121,9 +106,9 @@ impl Drawn {
             .first()
             .map(|piece| (piece.way.from, heading(piece.way, 0.0), piece.rakes[0]));
         let (begin, heading_there, rake) = first.unwrap_or((Place::new(0.0, 0.0), 0.0, FRAC_PI_2));
-        let mut pen = match slit.ends {
-            [End::Beside, _] => Pen::at(begin, floor),
-            [End::Within, _] => {
+        let mut pen = match slit.begins {
+            Begin::Beside => Pen::at(begin, floor),
+            Begin::Within => {
                 let mut pen = Pen::at(begin, plan.air);
                 pen.line(begin, plan.top, Pace::Travel);
                 pen.line(begin, floor, Pace::Plunge);

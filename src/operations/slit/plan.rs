@@ -38,7 +38,7 @@ const SHORTEST_STEP: f64 = 0.6;
 /// Plans the slits in what the operations before have left.
 ///
 /// # Errors
-/// Why there is no plan.
+/// What prevents a plan.
 pub(crate) fn plan(asked: &SlitWalls, ground: &Ground<'_>) -> Result<Plan, Why> {
     let mut before = ground.before.clone();
     let reach = asked.blade.cutting_length.value.to_mm();

@@ -1,4 +1,4 @@
-//! Why there is no plan of slits along walls, and what their fields contradict each other in.
+//! What prevents a plan of slits along walls, and contradictions between its fields.
 
 use crate::asked::SlitWalls;
 use vcutc_backend_api::ir::Stock;
@@ -15,7 +15,7 @@ use vcutc_region::slits::Misfit;
 /// Walls that are lower are none, in mm: far below what a machine repeats.
 pub(crate) const LOWEST: f64 = 0.01;
 
-/// Why there is no plan.
+/// What prevents a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Why {
     /// The floor is not below the stock that the operations before have left.

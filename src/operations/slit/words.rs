@@ -1,16 +1,14 @@
 //! What a plan of slits along walls says of itself: parameters, and lines of the summary.
 
 use crate::decided::Planned;
-use vcutc_backend_api::units::Speed;
 use vcutc_diagnostics::number::show;
 use vcutc_job::description::{
-    ParameterFigure, ParameterRow, ParameterTable, angle_text, length_text, millimetres,
+    ParameterFigure, ParameterRow, ParameterTable, angle_text, length_text, millimetres, motion_rows,
 };
 
 /// The tables: tool, cut, motion.
 pub(crate) fn tables(planned: &Planned) -> Vec<ParameterTable> {
     let asked = &planned.asked;
-    let speed = |speed: Speed| format!("{} mm/s", show(speed.to_mm_per_s()));
     let blade = &asked.blade;
     let tool = vec![
         ParameterRow::written("blade", blade.name.clone(), blade.span),
@@ -24,13 +22,7 @@ pub(crate) fn tables(planned: &Planned) -> Vec<ParameterTable> {
         ParameterRow::of("allowance", asked.allowance, length_text),
         ParameterRow::of("residual", asked.residual, length_text),
     ];
-    let motion = vec![
-        ParameterRow::of("feed cut", asked.setup.cut_feed, speed),
-        ParameterRow::of("feed plunge", asked.plunge_feed, speed),
-        ParameterRow::of("feed travel", asked.setup.travel_feed, speed),
-        ParameterRow::of("clearance", asked.setup.clearance, length_text),
-        ParameterRow::of("run_out", asked.setup.run_out, length_text),
-    ];
+    let motion = motion_rows(&asked.setup, asked.plunge_feed);
     [("Tool", tool), ("Cut", cut), ("Motion", motion)]
         .map(|(caption, rows)| ParameterTable { caption, rows })
         .to_vec()

@@ -33,7 +33,7 @@ fn straight_walls_are_half_a_blade_away() {
     assert!((far - 0.76).abs() < 1e-9 && foot.corners.is_none(), "{foot:?}");
 }
 
-/// A slit that ends 3 mm before the corner leaves the wall behind it.
+/// A slit that ends 3 mm before the corner leaves the rest of the wall attached.
 #[test]
 fn a_slit_that_is_too_short_is_seen() {
     let region = region(&[rectangle(0.0, 0.0, 40.0, 30.0)]);

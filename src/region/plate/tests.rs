@@ -35,7 +35,7 @@ fn strokes() -> impl Strategy<Value = Stroke> {
         let (sin, cos) = libm::sincos(turn);
         let end = Place::new(10.0 + chord * cos, -5.0 + chord * sin);
         let way = Piece::arc(Place::new(10.0, -5.0), end, sweep);
-        // A blade is no thicker than twice the radius of its way.
+        // Half the thickness of the blade stays below the radius of its way.
         let half = way.radius().map_or(half, |radius| half.min(0.9 * radius));
         Stroke {
             way,

@@ -1,6 +1,6 @@
 //! The slit along walls that go on into each other: where it begins and ends, and how the blade is held.
 
-use super::{End, Joint, Knife, Misfit, OFF, Run, Slit, SlitPiece, is_hollow};
+use super::{Begin, Joint, Knife, Misfit, OFF, Run, Slit, SlitPiece, is_hollow};
 use crate::distance::Walls;
 use crate::piece::Piece;
 use crate::place::Place;
@@ -20,10 +20,11 @@ const LOOKED_AT: u32 = 16;
 /// Shorter pieces are left out, in mm.
 const SHORTEST: f64 = 1e-3;
 
-/// How far beyond a corner that points into the region a slit goes at most, in thicknesses.
+/// How far beyond a corner that points into the region a slit goes at most, in thicknesses: at corners of the part below 6 deg slits do
+/// not meet, and a crusher parts what is between them.
 const FARTHEST: f64 = 10.0;
 
-/// Flatter than this the way through an open side is too long: the sine of the angle between both.
+/// The sine of the least angle at which a slit leaves through an open side: at flatter ones the way out is over three times as long.
 const FLATTEST: f64 = 0.3;
 
 /// The slits along a run of walls: one, or two where the blade has to turn between two corners and there is no line to do it on.
@@ -44,7 +45,7 @@ pub(super) fn slit(run: &Run<'_>, knife: Knife, walls: &Walls) -> Result<Vec<Sli
     let upright = [FRAC_PI_2 - knife.half_apex, FRAC_PI_2 + knife.half_apex];
     let room = Room { knife, walls };
     if hollow || closed == [false; 2] {
-        return room.slits(vec![held(ways, [FRAC_PI_2; 2])], run);
+        return room.slits(vec![held(&ways, [FRAC_PI_2; 2])], run);
     }
     // Square to its way wherever it can; else as it has to be at a corner from there on.
     let at_ends = [0, 1].map(|end| if closed[end] { upright[end] } else { FRAC_PI_2 });
@@ -54,8 +55,8 @@ pub(super) fn slit(run: &Run<'_>, knife: Knife, walls: &Walls) -> Result<Vec<Sli
         Some(Err(_)) | None => {
             let groups = match closed {
                 [true, true] => between_corners(ways, upright),
-                [true, false] => vec![held(ways, [upright[0]; 2])],
-                [false, _] => vec![held(ways, [upright[1]; 2])],
+                [true, false] => vec![held(&ways, [upright[0]; 2])],
+                [false, _] => vec![held(&ways, [upright[1]; 2])],
             };
             room.slits(groups, run)
         }
@@ -74,15 +75,7 @@ fn turned_on_lines(ways: &[Piece], [begins, ends]: [f64; 2]) -> Option<Vec<SlitP
         (Ordering::Greater, Ordering::Equal) => [FRAC_PI_2, ends],
         (Ordering::Greater, Ordering::Less) => [FRAC_PI_2; 2],
     };
-    let pieces = ways.iter().enumerate();
-    Some(
-        pieces
-            .map(|(place, way)| SlitPiece {
-                way: *way,
-                rakes: rakes(place),
-            })
-            .collect(),
-    )
+    Some(held_each(ways, rakes))
 }
 
 /// The way of the tip along a wall that is straight, or bulges into the region.
@@ -134,8 +127,17 @@ fn about(wall: Piece, radius: f64) -> Piece {
     Piece::arc(moved(wall.from), moved(wall.to), wall.sweep)
 }
 
-fn held(ways: Vec<Piece>, rakes: [f64; 2]) -> Vec<SlitPiece> {
-    ways.into_iter().map(|way| SlitPiece { way, rakes }).collect()
+fn held(ways: &[Piece], rakes: [f64; 2]) -> Vec<SlitPiece> {
+    held_each(ways, |_| rakes)
+}
+
+fn held_each(ways: &[Piece], rakes: impl Fn(usize) -> [f64; 2]) -> Vec<SlitPiece> {
+    let ways = ways.iter().enumerate();
+    ways.map(|(place, &way)| SlitPiece {
+        way,
+        rakes: rakes(place),
+    })
+    .collect()
 }
 
 /// Pieces from one inward corner to another: the blade turns in its plane along the longest line; without a line it is lifted halfway.
@@ -148,15 +150,7 @@ fn between_corners(ways: Vec<Piece>, [trailing, leading]: [f64; 2]) -> Vec<Vec<S
             Ordering::Equal => [trailing, leading],
             Ordering::Greater => [leading; 2],
         };
-        let pieces = ways.into_iter().enumerate();
-        return vec![
-            pieces
-                .map(|(place, way)| SlitPiece {
-                    way,
-                    rakes: rakes(place),
-                })
-                .collect(),
-        ];
+        return vec![held_each(&ways, rakes)];
     }
     let half = ways.iter().map(|way| way.length()).sum::<f64>() / 2.0;
     let mut gone = 0.0;
@@ -172,7 +166,7 @@ fn between_corners(ways: Vec<Piece>, [trailing, leading]: [f64; 2]) -> Vec<Vec<S
             after.push(way.part(share, 1.0));
         }
     }
-    vec![held(before, [trailing; 2]), held(after, [leading; 2])]
+    vec![held(&before, [trailing; 2]), held(&after, [leading; 2])]
 }
 
 /// What there is to keep from.
@@ -190,7 +184,7 @@ impl Room<'_> {
         for (place, pieces) in groups.into_iter().enumerate() {
             let mut slit = Slit {
                 pieces,
-                ends: [End::Within; 2],
+                begins: Begin::Within,
             };
             if place == 0 {
                 self.begin(&mut slit, run, number(0))?;
@@ -212,12 +206,17 @@ impl Room<'_> {
         }
     }
 
+    /// A place of a wall to which something comes nearer than the blade may; none where it keeps from all of them.
+    fn met(&self, outline: impl IntoIterator<Item = Piece>) -> Option<Place> {
+        let near = outline.into_iter().filter_map(|side| self.walls.nearest_to(side));
+        let mut near = near.map(|(_, near)| near);
+        let met = near.find(|near| near.distance < self.knife.keep - OFF - ROUNDING);
+        met.map(|near| near.at)
+    }
+
     /// Whether the blade keeps from all walls at a share of its way.
     fn is_free(&self, stroke: Stroke, share: f64) -> bool {
-        stroke.stand(share).into_iter().all(|side| {
-            let near = self.walls.nearest_to(side);
-            near.is_none_or(|(_, near)| near.distance >= self.knife.keep - OFF - ROUNDING)
-        })
+        self.met(stroke.stand(share)).is_none()
     }
 
     /// The share of a piece nearest to where it begins (0) or ends (1) at which the blade has room there; none where there is none. What of
@@ -276,13 +275,13 @@ impl Room<'_> {
             }
             Joint::Convex | Joint::Open => {
                 let back = first.way.direction(0.0).times(-1.0);
-                let (far, end) = self.beyond(at, back, (turn, open));
+                let far = self.beyond(at, back, (turn, open));
                 let piece = SlitPiece {
                     way: Piece::line(at.plus(back.times(far)), at),
                     rakes: [first.rakes[0]; 2],
                 };
                 if self.is_worth_it(piece) {
-                    slit.ends[0] = end;
+                    slit.begins = open.map_or(Begin::Within, |_| Begin::Beside);
                     if first.way.is_line() {
                         first.way.from = piece.way.from;
                     } else {
@@ -308,13 +307,12 @@ impl Room<'_> {
             }
             Joint::Convex | Joint::Open => {
                 let on = last.way.direction(1.0);
-                let (far, end) = self.beyond(at, on, (turn, open));
+                let far = self.beyond(at, on, (turn, open));
                 let piece = SlitPiece {
                     way: Piece::line(at, at.plus(on.times(far))),
                     rakes: [last.rakes[1]; 2],
                 };
                 if self.is_worth_it(piece) {
-                    slit.ends[1] = end;
                     if last.way.is_line() {
                         last.way.to = piece.way.to;
                     } else {
@@ -329,48 +327,35 @@ impl Room<'_> {
     /// Whether the blade keeps from all walls all along: with a part of it ahead or behind it may meet others than its own.
     fn prove(&self, slit: &Slit, run: &Run<'_>) -> Result<(), Misfit> {
         for &piece in &slit.pieces {
-            if let Some((_, near)) = self.stroke(piece).nearest_to(self.walls)
-                && near.distance < self.knife.keep - OFF - ROUNDING
-            {
+            if let Some(at) = self.met(self.stroke(piece).outline()) {
                 let edge = followed(run, piece.way.at(0.5));
-                return Err(Misfit::NoRoom { edge, at: near.at });
+                return Err(Misfit::NoRoom { edge, at });
             }
         }
         Ok(())
     }
 
     /// How far a slit goes on beyond its wall, so that it meets the next one, or is clear of the stock.
-    fn beyond(&self, at: Place, on: Place, (turn, open): (f64, Option<Piece>)) -> (f64, End) {
+    fn beyond(&self, at: Place, on: Place, (turn, open): (f64, Option<Piece>)) -> f64 {
         let knife = self.knife;
-        match open {
-            None => {
-                let meets = knife.standoff() * libm::tan(turn.abs() / 2.0);
-                (
-                    meets.min(FARTHEST * 2.0 * knife.half.max(knife.keep)),
-                    End::Within,
-                )
-            }
-            Some(side) => {
-                // The region lies to the left of its sides.
-                let out = side.direction(0.0).left().times(-1.0);
-                let across = out.dot(on);
-                if across < FLATTEST {
-                    return (0.0, End::Within);
-                }
-                let reach = knife.reach(FRAC_PI_2 + knife.half_apex).behind;
-                let far = out.dot(side.from.minus(at)).max(0.0);
-                ((far + knife.half + knife.run_out) / across + reach, End::Beside)
-            }
+        let Some(side) = open else {
+            let meets = knife.standoff() * libm::tan(turn.abs() / 2.0);
+            return meets.min(FARTHEST * 2.0 * knife.half.max(knife.keep));
+        };
+        // The region lies to the left of its sides.
+        let out = side.direction(0.0).left().times(-1.0);
+        let across = out.dot(on);
+        if across < FLATTEST {
+            return 0.0;
         }
+        let reach = knife.reach(FRAC_PI_2 + knife.half_apex).behind;
+        let far = out.dot(side.from.minus(at)).max(0.0);
+        (far + knife.half + knife.run_out) / across + reach
     }
 
     /// Whether a way beyond a wall has some length, and the blade room all along.
     fn is_worth_it(&self, piece: SlitPiece) -> bool {
-        if piece.way.length() < SHORTEST {
-            return false;
-        }
-        let near = self.stroke(piece).nearest_to(self.walls);
-        near.is_none_or(|(_, near)| near.distance >= self.knife.keep - OFF - ROUNDING)
+        piece.way.length() >= SHORTEST && self.met(self.stroke(piece).outline()).is_none()
     }
 }
 

@@ -73,7 +73,7 @@ fn stay_out_of_walls(region: &Region, slits: &[Slit], knife: Knife) {
             assert!(pair[0].way.to.distance(pair[1].way.from) < 1e-3, "{slit:?}");
             assert!((pair[0].rakes[1] - pair[1].rakes[0]).abs() < 1e-12);
         }
-        let runs_out = slit.ends.contains(&End::Beside);
+        let runs_out = region.edges().any(|edge| edge.side == Side::Open);
         sampled(slit, knife, |place, height| {
             let near = walls.distance(place);
             assert!(

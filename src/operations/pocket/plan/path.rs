@@ -84,7 +84,7 @@ fn go_down(pen: &mut Pen, line: Piece, layer: Layer, top: f64, ramp: Angle) {
 
 fn back_and_forth(pen: &mut Pen, line: Piece, [from, to]: [f64; 2], ramp: Angle, pace: Pace) {
     let steepest = line.length() * libm::tan(ramp.to_rad() * CARE);
-    // The cast saturates, and a stock is no higher than a hundred metres.
+    // The cast saturates, and a stock is at most 100 m high.
     let ways = 2 * libm::ceil((from - to) / (2.0 * steepest)).max(0.0) as u32;
     for way in 1..=ways {
         let end = if way % 2 == 1 { line.to } else { line.from };

@@ -6,8 +6,8 @@ use vcutc_process::posture::Feed;
 /// Turns in the air go on by at most this much at once, in rad: half a revolution could go either way, and a blade may lean besides.
 const LARGEST_TURN: f64 = 2.0 * PI / 3.0;
 
-/// How far the middle of a slit's turning may be from where the blade cuts along y, beyond what some way to hold it always keeps to, in
-/// rad: so nothing winds up, and a blade is not turned over where a wall goes on.
+/// How far the middle of a slit's turning may be from where the blade cuts along y, in rad, beyond the right angle that some way to hold the
+/// blade always keeps to: a judgement. More winds up the cable; with less a blade is turned over where a wall goes on.
 const IN_HAND: f64 = PI / 4.5;
 
 /// Turns that differ by less are alike, in rad.
