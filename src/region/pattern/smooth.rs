@@ -12,6 +12,7 @@ use crate::distance::Walls;
 use crate::offset::{Kind, Origin, Way};
 use crate::piece::Piece;
 use crate::place::Place;
+use core::f64::consts::SQRT_2;
 
 /// Corners that turn by less, in rad, are none.
 const STRAIGHT: f64 = 1e-6;
@@ -151,59 +152,128 @@ impl Trial<'_> {
     /// The arc in a corner, as large as the places around it let it be.
     fn fillet(&self, one: &Curve, next: &Curve) -> Option<Fillet> {
         let mut rule = self.rule;
+        let corner = one.piece.to;
+        // What is left first lies straight out of the corner; what one arc leaves, the next one may leave too.
+        let out = one.arrival.minus(next.ahead);
+        let mut suspect = corner.plus(out.times(rule.radius / out.square().sqrt()));
+        let mut near: Option<Near> = None;
         for _ in 0..TRIALS {
             let fillet = fillet(one, next, rule)?;
-            if self.cuts_all(one, next, fillet) {
-                return Some(fillet);
+            let reach = rule.radius + corner.distance(fillet.from).max(corner.distance(fillet.to));
+            let near = match near.take().filter(|near| near.reach >= reach) {
+                Some(known) => near.insert(known),
+                None => near.insert(self.near(corner, reach)),
+            };
+            let tried = Tried::new(self, near, [one, next], fillet);
+            match tried.uncut(corner, reach, suspect) {
+                None => return Some(fillet),
+                Some(place) => suspect = place,
             }
             rule.most = fillet.radius().min(rule.most) * SHARPER;
         }
         None
     }
 
-    /// Whether all places around a corner that only what is cut off would cut are cut all the same.
-    fn cuts_all(&self, one: &Curve, next: &Curve, fillet: Fillet) -> bool {
+    /// What may cut places of a square around a corner.
+    fn near(&self, corner: Place, reach: f64) -> Near {
+        let around = |walls: &Walls, within: f64| {
+            let mut curves = Vec::new();
+            walls.around(corner, within, &mut |wall| curves.extend(walls.curve(wall)));
+            curves
+        };
+        let aside = reach * SQRT_2;
+        Near {
+            reach,
+            cut: around(&self.before.cut, aside + self.rule.radius),
+            walls: around(self.walls, aside + self.inside.max(0.0)),
+        }
+    }
+}
+
+/// What lies near to a corner.
+struct Near {
+    /// How far the places around the corner go along both axes, in mm.
+    reach: f64,
+    /// Pieces of the level before.
+    cut: Vec<Curve>,
+    walls: Vec<Curve>,
+}
+
+/// An arc that is tried.
+struct Tried<'a> {
+    near: &'a Near,
+    radius: f64,
+    inside: f64,
+    /// Steps below the radius leave that much to spare; without it boxes prove nothing in the end, and their middles stand for them.
+    spare: f64,
+    /// What the arc cuts off.
+    gone: [Curve; 2],
+    /// It, and what stays of both pieces beside it.
+    kept: Vec<Curve>,
+}
+
+impl<'a> Tried<'a> {
+    fn new(trial: &Trial, near: &'a Near, [one, next]: [&Curve; 2], fillet: Fillet) -> Self {
         let corner = one.piece.to;
-        let gone = [one.part(fillet.from, corner), next.part(corner, fillet.to)].map(Curve::of);
         let kept = [
-            one.part(one.piece.from, fillet.from),
             Piece::arc(fillet.from, fillet.to, fillet.sweep),
+            one.part(one.piece.from, fillet.from),
             next.part(fillet.to, next.piece.to),
         ];
-        let kept: Vec<Curve> = kept
-            .into_iter()
-            .filter(|piece| piece.is_sound())
-            .map(Curve::of)
-            .collect();
-        let radius = self.rule.radius;
-        let nearest = |curves: &[Curve], place: Place| {
-            let away = curves.iter().map(|curve| curve.distance(place));
-            away.fold(f64::INFINITY, f64::min)
-        };
-        // How far a place may be moved before it is uncut: distances change no faster.
-        let is_cut = |place: Place, by: f64| {
-            nearest(&gone, place) - by > radius
-                || nearest(&kept, place) + by <= radius
-                || self.before.cut.nearer_than(place, radius - by).is_some()
-                || self.walls.nearer_than(place, self.inside - by).is_some()
-        };
-        // Steps below the radius leave that much to spare; without it boxes prove nothing in the end, and their middles stand for them.
-        let spare = ((radius - self.rule.step) / 2.0).max(0.0);
-        let reach = radius + corner.distance(fillet.from).max(corner.distance(fillet.to));
+        let kept = kept.into_iter().filter(|piece| piece.is_sound());
+        let radius = trial.rule.radius;
+        Self {
+            near,
+            radius,
+            inside: trial.inside,
+            spare: ((radius - trial.rule.step) / 2.0).max(0.0),
+            gone: [one.part(fillet.from, corner), next.part(corner, fillet.to)].map(Curve::of),
+            kept: kept.map(Curve::of).collect(),
+        }
+    }
+
+    /// Whether a place, and all by which it may be moved, is cut, or is so no less than before: distances change no faster.
+    fn is_cut(&self, place: Place, by: f64) -> bool {
+        let Self {
+            near, radius, inside, ..
+        } = self;
+        self.gone.iter().all(|curve| curve.distance(place) - by > *radius)
+            || self
+                .kept
+                .iter()
+                .any(|curve| curve.distance(place) + by <= *radius)
+            || near.cut.iter().any(|curve| curve.distance(place) < radius - by)
+            || near.walls.iter().any(|curve| curve.distance(place) < inside - by)
+    }
+
+    /// A place around a corner that only what is cut off would cut, if there is one, looked for first in the smallest box about another.
+    fn uncut(&self, corner: Place, reach: f64, suspect: Place) -> Option<Place> {
+        let smallest = self.radius / FINENESS;
+        let is_uncut = |middle: Place, half: f64| !self.is_cut(middle, (half * SQRT_2).min(self.spare));
+        let (mut middle, mut half) = (corner, reach);
+        while half > smallest {
+            half /= 2.0;
+            let aside = suspect.minus(middle);
+            middle = middle.plus(Place::new(half.copysign(aside.x), half.copysign(aside.y)));
+        }
+        if is_uncut(middle, half) {
+            return Some(middle);
+        }
         let mut open = vec![(corner, reach)];
         while let Some((middle, half)) = open.pop() {
-            if half <= radius / FINENESS {
-                if !is_cut(middle, (half * core::f64::consts::SQRT_2).min(spare)) {
-                    return false;
+            if half <= smallest {
+                if is_uncut(middle, half) {
+                    return Some(middle);
                 }
-            } else if !is_cut(middle, half * core::f64::consts::SQRT_2) {
+            // Boxes of which the corner itself is one are too large to be cut.
+            } else if half >= reach / 2.0 || !self.is_cut(middle, half * SQRT_2) {
                 let quarter = half / 2.0;
                 let corners = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
                 let corners = corners.map(|(x, y)| middle.plus(Place::new(x, y).times(quarter)));
                 open.extend(corners.map(|corner| (corner, quarter)));
             }
         }
-        true
+        None
     }
 }
 
