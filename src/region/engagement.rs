@@ -213,19 +213,21 @@ impl Follower {
         let [start, end] = angles;
         let between = self.angle(way, middle)?;
         self.look()?;
-        let bound = self.cleared.angle_left(&way.curve, middle, half);
-        let bound = bound.max(start).max(between).max(end);
         let found = start.max(end).max(between);
         let slack = CLOSE.max(LOOSE * (FRAC_PI_2 - found));
-        let is_close = bound - found <= slack && (between - f64::midpoint(start, end)).abs() <= slack;
-        if is_close || 2.0 * half <= SHORTEST * self.cleared.radius() {
-            profile.push(Stretch {
-                piece: way.number,
-                way: shares.map(|share| way.from + share * way.length),
-                angles: [start, between, end],
-                bound,
-            });
-            return Ok(());
+        let is_even = (between - f64::midpoint(start, end)).abs() <= slack;
+        let is_shortest = 2.0 * half <= SHORTEST * self.cleared.radius();
+        if is_even || is_shortest {
+            let bound = self.cleared.angle_left(&way.curve, middle, half).max(found);
+            if is_shortest || bound - found <= slack {
+                profile.push(Stretch {
+                    piece: way.number,
+                    way: shares.map(|share| way.from + share * way.length),
+                    angles: [start, between, end],
+                    bound,
+                });
+                return Ok(());
+            }
         }
         self.halve(way, [from, middle], [start, between], profile)?;
         self.halve(way, [middle, to], [between, end], profile)

@@ -13,6 +13,9 @@ const MOST_CROSSINGS: usize = 8;
 /// A whole line or circle is straight where offset to its centre, to this share of the radius.
 const TO_THE_CENTRE: f64 = 1e-12;
 
+/// Circles farther from a line or circle than their radius and this, in mm, do not meet it: rounding is far less.
+const SURELY: f64 = 1e-6;
+
 /// A few numbers, without memory of their own.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Few {
@@ -70,8 +73,11 @@ fn beside(curve: &Curve, by: f64) -> Option<Curve> {
 pub(crate) fn outline_crossings(curve: &Curve, reach: f64, other: &Curve, call: &mut impl FnMut(Place)) {
     let mut meet = |part: &Curve| crossings(part, other).into_iter().flatten().for_each(&mut *call);
     if reach > 0.0 {
-        meet(&circle(curve.piece.from, reach));
-        meet(&circle(curve.piece.to, reach));
+        for end in [curve.piece.from, curve.piece.to] {
+            if other.left_of(end).abs() <= reach + SURELY {
+                meet(&circle(end, reach));
+            }
+        }
         for by in [reach, -reach] {
             if let Some(part) = beside(curve, by) {
                 meet(&part);

@@ -15,6 +15,9 @@ const TOUCHING: f64 = 1e-9;
 /// the radius thick.
 const NOTHING: f64 = 1e-4;
 
+/// How much farther off, in mm, what surely cuts nothing of the rim is: far more than rounding makes of crossings.
+const SPARE: f64 = 1e-6;
+
 /// Arcs about centres this close to each other, in mm, turn about one.
 const ONE_CENTRE: f64 = 0.01;
 
@@ -29,9 +32,9 @@ pub(super) struct Cleared {
     tree: Tree,
     /// Open sides, and where the region is, if there are any.
     air: Option<(Inside, Vec<Curve>)>,
-    /// Numbers of those that are near to the stretch that is looked at.
+    /// Numbers of those that are near to the stretch that is looked at, first those that cut something last.
     near: Vec<u32>,
-    parts: Vec<(f64, f64)>,
+    left: Left,
 }
 
 /// The front half of a rim about a place.
@@ -60,21 +63,8 @@ impl Rim {
         (ahead > 0.0).then(|| libm::atan2(self.ahead.cross(out), ahead))
     }
 
-    /// Calls with the middle, the beginning and the end of all parts between crossings.
-    fn parts(&self, crossings: &mut Few, call: &mut impl FnMut(Place, f64, f64)) {
-        crossings.push(-FRAC_PI_2);
-        crossings.push(FRAC_PI_2);
-        for pair in crossings.sorted().windows(2) {
-            if let &[from, to] = pair
-                && to > from
-            {
-                call(self.place(f64::midpoint(from, to)), from, to);
-            }
-        }
-    }
-
-    /// Adds the parts of the front half that a piece has within a distance, shortened at both ends by an angle.
-    fn cut(&self, piece: &Curve, reach: f64, less: f64, parts: &mut Vec<(f64, f64)>) {
+    /// Takes away the parts of the front half that a piece has within a distance, shortened at both ends by an angle.
+    fn cut(&self, piece: &Curve, reach: f64, less: f64, left: &mut Left) {
         if reach <= TOUCHING || piece.distance(self.at) >= self.radius + reach {
             return;
         }
@@ -84,11 +74,89 @@ impl Rim {
                 crossings.push(angle);
             }
         });
-        self.parts(&mut crossings, &mut |middle, from, to| {
-            if piece.distance(middle) < reach + self.grown {
-                parts.push((from + less, to - less));
+        crossings.push(-FRAC_PI_2);
+        crossings.push(FRAC_PI_2);
+        for pair in crossings.sorted().windows(2) {
+            if let &[from, to] = pair
+                && left.meets(from + less, to - less)
+                && piece.distance(self.place(f64::midpoint(from, to))) < reach + self.grown
+            {
+                left.take(self, from + less, to - less);
             }
-        });
+        }
+    }
+}
+
+/// What is left of the front half of a rim: parts of it in order.
+#[derive(Default)]
+struct Left {
+    gaps: Vec<Gap>,
+    spare: Vec<Gap>,
+    /// How often something was taken away.
+    cuts: usize,
+}
+
+/// A part of a rim.
+#[derive(Clone, Copy)]
+struct Gap {
+    from: f64,
+    to: f64,
+    /// A circle about it.
+    middle: Place,
+    size: f64,
+}
+
+impl Gap {
+    fn of(rim: &Rim, from: f64, to: f64) -> Self {
+        Self {
+            from,
+            to,
+            middle: rim.place(f64::midpoint(from, to)),
+            size: rim.radius * (to - from) / 2.0,
+        }
+    }
+}
+
+impl Left {
+    fn restart(&mut self, rim: &Rim) {
+        self.gaps.clear();
+        self.gaps.push(Gap::of(rim, -FRAC_PI_2, FRAC_PI_2));
+    }
+
+    /// Whether something between two angles is left.
+    fn meets(&self, from: f64, to: f64) -> bool {
+        to > from && self.gaps.iter().any(|gap| from < gap.to && to > gap.from)
+    }
+
+    /// Whether a piece may have something of it within a distance.
+    fn is_near(&self, piece: &Curve, reach: f64) -> bool {
+        let mut gaps = self.gaps.iter();
+        gaps.any(|gap| piece.distance(gap.middle) <= gap.size + reach + SPARE)
+    }
+
+    /// Takes away what lies between two angles.
+    fn take(&mut self, rim: &Rim, from: f64, to: f64) {
+        self.cuts += 1;
+        self.spare.clear();
+        for &gap in &self.gaps {
+            if from >= gap.to || to <= gap.from {
+                self.spare.push(gap);
+                continue;
+            }
+            if from > gap.from {
+                self.spare.push(Gap::of(rim, gap.from, from));
+            }
+            if to < gap.to {
+                self.spare.push(Gap::of(rim, to, gap.to));
+            }
+        }
+        core::mem::swap(&mut self.gaps, &mut self.spare);
+    }
+
+    /// All that is left, in rad.
+    fn angle(&self) -> f64 {
+        let left = self.gaps.iter().fold(0.0, |sum, gap| sum + (gap.to - gap.from));
+        if left > NOTHING { left } else { 0.0 }
     }
 }
 
@@ -115,7 +183,7 @@ impl Cleared {
             tree,
             air,
             near: Vec::new(),
-            parts: Vec::new(),
+            left: Left::default(),
         }
     }
 
@@ -171,24 +239,32 @@ impl Cleared {
         };
         // How far the way turns while it goes by `aside`.
         let turn = aside * way.bend.abs();
-        let mut parts = core::mem::take(&mut self.parts);
-        parts.clear();
-        self.add_air(&rim, aside, turn, &mut parts);
-        for &piece in &self.near {
-            if let Some(piece) = self.pieces.get(piece as usize) {
-                cut_while_moving(&rim, way, piece, aside, &mut parts);
+        let mut left = core::mem::take(&mut self.left);
+        left.restart(&rim);
+        self.take_air(&rim, aside, turn, &mut left);
+        let mut first = 0;
+        for number in 0..self.near.len() {
+            let cuts = left.cuts;
+            if let Some(&piece) = self.near.get(number)
+                && let Some(piece) = self.pieces.get(piece as usize)
+            {
+                cut_while_moving(&rim, way, piece, aside, &mut left);
+            }
+            if left.cuts > cuts {
+                self.near.swap(first, number);
+                first += 1;
             }
         }
         if let Some(older) = older_part(way, share, turn) {
-            cut_while_moving(&rim, way, &older, aside, &mut parts);
+            cut_while_moving(&rim, way, &older, aside, &mut left);
         }
-        let left = left_of_half(&mut parts);
-        self.parts = parts;
-        left
+        let angle = left.angle();
+        self.left = left;
+        angle
     }
 
-    /// Adds what of the rim lies beyond open sides. No wall meets the rim, so it leaves the region through open sides only.
-    fn add_air(&self, rim: &Rim, aside: f64, turn: f64, parts: &mut Vec<(f64, f64)>) {
+    /// Takes away what of the rim lies beyond open sides. No wall meets the rim, so it leaves the region through open sides only.
+    fn take_air(&self, rim: &Rim, aside: f64, turn: f64, left: &mut Left) {
         let Some((inside, open)) = &self.air else {
             return;
         };
@@ -209,18 +285,22 @@ impl Cleared {
                 && to > from
             {
                 let middle = rim.place(f64::midpoint(from, to));
-                if !inside.contains(middle) && near().all(|edge| edge.distance(middle) >= aside) {
-                    parts.push((from + turn, to - turn));
+                let is_air = || !inside.contains(middle) && near().all(|edge| edge.distance(middle) >= aside);
+                if left.meets(from + turn, to - turn) && is_air() {
+                    left.take(rim, from + turn, to - turn);
                 }
             }
         }
     }
 }
 
-/// Adds what an earlier piece cuts of the rim, whichever way the centre goes from here along its own way, by at most `aside`.
-fn cut_while_moving(rim: &Rim, way: &Curve, piece: &Curve, aside: f64, parts: &mut Vec<(f64, f64)>) {
+/// Takes away what an earlier piece cuts of the rim, whichever way the centre goes from here along its own way, by at most `aside`.
+fn cut_while_moving(rim: &Rim, way: &Curve, piece: &Curve, aside: f64, left: &mut Left) {
+    if !left.is_near(piece, rim.radius) {
+        return;
+    }
     if aside <= 0.0 {
-        rim.cut(piece, rim.radius, 0.0, parts);
+        rim.cut(piece, rim.radius, 0.0, left);
         return;
     }
     if way.piece.is_line() && piece.piece.is_line() {
@@ -230,7 +310,7 @@ fn cut_while_moving(rim: &Rim, way: &Curve, piece: &Curve, aside: f64, parts: &m
             way.ahead.cross(piece.ahead).abs(),
         );
         if let Some(shorter) = shortened(piece, aside * cos) {
-            rim.cut(&shorter, rim.radius - aside * sin, 0.0, parts);
+            rim.cut(&shorter, rim.radius - aside * sin, 0.0, left);
             if sin < ALONG {
                 return;
             }
@@ -239,11 +319,11 @@ fn cut_while_moving(rim: &Rim, way: &Curve, piece: &Curve, aside: f64, parts: &m
         // With the tool's way ahead as the direction from which angles count, the piece turns about the tool's centre of turning.
         let turn = aside * way.bend.abs();
         if let Some(shorter) = shortened(piece, turn / piece.bend.abs()) {
-            rim.cut(&shorter, rim.radius - off * turn, 0.0, parts);
+            rim.cut(&shorter, rim.radius - off * turn, 0.0, left);
         }
         return;
     }
-    rim.cut(piece, rim.radius - aside, aside * way.bend.abs(), parts);
+    rim.cut(piece, rim.radius - aside, aside * way.bend.abs(), left);
 }
 
 /// How far apart the centres of two arcs are, if that is little.
@@ -272,18 +352,4 @@ fn older_part(way: &Curve, share: f64, spare: f64) -> Option<Curve> {
     let end = share - (FRAC_PI_2 + spare) / sweep;
     let older = part(way.piece, 0.0, end);
     (end > 0.0 && older.is_sound()).then(|| Curve::of(older))
-}
-
-/// What parts leave of the front half, in rad.
-fn left_of_half(parts: &mut [(f64, f64)]) -> f64 {
-    parts.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let (mut reached, mut left) = (-FRAC_PI_2, 0.0);
-    for &(from, to) in parts.iter() {
-        if to > from {
-            left += (from - reached).max(0.0);
-            reached = reached.max(to);
-        }
-    }
-    let left = left + (FRAC_PI_2 - reached).max(0.0);
-    if left > NOTHING { left } else { 0.0 }
 }
