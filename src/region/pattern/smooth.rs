@@ -232,7 +232,8 @@ impl<'a> Tried<'a> {
         }
     }
 
-    /// Whether a place, and all by which it may be moved, is cut, or is so no less than before: distances change no faster.
+    /// Whether a place is cut, or is not what the arc cuts off would cut, even when it is moved by so much: distances change no
+    /// faster.
     fn is_cut(&self, place: Place, by: f64) -> bool {
         let Self {
             near, radius, inside, ..

@@ -1,7 +1,8 @@
 //! All offset levels of pockets, by us and by others, in one run: `cargo run --release --bin pockets`.
 //!
 //! Each answer is compared before a time counts: the lengths of all levels agree to a thousandth. Times are the least of many rounds,
-//! the parties taking turns, so that what else the machine does hits all of them.
+//! the parties taking turns, so that what else the machine does hits all of them. A second table has what no other party does: the
+//! rim's engagement, the proof that nothing stays, and passes along a field.
 
 use cavalier_contours::polyline::{PlineSource, PlineSourceMut, Polyline};
 use cavalier_contours::shape_algorithms::{Shape, ShapeOffsetOptions};
@@ -9,6 +10,10 @@ use clipper2_rust::core::{PathsD, PointD};
 use clipper2_rust::{EndType, JoinType, inflate_paths_d};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
+use vcutc_field::axis::Detail;
+use vcutc_field::passes::{Wanted, passes as field_passes};
+use vcutc_region::coverage::{self, coverage};
+use vcutc_region::engagement::engagement;
 use vcutc_region::offset::{Kind, Offsets};
 use vcutc_region::pattern::{Pattern, Tool, passes};
 use vcutc_region::piece::Piece;
@@ -23,6 +28,15 @@ const CHORD: f64 = 0.01;
 
 /// How many rounds are measured; Clipper2 takes part in every tenth.
 const ROUNDS: u32 = 400;
+
+/// How many rounds of the second table are measured.
+const PROOF_ROUNDS: u32 = 30;
+
+const TOOL: Tool = Tool {
+    radius: 5.0,
+    standoff: 0.0,
+    run_out: 0.0,
+};
 
 const QUARTER: f64 = 0.414_213_562_373_095_03;
 
@@ -256,11 +270,6 @@ fn main() {
     for pocket in pockets() {
         let (region, shape, polygons, step) =
             (region(&pocket), shape(&pocket), polygons(&pocket), pocket.step);
-        let tool = Tool {
-            radius: 5.0,
-            standoff: 0.0,
-            run_out: 0.0,
-        };
         let answer = ours(&region, step);
         for (name, other) in [
             ("cavalier", cavalier(&shape, step)),
@@ -285,7 +294,7 @@ fn main() {
             }
             let pattern = Pattern::Smooth { step, corner: 5.0 };
             least(&mut times[4], &mut || {
-                consume(passes(black_box(&region), &tool, pattern))
+                consume(passes(black_box(&region), &TOOL, pattern))
             });
         }
         let time = |at: usize| {
@@ -302,5 +311,88 @@ fn main() {
             time(3),
             time(4)
         );
+    }
+    proofs();
+}
+
+/// Pocket 1, which is open on its right.
+fn open_pocket() -> Region {
+    let corners = [
+        (20.0, 0.0),
+        (120.0, 0.0),
+        (120.0, 80.0),
+        (20.0, 80.0),
+        (0.0, 60.0),
+        (0.0, 25.0),
+    ];
+    let place = |(x, y): (f64, f64)| Place::new(x, y);
+    let next = corners.iter().cycle().skip(1);
+    let edges = corners.iter().zip(next).enumerate();
+    let edges = edges.map(|(number, (&from, &to))| Edge {
+        piece: Piece::line(place(from), place(to)),
+        side: if number == 1 { Side::Open } else { Side::Wall },
+    });
+    Region::new(vec![edges.collect()]).expect("it is a region")
+}
+
+/// The least time of some rounds, in ms.
+fn fastest<T>(mut work: impl FnMut() -> T) -> f64 {
+    let mut best = Duration::MAX;
+    for _ in 0..PROOF_ROUNDS {
+        least(&mut best, &mut || consume(work()));
+    }
+    best.as_secs_f64() * 1e3
+}
+
+fn proofs() {
+    println!(
+        "\n| pocket | engagement, offset | sfs | coverage, offset | sfs | field, lift s/2 | lift 0.2 mm |"
+    );
+    println!("| --- | --- | --- | --- | --- | --- | --- |");
+    let mut regions = vec![("1, open", open_pocket(), 4.0)];
+    let closed = pockets();
+    regions.extend(
+        closed
+            .iter()
+            .map(|pocket| (pocket.name, region(pocket), pocket.step)),
+    );
+    for (name, region, step) in &regions {
+        let step = *step;
+        let mut row = format!("| {name}");
+        let patterns = [Pattern::Offset { step }, Pattern::Smooth { step, corner: 5.0 }];
+        // From the inside out, as they are cut.
+        let cut = patterns.map(|pattern| {
+            let mut cut = passes(region, &TOOL, pattern).expect("there are passes");
+            cut.reverse();
+            cut
+        });
+        for cut in &cut {
+            row += &format!(
+                " | {:.2}",
+                fastest(|| engagement(region, black_box(cut), TOOL.radius))
+            );
+        }
+        for cut in &cut {
+            let tool = coverage::Tool::touching(TOOL.radius);
+            row += &format!(" | {:.2}", fastest(|| coverage(region, black_box(cut), tool)));
+        }
+        // The large one has too fine steps for a field to be worth while.
+        for lift in [step / 2.0, 0.2] {
+            let wanted = Wanted {
+                step,
+                lift,
+                detail: Detail::True,
+                uncut: 0.01,
+            };
+            row += &if step < 2.0 {
+                " | -".to_owned()
+            } else {
+                format!(
+                    " | {:.1}",
+                    fastest(|| field_passes(black_box(region), &TOOL, &wanted))
+                )
+            };
+        }
+        println!("{row} |");
     }
 }
