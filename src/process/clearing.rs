@@ -8,6 +8,7 @@ pub mod shown;
 mod stated;
 
 use crate::from_above::{closed_sides, highest, is_over};
+use crate::lower::ROUNDING_ROOM;
 use core::num::NonZeroU32;
 use stated::{Layer, layers};
 use vcutc_backend_api::ir::{Blade, BodyStage, Crusher, OperationId, Program, Shape, ToolId};
@@ -52,6 +53,16 @@ struct Judge<'j> {
     held: &'j Clearing,
     program: &'j Program,
     findings: &'j mut Findings,
+}
+
+/// The tool as far as it is asked to reach: what it reaches only from places at which passes have no room for their rounding is beyond
+/// it. Where walls come together that is more than a fringe, and a corridor by so little wider than the tool is not gone into.
+#[must_use]
+pub const fn reaching(tool: Tool) -> Tool {
+    Tool {
+        keep: tool.keep + ROUNDING_ROOM.to_mm() + ROUNDING,
+        ..tool
+    }
 }
 
 /// What the passes of a layer do in the plan.
@@ -132,7 +143,7 @@ impl Judge<'_> {
         let passes = layer.flat();
         Some(Seen {
             clearance: clearance(region, &layer.all()),
-            coverage: coverage(region, passes, tool).ok()?,
+            coverage: coverage(region, passes, reaching(tool)).ok()?,
             engagement: engagement(region, passes, tool.radius).ok()?,
         })
     }

@@ -9,6 +9,10 @@ use vcutc_job::{BladeRef, CheckedJob, Machine, PlannedJob, PlannedOperation};
 /// How far the tip may leave the way where one piece of a chain goes on into the next, so that the machine need not stop at each.
 pub const BLEND: Length = Length::mm(0.005);
 
+/// How far passes over regions keep from walls beyond what they must, so that rounding to the grid of programs takes nothing of it.
+/// What a tool reaches only nearer to the walls than that counts as out of its reach.
+pub const ROUNDING_ROOM: Length = Length::mm(0.002);
+
 /// Writes the plan down as a program.
 #[must_use]
 pub fn lower(plan: &PlannedJob, sources: &SourceMap) -> Program {

@@ -94,13 +94,13 @@ impl Pen {
         self.at = to;
     }
 
-    /// Comes to a stop here.
     /// How many stretches there are so far.
     #[must_use]
     pub fn count(&self) -> usize {
         self.stretches.len()
     }
 
+    /// Comes to a stop here.
     pub fn stop(&mut self) {
         if let Some(last) = self.stretches.last_mut() {
             last.joint = Joint::Stop;
@@ -115,6 +115,20 @@ impl Pen {
             let piece = whole.part(share(part), share(part + 1));
             let via = (parts.shape == Shape::Arcs && bow(piece) > FLAT).then(|| on_grid(piece.at(0.5), z));
             self.add(on_grid(piece.to, z), via, pace);
+        }
+        self.end_at(on_grid(whole.to, z));
+    }
+
+    /// Lets the last line end at a place so near to its end that a line of its own would be too short: that is where a piece ends, and
+    /// where the tool may come down again.
+    fn end_at(&mut self, place: Point3) {
+        let is_near = self.at != place && self.at.distance(place).to_mm() < SHORTEST;
+        let [.., before, last] = self.stretches.as_mut_slice() else {
+            return;
+        };
+        if is_near && last.via.is_none() && before.to.distance(place).to_mm() >= SHORTEST {
+            last.to = place;
+            self.at = place;
         }
     }
 

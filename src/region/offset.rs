@@ -111,6 +111,8 @@ pub struct Offsets {
     links: Vec<chain::Link>,
     walls: Walls,
     open: Option<chain::Opening>,
+    /// What lies in a region without open sides, once a level of it was found in pieces.
+    inside: Option<Inside>,
     scratch: Scratch,
 }
 
@@ -133,6 +135,7 @@ impl Offsets {
         Self {
             walls: Walls::of_pieces(walls),
             open: chain::Opening::of(region, reach),
+            inside: None,
             links,
             scratch: Scratch::default(),
         }
@@ -169,6 +172,9 @@ impl Offsets {
             return Err(OffsetFault::Distance);
         }
         let mut ways = self.level_once(distance, ends);
+        if matches!(ways, Err(OffsetFault::Broken(_))) && self.look_inside() {
+            ways = self.level_once(distance, ends);
+        }
         for retry in 1..=RETRIES {
             if !matches!(ways, Err(OffsetFault::Broken(_))) {
                 break;
@@ -176,6 +182,19 @@ impl Offsets {
             ways = self.level_once(distance + f64::from(retry) * NUDGE, ends);
         }
         ways
+    }
+
+    /// From now on looks whether arcs about corners lie in the region; says whether that is new.
+    ///
+    /// An island with a corner in a corner of the outline has an arc about it that runs on outside of the region: no wall is nearer
+    /// there than that corner. No other arc does, so that the question is not asked before.
+    fn look_inside(&mut self) -> bool {
+        if self.open.is_some() || self.inside.is_some() {
+            return false;
+        }
+        let pieces = self.links.iter().map(|link| link.curve.piece);
+        self.inside = Some(Inside::of_pieces(pieces.collect()));
+        true
     }
 
     fn level_once(&mut self, distance: f64, ends: Ends) -> Result<Vec<Way>, OffsetFault> {
@@ -198,6 +217,7 @@ impl Offsets {
         let mut filter = Filter {
             walls: &self.walls,
             open,
+            inside: self.inside.as_ref(),
             distance,
             last: None,
         };
@@ -219,6 +239,7 @@ enum Ends {
 struct Filter<'a> {
     walls: &'a Walls,
     open: Option<&'a chain::Opening>,
+    inside: Option<&'a Inside>,
     distance: f64,
     /// The wall that was last found to be nearer: often the next slice's too.
     last: Option<Curve>,
@@ -236,6 +257,9 @@ impl Filter<'_> {
         }
         if let Some(wall) = self.walls.nearer_than(place, limit) {
             self.last = self.walls.curve(wall).copied();
+            return false;
+        }
+        if matches!(origin, Origin::Corner(_)) && self.inside.is_some_and(|inside| !inside.contains(place)) {
             return false;
         }
         // Gates reach behind walls that are led on beyond their open side, where a level is nearer to these than the gate is wide.

@@ -183,7 +183,11 @@ impl Inside {
     /// Prepares a region.
     #[must_use]
     pub fn of(region: &Region) -> Self {
-        let pieces: Vec<Piece> = region.edges().map(|edge| edge.piece).collect();
+        Self::of_pieces(region.edges().map(|edge| edge.piece).collect())
+    }
+
+    /// Prepares what closed chains bound.
+    pub(crate) fn of_pieces(pieces: Vec<Piece>) -> Self {
         let extents: Vec<Extent> = pieces.iter().map(|&piece| Curve::of(piece).extent()).collect();
         let tree = Tree::of(&extents);
         Self { pieces, tree }

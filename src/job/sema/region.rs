@@ -49,23 +49,21 @@ pub(crate) fn check(
     if let Some(reported) = session.damage_at(place.whole) {
         return Err(reported);
     }
-    match Region::new(drawn.loops.clone()) {
-        // The loops of a drawing may nest: several outlines are one region there.
-        Ok(region) if drawn_in_the_job && drawn.has_islands_elsewhere(&region) => {
-            let island = drawn
-                .places
-                .get(drawn.misplaced_island())
-                .and_then(|places| places.first());
-            let at = island.copied().unwrap_or(place.head);
-            Err(session.reports.push(faults::island_elsewhere(at)))
-        }
-        Ok(region) => Ok(NamedRegion {
-            name: name.node.to_owned(),
-            span: name.span,
-            region: Arc::new(region),
-        }),
-        Err(found) => Err(session.reports.push(drawn.fault(found, place))),
+    let region = match Region::new(drawn.loops.clone()) {
+        Ok(region) => region,
+        Err(found) => return Err(session.reports.push(drawn.fault(found, place))),
+    };
+    // The loops of a drawing may nest: several outlines are one region there.
+    if drawn_in_the_job && let Some(island) = drawn.misplaced_island(&region) {
+        let places = drawn.places.get(island).and_then(|places| places.first());
+        let at = places.copied().unwrap_or(place.head);
+        return Err(session.reports.push(faults::island_elsewhere(at)));
     }
+    Ok(NamedRegion {
+        name: name.node.to_owned(),
+        span: name.span,
+        region: Arc::new(region),
+    })
 }
 
 /// A drawing, which is all of its region.
@@ -161,32 +159,39 @@ impl Drawn {
 /// Areas that should be equal may differ by this, in mm2.
 const SAME_AREA: f64 = 1e-3;
 
-fn area(edges: &[Edge]) -> f64 {
+/// Positive where the loop goes round to the left.
+fn signed_area(edges: &[Edge]) -> f64 {
     let twice: f64 = edges.iter().map(|edge| edge.piece.twice_area()).sum();
-    (twice / 2.0).abs()
+    twice / 2.0
+}
+
+fn area(edges: &[Edge]) -> f64 {
+    signed_area(edges).abs()
+}
+
+/// Whether two loops go the same way: they enclose equal areas and have a corner in common.
+fn is_same(one: &[Edge], other: &[Edge]) -> bool {
+    let corner = other.first().map(|edge| edge.piece.from);
+    let is_corner = |edge: &Edge| corner.is_some_and(|corner| edge.piece.from.distance(corner) < COINCIDENT);
+    (area(one) - area(other)).abs() <= SAME_AREA && one.iter().any(is_corner)
 }
 
 impl Drawn {
-    /// Whether islands lie outside of the outline, on it or in each other: then the region is not the outline less its islands.
-    fn has_islands_elsewhere(&self, region: &Region) -> bool {
-        let Some((outline, islands)) = self.loops.split_first() else {
-            return false;
-        };
-        let islands: f64 = islands.iter().map(|island| area(island)).sum();
-        (region.area() - (area(outline) - islands)).abs() > SAME_AREA
-    }
-
-    /// The first island that does not lie within the outline, else the last one: it lies in another.
-    fn misplaced_island(&self) -> usize {
-        let Some((outline, islands)) = self.loops.split_first() else {
-            return 0;
-        };
-        let lies_within = |island: &Loop| {
-            let both = Region::new(vec![outline.clone(), island.clone()]);
-            both.is_ok_and(|both| (both.area() - (area(outline) - area(island))).abs() <= SAME_AREA)
-        };
-        let misplaced = islands.iter().position(|island| !lies_within(island));
-        misplaced.map_or(self.loops.len().saturating_sub(1), |number| number + 1)
+    /// An island that is none, if there is one: the region is then not the outline less its islands.
+    ///
+    /// An island as large as the outline is the outline again, or lies around it. What else lies outside of the outline or in
+    /// another island is an outline of the region, as which it goes round to the left. Islands that are drawn twice count once.
+    fn misplaced_island(&self, region: &Region) -> Option<usize> {
+        let (outline, islands) = self.loops.split_first()?;
+        let largest = area(outline) - SAME_AREA;
+        let is_large = |island: &Loop| area(island) >= largest;
+        let is_outline = |edges: &&Loop| signed_area(edges) > 0.0 && !is_same(edges, outline);
+        let found = islands.iter().position(is_large).or_else(|| {
+            let other = region.loops().iter().find(is_outline)?;
+            let island = islands.iter().position(|island| is_same(island, other));
+            Some(island.unwrap_or(islands.len().saturating_sub(1)))
+        });
+        found.map(|island| island + 1)
     }
 
     /// Where an edge is written.

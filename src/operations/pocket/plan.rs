@@ -15,7 +15,7 @@ use vcutc_backend_api::units::{Angle, Area, Duration, Length};
 use vcutc_job::Auto;
 use vcutc_job::operation::Ground;
 use vcutc_process::from_above::highest;
-use vcutc_process::lower::BLEND;
+use vcutc_process::lower::{BLEND, ROUNDING_ROOM};
 use vcutc_region::distance::Walls;
 use vcutc_region::pattern::Tool;
 use vcutc_region::piece::Piece;
@@ -108,9 +108,6 @@ impl Kind {
     }
 }
 
-/// How far passes keep from walls beyond what must be kept, so that rounding to the grid of programs takes nothing of it, in mm.
-const GRID: f64 = 0.002;
-
 /// With how much a machine is taken to brake and start again at corners, in mm/s2: it weighs patterns, and enters nothing else.
 const ACCELERATION: f64 = 2000.0;
 
@@ -143,14 +140,14 @@ pub(crate) fn plan(asked: &ClearPocket, ground: &Ground<'_>) -> Result<Plan, Why
     let keep = radius + asked.allowance.value.to_mm() + BLEND.to_mm();
     let tool = Tool {
         radius,
-        standoff: keep + GRID - radius,
+        standoff: keep + ROUNDING_ROOM.to_mm() - radius,
         run_out: asked.setup.run_out.value.to_mm(),
     };
     let room = Room {
         walls: &walls,
         stock: [stock.width, stock.depth].map(Length::to_mm),
         run_out: asked.setup.run_out.value.to_mm(),
-        keep,
+        keep: keep + ROUNDING_ROOM.to_mm() / 2.0,
         step,
         radius,
     };

@@ -8,6 +8,7 @@ use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Spanned;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::operation::{Unplanned, WorksThere};
+use vcutc_process::lower::{BLEND, ROUNDING_ROOM};
 
 /// Why there is no plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +34,13 @@ pub(crate) enum Why {
     },
     /// There is no sound field over the region.
     NoField,
+    /// All sides are open, and the passes of this pattern follow walls.
+    NoWalls,
+    /// A pass beside walls breaks off.
+    Broken {
+        /// Where.
+        at: [f64; 2],
+    },
 }
 
 /// An operation without a plan.
@@ -55,7 +63,7 @@ impl Refused<'_> {
             Why::TooNarrow { wide, at: [x, y] } => {
                 let radius = asked.crusher.radius.value.to_mm();
                 // Passes keep what a control may cut off at joints, and what rounding takes.
-                let besides = asked.allowance.value.to_mm() + 0.007;
+                let besides = (asked.allowance.value + BLEND + ROUNDING_ROOM).to_mm();
                 let needs = 2.0 * (radius + besides);
                 let largest = down(wide / 2.0 - besides);
                 Diagnostic::new(
@@ -108,6 +116,30 @@ impl Refused<'_> {
                 "has too many sides, or is too large for this step",
             )
             .help("use another pattern, such as `pattern = sfs`, or a wider `step`"),
+            Why::NoWalls => {
+                let pattern = asked.pattern.span;
+                let diagnostic = Diagnostic::new(
+                    Code::PocketTooNarrow,
+                    format!("all sides of `{name}` are open: it has no walls that passes could follow"),
+                    pattern.unwrap_or(asked.region_span),
+                    "follows walls",
+                );
+                match pattern {
+                    Some(span) => diagnostic.fix("clear it in rows", span, "zigzag"),
+                    None => diagnostic.help("use `pattern = zigzag`"),
+                }
+            }
+            Why::Broken { at: [x, y] } => Diagnostic::new(
+                Code::PocketTooNarrow,
+                format!(
+                    "no pass can be laid along the walls of `{name}` at ({} mm, {} mm)",
+                    show(x),
+                    show(y)
+                ),
+                asked.region_span,
+                "walls touch or nearly touch there",
+            )
+            .help("draw walls that touch farther apart, or as one loop; or change the tool or the step a little"),
             Why::TooLarge => Diagnostic::new(
                 Code::PocketTooNarrow,
                 format!("`{name}` takes more passes than are planned"),

@@ -1,5 +1,6 @@
 //! Passes over regions for pictures: the first layer of each operation, as a program states it.
 
+use super::reaching;
 use super::stated::layers;
 use vcutc_backend_api::ir::{OperationId, Program, Shape};
 use vcutc_backend_api::units::Length;
@@ -67,7 +68,7 @@ pub fn shown(plan: &PlannedJob, program: &Program) -> Vec<Shown> {
                 stretches.push((piece.part(from, to), stretch.angles[1]));
             }
         }
-        let left = coverage(&held.region, passes, tool);
+        let left = coverage(&held.region, passes, reaching(tool));
         Some(Shown {
             walls: of(Side::Wall),
             open: of(Side::Open),

@@ -375,6 +375,22 @@ fn corners_in_line_and_many_segments() {
     }
 }
 
+/// Levels of a circle in 1e5 chords, which are less than 1e-7 mm off it.
+#[test]
+fn a_level_of_an_outline_of_a_hundred_thousand_segments() {
+    let corners: Vec<_> = (0..100_000)
+        .map(|i| libm::sincos(f64::from(i) * 2.0 * PI / 1e5))
+        .map(|(sin, cos)| (100.0 * cos, 100.0 * sin))
+        .collect();
+    let round = region(&[polygon(&corners)]);
+    for distance in [5.0, 60.0] {
+        let ways = level(&round, 0.0, distance).unwrap();
+        assert_eq!(kinds(&ways), [1, 0, 0]);
+        let off = ways[0].length() - 2.0 * PI * (100.0 - distance);
+        assert!(off.abs() < 1e-3, "{off}");
+    }
+}
+
 #[test]
 fn a_window_between_two_walls_in_line() {
     let mut edges = polygon(&[
@@ -483,5 +499,20 @@ fn a_closed_level_nearer_to_walls_than_it_reaches_is_closed() {
             (extent.low.y - 10.0 - distance).abs() < 1e-6 && (60.0 - extent.high.y - distance).abs() < 1e-6
         );
         assert!((extent.high.x - 120.0 - reach).abs() < 1e-6, "{extent:?}");
+    }
+}
+
+/// An island that stands in a corner of the outline, or on a place of a side.
+#[test]
+fn islands_in_corners() {
+    let outline = || rectangle(10.0, 10.0, 120.0, 90.0);
+    for island in [
+        polygon(&[(10.0, 10.0), (40.0, 20.0), (20.0, 40.0)]),
+        polygon(&[(130.0, 100.0), (100.0, 90.0), (110.0, 70.0)]),
+        polygon(&[(10.0, 10.0), (40.0, 11.0), (11.0, 40.0)]),
+    ] {
+        for distance in [1.0, 5.0, 5.007, 10.007] {
+            assert_level(&region(&[outline(), island.clone()]), distance);
+        }
     }
 }

@@ -226,5 +226,5 @@ pub(super) fn island_elsewhere(span: Span) -> Diagnostic {
         span,
         "nothing of the region is around it alone",
     )
-    .help("move it into the outline, draw it once, or draw what it encloses as a region of its own")
+    .help("move it into the outline, or draw what it encloses as a region of its own")
 }

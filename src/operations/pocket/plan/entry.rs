@@ -77,7 +77,8 @@ fn along(legs: &[Leg], radius: f64) -> Option<Piece> {
     is_good.then(|| first.part(0.0, (LONGEST * radius / long).min(1.0)))
 }
 
-/// The longest line from where the run begins that keeps from walls.
+/// The longest line from where the run begins that keeps from walls: in one of many directions, or to a place on its first piece, as
+/// between walls that are bent alike no other line may be free.
 fn aside(legs: &[Leg], room: Room<'_>) -> Piece {
     let radius = room.radius;
     let first = legs.first().map(|leg| leg.piece);
@@ -85,21 +86,29 @@ fn aside(legs: &[Leg], room: Room<'_>) -> Piece {
     let from = piece.from;
     let mut best = Piece::line(from, piece.to);
     let mut long = 0.0;
-    for direction in 0..DIRECTIONS {
-        let (sin, cos) = libm::sincos(TAU * f64::from(direction) / f64::from(DIRECTIONS));
+    let mut look = |to: &dyn Fn(f64) -> Option<Place>| {
         let mut reach = LONGEST * radius;
         while reach > long && reach > 0.01 * radius {
-            let line = Piece::line(from, from.plus(Place::new(cos, sin).times(reach)));
-            let is_free = room
-                .walls
-                .nearest_to(line)
-                .is_none_or(|(_, near)| near.distance >= room.keep);
-            if is_free && reach > long {
-                long = reach;
+            let line = to(reach).map(|to| Piece::line(from, to));
+            if let Some(line) = line.filter(|line| is_free(*line, room))
+                && line.length() > long
+            {
+                long = line.length();
                 best = line;
             }
             reach *= 0.8;
         }
+    };
+    for direction in 0..DIRECTIONS {
+        let (sin, cos) = libm::sincos(TAU * f64::from(direction) / f64::from(DIRECTIONS));
+        look(&|reach| Some(from.plus(Place::new(cos, sin).times(reach))));
     }
+    let way = piece.length();
+    look(&|reach| (reach <= way).then(|| piece.at(reach / way)));
     best
+}
+
+fn is_free(line: Piece, room: Room<'_>) -> bool {
+    let nearest = room.walls.nearest_to(line);
+    nearest.is_none_or(|(_, near)| near.distance >= room.keep)
 }

@@ -7,7 +7,7 @@ use vcutc_backend_api::units::{Angle, Area, Length};
 use vcutc_field::axis::Detail;
 use vcutc_field::passes::{PassesError, Wanted, passes};
 use vcutc_job::Auto;
-use vcutc_region::offset::Offsets;
+use vcutc_region::offset::{OffsetFault, Offsets};
 use vcutc_region::pass::Pass;
 use vcutc_region::pattern::{self, PatternFault, Tool};
 use vcutc_region::region::Region;
@@ -98,6 +98,7 @@ fn along_field(asked: &ClearPocket, region: &Region, tool: &Tool, step: f64) -> 
     };
     let found = passes(region, tool, &wanted).map_err(|fault| match fault {
         PassesError::TooWide => too_narrow(region, tool),
+        PassesError::Level(OffsetFault::NoWalls) => Why::NoWalls,
         PassesError::Parameter
         | PassesError::Axis(_)
         | PassesError::Field(_)
@@ -124,7 +125,16 @@ fn along_field(asked: &ClearPocket, region: &Region, tool: &Tool, step: f64) -> 
 fn refused(fault: PatternFault, region: &Region, tool: &Tool) -> Why {
     match fault {
         PatternFault::TooWide => too_narrow(region, tool),
-        PatternFault::Parameter | PatternFault::TooMany | PatternFault::Offset(_) => Why::TooLarge,
+        PatternFault::Offset(fault) => without_level(fault),
+        PatternFault::Parameter | PatternFault::TooMany => Why::TooLarge,
+    }
+}
+
+fn without_level(fault: OffsetFault) -> Why {
+    match fault {
+        OffsetFault::NoWalls => Why::NoWalls,
+        OffsetFault::Broken(at) => Why::Broken { at: [at.x, at.y] },
+        OffsetFault::Distance | OffsetFault::Dense => Why::TooLarge,
     }
 }
 

@@ -4,6 +4,7 @@
 use super::{Kind, Leg, Run};
 use crate::asked::ClearPocket;
 use vcutc_backend_api::units::Angle;
+use vcutc_process::clearing::reaching;
 use vcutc_region::coverage::{Tool, coverage};
 use vcutc_region::engagement::{Stretch, engagement};
 use vcutc_region::pass::Pass;
@@ -20,7 +21,11 @@ pub(super) enum Standing {
 /// How the runs of a layer stand.
 pub(super) fn standing(runs: &[Run], asked: &ClearPocket, keep: f64) -> Standing {
     let radius = asked.crusher.radius.value.to_mm();
-    let left = coverage(&asked.region.region, &passes(runs), Tool { radius, keep });
+    let left = coverage(
+        &asked.region.region,
+        &passes(runs),
+        reaching(Tool { radius, keep }),
+    );
     match left {
         Ok(left) if left.uncut <= asked.limits.uncut.value.to_mm2() => Standing::Keeps,
         Ok(_) | Err(_) => Standing::Breaks,

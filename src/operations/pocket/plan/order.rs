@@ -23,7 +23,8 @@ pub(super) struct Room<'r> {
     pub(super) stock: [f64; 2],
     /// Air between the tool and the stock beside open sides.
     pub(super) run_out: f64,
-    /// How far the centre of the tool keeps from walls.
+    /// How far the centre of the tool keeps from walls on ways between passes: less than on these, so that they may be chords, but with
+    /// room for the rounding of their ends.
     pub(super) keep: f64,
     /// The distance of passes.
     pub(super) step: f64,
