@@ -27,6 +27,7 @@ mod commit;
 mod convert;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod curve;
+mod drawn;
 #[cfg(feature = "krl")]
 mod examples;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
@@ -69,6 +70,9 @@ mod pipeline;
 mod playback;
 mod pocket;
 #[cfg(feature = "krl")]
+mod pocket_layers;
+mod pocket_traps;
+#[cfg(feature = "krl")]
 mod process_errors;
 mod processes;
 #[cfg(feature = "krl")]
@@ -83,6 +87,7 @@ mod scallop;
 mod schema;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod scribe;
+mod seen_from_above;
 mod segments;
 #[cfg(feature = "krl")]
 mod serial_arm;
@@ -100,6 +105,7 @@ mod syntax;
 #[cfg(feature = "krl")]
 mod third_party;
 mod tidy;
+mod trap;
 #[cfg(feature = "krl")]
 mod verify;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
