@@ -71,6 +71,7 @@ mod shell;
 mod snapshot;
 mod targets;
 mod tools;
+mod torques;
 mod verify;
 mod watch;
 

@@ -9,6 +9,7 @@ pub use vcutc_convert as convert;
 pub use vcutc_diagnostics as diagnostics;
 pub use vcutc_diff as diff;
 pub use vcutc_driver as driver;
+pub use vcutc_dynamics as dynamics;
 pub use vcutc_equivalent as equivalent;
 pub use vcutc_geometry as geometry;
 pub use vcutc_job as job;

@@ -313,6 +313,7 @@ pub(super) fn tell(
         numbers: compiled.and_then(Compiled::numbers_of_cuts),
         times: compiled.map(|compiled| &compiled.times),
         reach: compiled.and_then(|compiled| compiled.figures.as_ref()),
+        torques: compiled.and_then(|compiled| compiled.torques.as_ref()),
         checks: compiled.map(|compiled| compiled.checks.with(made.read_back)),
         parameters: compiled.map_or(&[], |compiled| &compiled.parameters),
         placed: &made.placed,
@@ -423,6 +424,7 @@ fn write_inner(form: InnerForm, to: &Destination, outcome: &Outcome, job: &str) 
         Ok(Progressed::Written) => published(output),
         Ok(Progressed::NotSoFar) => Ok(Made::default()),
         Ok(Progressed::WithoutMachine) => Err(without_machine()),
+        Ok(Progressed::WithoutMasses) => Err(without_masses()),
         Ok(Progressed::WithoutSurface) => Err(without_surface()),
         Err(error) => Err(Failure::new(error.to_string())),
     }
@@ -440,6 +442,12 @@ fn published(output: Output) -> Result<Made, Failure> {
 fn without_surface() -> Failure {
     Failure::new("the job's part is a profile, and the deviation is that of a `surface`")
         .help("`vcutc plot JOB --what deviation` draws the deviation from a profile")
+}
+
+/// A job on a machine whose torques are not known, where they are asked for.
+fn without_masses() -> Failure {
+    Failure::new("the torques of the job's machine are not known: they take the masses of its links, and the load on its flange")
+        .help("state `load = load(mass = , x = , y = , z = )` in the machine, and its masses in a sheet (docs/machines.md)")
 }
 
 /// A job without a machine, where axes are asked for.

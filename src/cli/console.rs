@@ -24,6 +24,7 @@ use vcutc_driver::numbers::Numbers;
 use vcutc_driver::summary::chosen::OperationFigures;
 use vcutc_driver::summary::times::{self, TimeFigures};
 use vcutc_driver::summary::verdict;
+use vcutc_dynamics::figures::TorqueFigures;
 use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 
 /// Version of the JSON objects this module writes.
@@ -122,6 +123,8 @@ pub(super) struct Summary<'a> {
     pub(super) times: Option<&'a TimeFigures>,
     /// What is asked of the machine.
     pub(super) reach: Option<&'a ReachFigures>,
+    /// What is asked of its drives.
+    pub(super) torques: Option<&'a TorqueFigures>,
     /// Which checks were made of the program, and which were not.
     pub(super) checks: Option<Checks>,
     pub(super) parameters: &'a [OperationFigures],
@@ -166,6 +169,8 @@ struct SummaryBody<'a> {
     times: Option<&'a TimeFigures>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reach: Option<&'a ReachFigures>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    torques: Option<&'a TorqueFigures>,
     files: Vec<&'a str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     unchanged: Vec<&'a str>,
@@ -434,6 +439,7 @@ impl Console {
             numbers: summary.numbers,
             times: summary.times,
             reach: summary.reach,
+            torques: summary.torques,
             files: summary.placed.iter().map(Placed::path).collect(),
             unchanged: unchanged(summary.placed),
             replaced: replaced(summary.placed),

@@ -6,6 +6,7 @@
 use super::args::InnerForm;
 use super::files::stem;
 use super::joints;
+use super::torques;
 use std::io::{self, BufWriter, Write};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 use vcutc_backend_api::exchange::Exchange;
@@ -49,6 +50,14 @@ pub(super) fn write(
             },
             (Some(_) | None, _) => Ok(Progressed::NotSoFar),
         },
+        InnerForm::Dynamics => match (&outcome.job, &outcome.compiled) {
+            (Some(job), Some(compiled)) => match (compiled.program.reached(), &compiled.torques) {
+                (Some(reached), Some(_)) => file(sink, &name, |out| torques::write(job, reached, out)),
+                (Some(_), None) => Ok(Progressed::WithoutMasses),
+                (None, _) => Ok(Progressed::WithoutMachine),
+            },
+            (Some(_) | None, _) => Ok(Progressed::NotSoFar),
+        },
         InnerForm::Deviation => match (&outcome.job, &outcome.compiled) {
             (Some(job), Some(compiled)) => match deviation_of(job, compiled) {
                 Some(bytes) => file(sink, &name, |out| out.write_all(&bytes)),
@@ -74,6 +83,8 @@ pub(super) enum Progressed {
     NotSoFar,
     /// The job has no machine, and the form is about one.
     WithoutMachine,
+    /// The torques of the job's machine are not known, and the form is about them.
+    WithoutMasses,
     /// The part is a profile, and the form is about surfaces.
     WithoutSurface,
 }
@@ -86,6 +97,7 @@ fn file_name(form: InnerForm, job: &str) -> String {
         InnerForm::Plan => "plan.csv",
         InnerForm::Ir => "ir.json",
         InnerForm::Joints => "joints.csv",
+        InnerForm::Dynamics => "dynamics.csv",
         InnerForm::Deviation => "deviation.ply",
     };
     format!("{stem}.{ending}")

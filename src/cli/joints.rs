@@ -12,13 +12,16 @@ use vcutc_motion::rigs::Rigs;
 use vcutc_motion::solve::Reached;
 use vcutc_motion::trajectory::{Sample, Spacing, trajectory};
 
+/// The columns that say where a row is.
+pub(super) const HEADING: &str = "op,operation,layer,cut,motion,done";
+
 /// Writes the rows, one after the other.
 pub(super) fn write(job: &CheckedJob, reached: &Reached, out: &mut dyn Write) -> io::Result<()> {
     let program = reached.program.program();
     let (Some(machine), Some(cell)) = (&job.machine, &program.cell) else {
         return Ok(());
     };
-    write!(out, "op,operation,layer,cut,motion,done")?;
+    write!(out, "{HEADING}")?;
     for axis in &cell.axes {
         write!(out, ",{}_{}", axis.name, unit(axis))?;
     }
@@ -32,7 +35,8 @@ pub(super) fn write(job: &CheckedJob, reached: &Reached, out: &mut dyn Write) ->
     })
 }
 
-fn row(op: &Op, sample: &Sample, axes: &[Axis], out: &mut dyn Write) -> io::Result<()> {
+/// The columns that say where a row is.
+pub(super) fn place(op: &Op, sample: &Sample, out: &mut dyn Write) -> io::Result<()> {
     write!(out, "{},", sample.op.0)?;
     match op.site {
         Site::Program => write!(out, ",,")?,
@@ -44,7 +48,11 @@ fn row(op: &Op, sample: &Sample, axes: &[Axis], out: &mut dyn Write) -> io::Resu
             cut,
         } => write!(out, "{},{layer},{cut}", u32::from(operation.0) + 1)?,
     }
-    write!(out, ",{},{:.6}", op.action.kind().name(), sample.done)?;
+    write!(out, ",{},{:.6}", op.action.kind().name(), sample.done)
+}
+
+fn row(op: &Op, sample: &Sample, axes: &[Axis], out: &mut dyn Write) -> io::Result<()> {
+    place(op, sample, out)?;
     for (axis, value) in axes.iter().zip(sample.joints) {
         let shown = match axis.kind {
             AxisKind::Rotary => value.to_degrees(),

@@ -10,7 +10,8 @@ use serde_json::{Value, json};
 use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind, Maker};
 use vcutc_diagnostics::source::{Loader, SourceMap, text_from_bytes};
 use vcutc_machine::catalogue::Summary;
-use vcutc_machine::facts::{Dynamics, Facts, FkCheck};
+use vcutc_machine::facts::{Facts, FkCheck};
+use vcutc_machine::masses::{Covered, Masses, Torques};
 use vcutc_machine::path_limits::PathLimits;
 use vcutc_machine::sheet::{self, Sheet};
 use vcutc_machine::{self as machine, FileKind, Model, Origin, catalogue};
@@ -174,6 +175,8 @@ fn in_json(description: &Description) -> Value {
             ("payload_kg", json!(sheet.payload)),
             ("confidence", json!(sheet.confidence.map(sheet::Confidence::word))),
             ("facts", facts_in_json(&sheet.facts)),
+            ("masses", json!(sheet.masses.as_ref().map(masses_in_json))),
+            ("torques", json!(sheet.torques.as_ref().map(torques_in_json))),
         ];
         object.extend(more.map(|(key, value)| (key.to_owned(), value)));
     }
@@ -280,7 +283,6 @@ fn facts_in_json(facts: &Facts) -> Value {
         "designated_reach_mm": facts.designated_reach,
         "disagreements": facts.disagreements,
         "fk_checks": facts.fk_checks.iter().map(check_in_json).collect::<Vec<_>>(),
-        "dynamics": facts.dynamics.as_ref().map(dynamics_in_json),
     })
 }
 
@@ -297,16 +299,35 @@ fn check_in_json(check: &FkCheck) -> Value {
     })
 }
 
-fn dynamics_in_json(dynamics: &Dynamics) -> Value {
-    let links: Vec<Value> = dynamics
+fn masses_in_json(masses: &Masses) -> Value {
+    let links: Vec<Value> = masses
         .links
         .iter()
-        .map(|link| json!({ "name": link.name, "mass_kg": link.mass, "com_mm": link.centre_mm }))
+        .map(|link| {
+            let [x, y, z] = link.inertia.to_cols_array_2d();
+            json!({
+                "name": link.name,
+                "mass_kg": link.mass,
+                "com_mm": link.centre_mm.to_array(),
+                "inertia_kg_m2": { "xx": x[0], "yy": y[1], "zz": z[2], "xy": x[1], "xz": x[2], "yz": y[2] },
+            })
+        })
         .collect();
+    let covered = masses.covered.iter().copied().map(Covered::word);
     json!({
-        "note": dynamics.note,
-        "source": dynamics.sources,
-        "total_mass_kg": dynamics.total_mass,
+        "confidence": masses.backing.word(),
+        "complete": covered.collect::<Vec<_>>(),
+        "note": masses.note,
+        "source": masses.sources,
+        "total_mass_kg": masses.total_mass,
         "links": links,
+    })
+}
+
+fn torques_in_json(torques: &Torques) -> Value {
+    json!({
+        "limits_nm": torques.limits,
+        "confidence": torques.backing.word(),
+        "source": torques.sources,
     })
 }

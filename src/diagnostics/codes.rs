@@ -220,6 +220,10 @@ codes! {
     MotionNotChecked = "VC0529", Warning, "motions not fully checked";
     /// A piece of a chain on which a five-axis machine holds the blade otherwise than planned.
     ChainPosture = "VC0530", Error, "blade off its planned place along a chain";
+    /// A torque that a drive does not give.
+    TorqueAboveLimit = "VC0531", Error, "torque above the limit of an axis";
+    /// The same by numbers that are not those of the machine, or not all.
+    TorqueIndicative = "VC0532", Warning, "torque probably above the limit of an axis";
 
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "target that needs a machine";

@@ -6,6 +6,7 @@ use crate::air_cut::{least_gap, least_lift, lifted};
 use crate::checks::{Bodies, Carried, Checks};
 use crate::summary::air::{AirFigures, Mover, summary};
 use crate::summary::times::figures as time_figures;
+use crate::torques;
 use vcutc_backend_api::ir::{Head, Program, Purpose};
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::units::Length;
@@ -92,7 +93,10 @@ fn air_cut(
         least,
     };
     let program = lifted.reached()?;
-    Ok(told(job, &compiled, program))
+    let mut air = told(job, &compiled, program);
+    // What is wrong with the torques of its cuts is told already: an air cut goes the same ways, higher up.
+    torques::add(job, &mut air);
+    Ok(air)
 }
 
 /// The widest clearance that the job keeps from its stock.
@@ -225,6 +229,7 @@ fn told(job: &CheckedJob, cutting: &Compiled, program: Finished) -> Compiled {
         checks: Checks::of_air_cut(carried, paced.basis, Bodies::of(job)),
         parameters: cutting.parameters.clone(),
         not_followed: None,
+        torques: None,
         left_over: cutting.left_over,
         numbers: cutting.numbers.clone(),
         times: time_figures(&report, paced.basis),

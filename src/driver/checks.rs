@@ -12,6 +12,7 @@ pub use words::CheckFigure;
 
 use vcutc_backend_api::ir::Axis;
 use vcutc_backend_api::units::Area;
+use vcutc_dynamics::drives::Unknown;
 use vcutc_job::{CheckedJob, Machine};
 use vcutc_machine::Model;
 use vcutc_machine::kinematics::Mechanism;
@@ -50,6 +51,8 @@ pub enum Check {
     ElbowAngle,
     /// The edge stays out of the work while the blade turns beside it.
     Turns,
+    /// No axis needs more torque than its drive gives.
+    Torques,
     /// The time of the program counts speeding up and slowing down.
     Accelerations,
     /// Shank and holder of the blade stay out of the work: of these blades, of all where none is named.
@@ -86,6 +89,10 @@ pub enum Reason {
     NoReader,
     /// Sections are looked at, not what lies between them.
     SectionsOnly,
+    /// Nothing states the load on the flange.
+    NoLoad,
+    /// Places along the program are looked at, not what lies between them.
+    PlacesOnly,
 }
 
 /// A check, and what came of it.
@@ -222,6 +229,18 @@ impl Checks {
         Self(self.0.iter().cloned().chain(of_text).collect())
     }
 
+    /// The same with that of the torques of a machine.
+    #[must_use]
+    pub fn with_torques(&self, known: Result<(), Unknown>) -> Self {
+        let reason = match known {
+            Ok(()) => Reason::PlacesOnly,
+            Err(Unknown::Masses) => Reason::NotStated,
+            Err(Unknown::Load) => Reason::NoLoad,
+        };
+        let of_torques = core::iter::once(not_made(Check::Torques, reason));
+        Self(self.0.iter().cloned().chain(of_torques).collect())
+    }
+
     /// All of them, in a fixed order.
     pub fn iter(&self) -> impl Iterator<Item = &Checked> {
         self.0.iter()
@@ -249,6 +268,7 @@ impl Checks {
                 | Check::Walls
                 | Check::BetweenSections
                 | Check::AboveStock
+                | Check::Torques
                 | Check::Accelerations
                 | Check::Holder(_)
                 | Check::Collisions

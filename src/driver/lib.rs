@@ -22,6 +22,7 @@ mod routes;
 pub mod starter;
 pub mod summary;
 mod target;
+mod torques;
 mod trials;
 pub mod ways;
 
@@ -51,6 +52,7 @@ use vcutc_backend_api::verify::{Fault, VerifiedProgram};
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::{Loader, SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic, Severity, has_errors};
+use vcutc_dynamics::figures::TorqueFigures;
 use vcutc_job::CheckedJob;
 use vcutc_job::PlannedJob;
 use vcutc_job::sema;
@@ -187,6 +189,8 @@ pub struct Compiled {
     pub program: Finished,
     /// What it asks of the machine.
     pub figures: Option<ReachFigures>,
+    /// What it asks of the machine's drives, where that is known.
+    pub torques: Option<TorqueFigures>,
     /// Its figures.
     pub report: Report,
     /// What is left over a part that changes along y; none over a profile, which the report measures.
@@ -335,8 +339,13 @@ fn plan_and_prove(
     }
     let Some(job) = &outcome.job else { return };
     let ended = match routes::ended(made, job, &outcome.sources, run, progress) {
-        Ended::Compiled(made) => {
-            let objections = target::objections(job, &made.compiled, request);
+        Ended::Compiled(mut made) => {
+            torques::add(job, &mut made.compiled);
+            let mut objections = target::objections(job, &made.compiled, request);
+            match torques::above_limits(job, &made.compiled, run.wanted) {
+                Some(error) if error.severity() == Severity::Error => objections.push(error.into()),
+                warning => made.warnings.extend(warning),
+            }
             if objections.is_empty() {
                 Ended::Compiled(made)
             } else {
@@ -461,6 +470,7 @@ fn compiled(
         op_times: paced.times,
         program,
         figures,
+        torques: None,
         report,
         left_over,
         not_followed: None,

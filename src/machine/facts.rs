@@ -1,7 +1,7 @@
-//! What people want to know of a machine besides what is computed with: sources, disagreements, published poses, masses.
+//! What people want to know of a machine besides what is computed with: sources, disagreements, published poses.
 
 use crate::kinematics::{Joints, Mechanism};
-use crate::ranges::{ANGLE, LENGTH, MASS, QUATERNION_PART, TOLERANCE};
+use crate::ranges::{ANGLE, LENGTH, QUATERNION_PART, TOLERANCE};
 use glam::DVec3;
 use vcutc_backend_api::geometry::{Frame, Orientation};
 use vcutc_backend_api::ir::{Axis, AxisKind};
@@ -24,8 +24,6 @@ pub struct Facts {
     pub disagreements: Vec<String>,
     /// Poses that others publish or compute.
     pub fk_checks: Vec<FkCheck>,
-    /// Masses.
-    pub dynamics: Option<Dynamics>,
 }
 
 /// Where the numbers of a group come from.
@@ -112,28 +110,6 @@ impl FkCheck {
     }
 }
 
-/// Masses of the links.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Dynamics {
-    /// How far they can be used.
-    pub note: Option<String>,
-    pub sources: Vec<String>,
-    /// All links together, in kg, when stated.
-    pub total_mass: Option<f64>,
-    /// Links from the base on.
-    pub links: Vec<Link>,
-}
-
-/// A link with its mass.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Link {
-    pub name: String,
-    /// Its mass in kg.
-    pub mass: f64,
-    /// Its centre of mass in the root with all axes at 0, in mm.
-    pub centre_mm: [f64; 3],
-}
-
 /// The part of a sheet that holds facts.
 pub(super) const FIELDS: &[FieldSpec] = &[
     optional("standard_dh_equivalent"),
@@ -142,7 +118,6 @@ pub(super) const FIELDS: &[FieldSpec] = &[
     optional("verification"),
     optional("notes"),
     optional("paper_variant"),
-    optional("dynamics"),
     optional("fk_check"),
 ];
 
@@ -172,22 +147,6 @@ const FK_CHECK: &[FieldSpec] = &[
     optional("note"),
 ];
 
-const DYNAMICS: &[FieldSpec] = &[
-    optional("kind"),
-    optional("source"),
-    optional("note"),
-    optional("frame"),
-    optional("total_mass_kg").within(MASS),
-    optional("link"),
-];
-
-const LINK: &[FieldSpec] = &[
-    value("name", "\"link_1\"").required(),
-    value("mass_kg", "395.7").required().within(MASS),
-    value("com_mm", "[76.2, 10.2, 127.5]").required().within(LENGTH),
-    optional("inertia_kg_m2"),
-];
-
 /// Tolerance of a check that states none, in mm and in deg.
 const USUAL_TOLERANCE: f64 = 0.01;
 
@@ -198,7 +157,6 @@ pub(super) fn read(root: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Facts {
     }
     let mut facts = Facts {
         fk_checks: fk_checks(root, faults),
-        dynamics: dynamics(root, faults),
         ..Facts::default()
     };
     if let Some(reach) = root.table("reach_check", REACH, faults) {
@@ -253,27 +211,5 @@ fn fk_check(check: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<FkCheck> 
         independence,
         note,
         span: check.span(),
-    })
-}
-
-fn dynamics(root: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Dynamics> {
-    let table = root.table("dynamics", DYNAMICS, faults)?;
-    let links = table.tables("link", LINK, faults);
-    Some(Dynamics {
-        note: table.text("note", faults).map(str::to_owned),
-        sources: table.texts("source", faults),
-        total_mass: table.number("total_mass_kg", faults),
-        links: links.iter().filter_map(|link| read_link(link, faults)).collect(),
-    })
-}
-
-fn read_link(link: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Link> {
-    let name = link.text("name", faults).map(str::to_owned);
-    let mass = link.number("mass_kg", faults);
-    let centre = link.numbers("com_mm", faults);
-    Some(Link {
-        name: name?,
-        mass: mass?,
-        centre_mm: centre?,
     })
 }

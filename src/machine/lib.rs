@@ -6,6 +6,7 @@ pub mod facts;
 pub mod habits;
 pub mod kinematics;
 mod limit_places;
+pub mod masses;
 pub mod path_limits;
 mod ranges;
 mod reach;
@@ -17,6 +18,7 @@ pub use limit_places::LimitPlaces;
 pub use usual_home::usual_home;
 
 use crate::kinematics::Mechanism;
+use masses::{Masses, Torques};
 use path_limits::PathLimits;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
 use vcutc_diagnostics::Diagnostic;
@@ -35,6 +37,10 @@ pub struct Model {
     pub mechanism: Mechanism,
     /// What its controller keeps along the way of the tip.
     pub path: PathLimits,
+    /// The masses of its links, when known.
+    pub masses: Option<Masses>,
+    /// The torques of its drives, when known.
+    pub torques: Option<Torques>,
 }
 
 impl Model {

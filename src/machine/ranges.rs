@@ -22,6 +22,10 @@ pub(crate) const SLIDING_ACCELERATION: Range = sliding(2, 1e8);
 /// Jerks of linear axes.
 pub(crate) const SLIDING_JERK: Range = sliding(3, 1e10);
 pub(crate) const MASS: Range = Range::closed(Dimension::MASS, 0.0, 1e6);
+/// Entries of inertias, in kg m2.
+pub(crate) const INERTIA: Range = Range::closed(Dimension::PURE, -1e6, 1e6);
+/// Torques, in Nm.
+pub(crate) const TORQUE: Range = Range::closed(Dimension::PURE, 0.001, 1e7);
 /// Parts of a unit quaternion.
 pub(crate) const QUATERNION_PART: Range = Range::closed(Dimension::PURE, -1.0, 1.0);
 /// Tolerances, in the unit of their key.

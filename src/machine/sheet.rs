@@ -11,6 +11,7 @@ mod types;
 use super::LimitPlaces;
 use super::Model;
 use super::facts::{self, Facts, FkCheck};
+use super::masses::{self, Masses, Torques};
 use super::path_limits::{self, PathLimits};
 use super::ranges;
 use crate::kinematics::Mechanism;
@@ -37,6 +38,10 @@ pub struct Sheet {
     pub mechanism: Mechanism,
     /// What its controller keeps along the way of the tip.
     pub path: PathLimits,
+    /// The masses of its links, when stated.
+    pub masses: Option<Masses>,
+    /// The torques of its drives, when stated.
+    pub torques: Option<Torques>,
     /// For people.
     pub facts: Facts,
 }
@@ -91,6 +96,8 @@ const FIELDS: &[FieldSpec] = &[
     optional("payload_source"),
     optional("confidence"),
     optional(path_limits::KEY),
+    optional(masses::KEY),
+    optional(masses::TORQUE_KEY),
 ];
 
 /// How messages speak of sheets.
@@ -130,6 +137,11 @@ fn read(root: Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Sheet> {
     facts.remarks.extend(body.remarks);
     let path = path_limits::read(root, &mut facts.sources, &mut facts.remarks, faults);
     let mechanism = body.mechanism?;
+    let masses = Masses::read(root, faults);
+    if let (Some(masses), Some(arm)) = (&masses, mechanism.ortho_parallel()) {
+        masses.check(root, arm.length(), faults);
+    }
+    let torques = Torques::read(root, faults);
     let missed = |check: &FkCheck| check.missed(&mechanism, &body.axes);
     faults.extend(facts.fk_checks.iter().filter_map(missed));
     Some(Sheet {
@@ -140,6 +152,8 @@ fn read(root: Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Sheet> {
         axes: body.axes,
         mechanism,
         path,
+        masses,
+        torques,
         facts,
     })
 }
@@ -174,6 +188,8 @@ impl Sheet {
             axes: self.axes.clone(),
             mechanism: self.mechanism.clone(),
             path: self.path,
+            masses: self.masses.clone(),
+            torques: self.torques.clone(),
         }
     }
 }

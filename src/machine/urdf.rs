@@ -75,6 +75,8 @@ fn read(name: &str, file: FileId, text: &str, flange: Flange<'_>) -> Read<Model>
         axes: joints.iter().map(axis).collect(),
         mechanism: recognise::closed_form(&arm).unwrap_or(Mechanism::Serial(arm)),
         path: PathLimits::UNKNOWN,
+        masses: None,
+        torques: None,
     })
 }
 

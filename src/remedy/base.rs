@@ -50,7 +50,7 @@ impl Shift {
     }
 
     /// What it is called, in the imperative.
-    fn how(&self) -> String {
+    pub(crate) fn how(&self) -> String {
         if self.turn != 0.0 {
             return format!("turn the base by {} deg about z", show(self.turn));
         }
@@ -67,7 +67,7 @@ impl Shift {
         format!("move the base by {}", parts.join(", "))
     }
 
-    fn of(&self, base: &Frame) -> Frame {
+    pub(crate) fn of(&self, base: &Frame) -> Frame {
         let [x, y, z] = self.by;
         let now = base.orientation.to_zyx();
         wording::rounded(&Frame {

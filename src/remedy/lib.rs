@@ -28,4 +28,5 @@ pub mod wording;
 pub use budget::{Budget, Size};
 pub use change::{Change, Edits};
 pub use extension::farther_out;
+pub use nearer::base_nearer;
 pub use remedies::diagnose;

@@ -2,10 +2,11 @@
 
 use crate::base::{Shift, confirmed, nearest};
 use crate::case::Case;
-use crate::change::Change;
+use crate::change::{Change, Elsewhere};
 use vcutc_backend_api::geometry::{Frame, Point3};
-use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind};
+use vcutc_backend_api::ir::{Axis, AxisKind, MachineKind, PlacedFrame, Stock};
 use vcutc_backend_api::units::Length;
+use vcutc_job::{CheckedJob, Machine};
 use vcutc_machine::kinematics::Joints;
 use vcutc_motion::rig::Rig;
 
@@ -106,8 +107,34 @@ fn tens(value: f64) -> f64 {
 
 /// The middle of the stock, seen from the machine's root.
 fn middle_in_root(case: &Case<'_>) -> Point3 {
-    let stock = case.unreachable.program.program().stock;
+    middle_of(case.unreachable.program.program().stock, case.machine)
+}
+
+fn middle_of(stock: Stock, machine: &Machine) -> Point3 {
     let half = |size: Length| size.to_mm() / 2.0;
     let middle = Point3::new(half(stock.width), half(stock.depth), half(stock.height));
-    Rig::of(case.machine).point_in_root(middle)
+    Rig::of(machine).point_in_root(middle)
+}
+
+/// The base level towards the first axis of an arm by this distance in mm, to whole centimetres; none where the work is not so far
+/// away.
+#[must_use]
+pub fn base_nearer(job: &CheckedJob, by: f64) -> Option<Change> {
+    let machine = job.machine.as_ref()?;
+    let middle = middle_of(job.stock, machine);
+    let distance = libm::hypot(middle.x, middle.y);
+    let [x, y] = [middle.x, middle.y].map(|part| -tens(part / distance * by));
+    let shift = Shift {
+        by: [x, y, 0.0],
+        turn: 0.0,
+    };
+    let now = machine.base.value;
+    let elsewhere = Elsewhere {
+        how: shift.how(),
+        base: PlacedFrame {
+            frame: shift.of(&now.frame),
+            ..now
+        },
+    };
+    (distance > by).then(|| Change::base(job, &elsewhere))
 }

@@ -323,7 +323,8 @@ fn an_axis_without_a_rate_is_named() {
         said.proven
     );
     assert!(
-        said.not_checked.contains("the speeds of B (not known"),
+        said.not_checked
+            .contains("the speeds of B, torques of the axes (not known"),
         "{}",
         said.not_checked
     );

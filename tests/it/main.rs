@@ -105,6 +105,7 @@ mod syntax;
 #[cfg(feature = "krl")]
 mod third_party;
 mod tidy;
+mod torques;
 mod trap;
 #[cfg(feature = "krl")]
 mod verify;

@@ -526,7 +526,7 @@ fn drawings_that_are_refused_are_mended_by_what_is_offered() {
     };
     assert!(!has_errors(&slim(5.49).diagnostics));
     assert!(has_errors(&slim(5.5).diagnostics));
-    // Beyond the stock, and back in it.
-    let outcome = compiled(&job(&seat(", x = 140 mm"), "auto"), &sheet.text());
+    // Beyond the stock.
+    let outcome = compiled(&job(&seat(", x = 150 mm"), "auto"), &sheet.text());
     assert_eq!(outcome.diagnostics[0].code, Code::PocketOutside);
 }

@@ -33,6 +33,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
         &[
             "src/machine/",
             "src/process/posture.rs",
+            "src/dynamics/",
             "src/motion/",
             "src/place/",
         ],

@@ -13,6 +13,8 @@ pub(in crate::cli) enum InnerForm {
     Ir,
     /// The machine's axis values along the program, as CSV with a row at least every 5 mm or 2 degrees
     Joints,
+    /// The torques of a robot's axes at the same places, as CSV: of its weight, and of its motion
+    Dynamics,
     /// A part given as `surface`, as PLY with the height that straight cuts leave above each vertex, for MeshLab and CloudCompare
     Deviation,
 }

@@ -4,7 +4,8 @@ use super::{Description, axis_unit, kind_word, maker_word, mechanism, path_numbe
 use std::fmt::Write;
 use vcutc_backend_api::ir::{Axis, AxisKind};
 use vcutc_machine::catalogue::Summary;
-use vcutc_machine::facts::{Dynamics, Facts, FkCheck};
+use vcutc_machine::facts::{Facts, FkCheck};
+use vcutc_machine::masses::{Masses, Torques};
 use vcutc_machine::path_limits::PathLimits;
 use vcutc_machine::sheet::{Confidence, Sheet};
 
@@ -57,6 +58,8 @@ pub(super) fn machine(description: &Description) -> String {
     text.push_str(&mechanism::text(&model.mechanism));
     if let Some(sheet) = sheet {
         text.push_str(&facts(&sheet.facts));
+        text.push_str(&sheet.masses.as_ref().map_or_else(String::new, masses));
+        text.push_str(&sheet.torques.as_ref().map_or_else(String::new, torques));
     }
     text
 }
@@ -131,7 +134,7 @@ fn facts(facts: &Facts) -> String {
         "published poses that this model meets (axes in deg -> flange in mm; orientation w x y z)",
         &checks,
     );
-    text + &facts.dynamics.as_ref().map_or_else(String::new, masses)
+    text
 }
 
 fn check(check: &FkCheck) -> String {
@@ -151,16 +154,29 @@ fn check(check: &FkCheck) -> String {
     text
 }
 
-fn masses(dynamics: &Dynamics) -> String {
-    let mut lines: Vec<String> = dynamics
+fn masses(masses: &Masses) -> String {
+    let mut lines: Vec<String> = masses
         .links
         .iter()
-        .map(|link| format!("{} {} kg at {} mm", link.name, link.mass, row(&link.centre_mm)))
+        .map(|link| {
+            format!(
+                "{} {} kg at {} mm",
+                link.name,
+                link.mass,
+                row(&link.centre_mm.to_array())
+            )
+        })
         .collect();
-    lines.extend(dynamics.total_mass.map(|mass| format!("together {mass} kg")));
-    lines.extend(dynamics.note.clone());
-    lines.extend(dynamics.sources.iter().map(|source| format!("from {source}")));
+    lines.extend(masses.total_mass.map(|mass| format!("together {mass} kg")));
+    lines.extend(masses.note.clone());
+    lines.extend(masses.sources.iter().map(|source| format!("from {source}")));
     section("masses, with all axes at 0", &lines)
+}
+
+fn torques(torques: &Torques) -> String {
+    let mut lines = vec![format!("{} Nm, {}", row(&torques.limits), torques.backing.word())];
+    lines.extend(torques.sources.iter().map(|source| format!("from {source}")));
+    section("torques of the drives, at the axes", &lines)
 }
 
 /// A heading with a list; nothing when the list is empty.

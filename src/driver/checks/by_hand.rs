@@ -56,6 +56,9 @@ impl Check {
             Self::Turns => {
                 "The edge clears the work where the blade turns beside it: watch the turns in the air"
             }
+            Self::Torques => {
+                "The drives give the torques that the program needs: watch the loads of the axes on the control"
+            }
             Self::Accelerations => "Time of the first part: computed without speeding up and slowing down",
             Self::Holder(blades) => {
                 return format!(
@@ -85,6 +88,10 @@ impl Reason {
             Self::SectionsOnly => {
                 "the compiler looks at sections across the tracks, not at what lies between them"
             }
+            Self::NoLoad => "the job does not state the load on the flange",
+            Self::PlacesOnly => {
+                "the compiler looks at places along the program, not at what lies between them"
+            }
             Self::NoReader => "this target's programs are not read back",
         }
     }
@@ -112,6 +119,7 @@ mod tests {
             Check::Branch,
             Check::ElbowAngle,
             Check::Turns,
+            Check::Torques,
             Check::Accelerations,
             Check::Holder(Vec::new()),
             Check::Collisions,

@@ -28,6 +28,7 @@ impl Checks {
             | Check::Walls
             | Check::BetweenSections
             | Check::AboveStock
+            | Check::Torques
             | Check::Accelerations
             | Check::Holder(_)
             | Check::Collisions

@@ -160,6 +160,7 @@ impl Checks {
                     | Check::Branch
                     | Check::ElbowAngle
                     | Check::Turns
+                    | Check::Torques
                     | Check::Accelerations
                     | Check::Holder(_)
                     | Check::Collisions
@@ -206,6 +207,7 @@ impl Check {
             Self::Branch => "configuration",
             Self::ElbowAngle => "elbow_angle",
             Self::Turns => "turns",
+            Self::Torques => "torques",
             Self::Accelerations => "accelerations",
             Self::Holder(_) => "holder",
             Self::Collisions => "collisions",
@@ -229,6 +231,7 @@ impl Check {
             Self::Branch => "the configuration of the arm",
             Self::ElbowAngle => "the angle between the arms, J3 - J2",
             Self::Turns => "the sweep of the edge where the blade turns beside the work",
+            Self::Torques => "torques of the axes",
             Self::Accelerations => "times with accelerations",
             Self::Holder(_) => "shank and holder of the blade",
             Self::Collisions => "collisions of the machine",
@@ -249,6 +252,8 @@ impl Reason {
             Self::AirCut => "air_cut",
             Self::NoReader => "no_reader",
             Self::SectionsOnly => "sections_only",
+            Self::NoLoad => "no_load",
+            Self::PlacesOnly => "places_only",
         }
     }
 
@@ -263,6 +268,10 @@ impl Reason {
             Self::AirCut => "an air cut is compared with nothing but the top of the stock",
             Self::NoReader => "the target has no reader",
             Self::SectionsOnly => "sections are looked at, 10 mm apart or 200 of them",
+            Self::NoLoad => "the job does not state the load on the flange",
+            Self::PlacesOnly => {
+                "places are looked at, at most 25 mm of the tip's way or 5 deg of turning apart"
+            }
         }
     }
 }

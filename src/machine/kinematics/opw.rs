@@ -69,6 +69,25 @@ pub enum Coupling {
 }
 
 impl Opw {
+    /// All lengths from the root to the flange together, in mm: no point of the arm is farther away, but for what stands out.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        let Self {
+            a1,
+            a2,
+            b,
+            c1,
+            c2,
+            c3,
+            c4,
+            ..
+        } = self;
+        [a1, a2, b, c1, c2, c3, c4]
+            .into_iter()
+            .map(|length| length.abs())
+            .sum()
+    }
+
     /// The flange in the root. Finite joints give a finite pose.
     #[must_use]
     pub fn forward(&self, joints: &Joints) -> Pose {

@@ -6,7 +6,7 @@ use super::types::{Body, Form};
 use crate::facts::Sources;
 use crate::kinematics::Mechanism;
 use crate::kinematics::opw::{Coupling, Opw};
-use crate::ranges::{ANGLE, ARM_LENGTH, LENGTH, TURNING_ACCELERATION, TURNING_JERK, TURNING_RATE};
+use crate::ranges::{ANGLE, ARM_LENGTH, LENGTH, TORQUE, TURNING_ACCELERATION, TURNING_JERK, TURNING_RATE};
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::document::table::Table;
@@ -52,7 +52,7 @@ const LIMITS: &[FieldSpec] = &[
     optional("accelerations_source"),
     optional("jerks_deg_s3").within(TURNING_JERK),
     optional("jerks_source"),
-    optional("joint_effort_limit_nm"),
+    optional("joint_effort_limit_nm").within(TORQUE),
     optional("joint_effort_source"),
     optional(ELBOW_LIMIT),
 ];

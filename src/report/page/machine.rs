@@ -5,6 +5,7 @@ use super::{Section, Subject};
 use crate::html::{Column, Html, near, table, terms};
 use crate::pictures;
 use vcutc_diagnostics::number::show;
+use vcutc_dynamics::figures::TorqueFigures;
 use vcutc_motion::summary::{self as reach_summary, AxisFigure, ReachFigures, SingularFigure, margin_words};
 use vcutc_picture::Prefix;
 
@@ -35,6 +36,9 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     if !figures.singular.is_empty() {
         body += singular(figures);
     }
+    if let Some(figures) = &subject.material.compiled.torques {
+        body += torques(figures);
+    }
     Some(Section {
         id: "machine",
         title: "Machine",
@@ -55,6 +59,39 @@ fn axes(figures: &ReachFigures) -> Html {
         Column::Words("fastest at"),
     ];
     table("Use of the axes", &columns, figures.axes.iter().map(axis))
+}
+
+/// The torques of the axes, with how far one may rely on them.
+fn torques(figures: &TorqueFigures) -> Html {
+    let columns = [
+        Column::Words("Axis"),
+        Column::Numbers("largest torque"),
+        Column::Numbers("weight"),
+        Column::Numbers("motion"),
+        Column::Numbers("of its limit"),
+        Column::Words("at"),
+    ];
+    let newton_metres = |torque: f64| Html::text(&format!("{:.1} Nm", torque + 0.0));
+    let rows = figures.axes.iter().map(|axis| {
+        vec![
+            Html::text(&axis.name),
+            newton_metres(axis.torque),
+            newton_metres(axis.weight),
+            newton_metres(axis.motion),
+            match (axis.share(), axis.limit) {
+                (Some(share), Some(limit)) => {
+                    by_room(1.0 - share)(&format!("{:.0} % of {} Nm", share * 100.0, show(limit)))
+                }
+                (_, _) => Html::text("unknown"),
+            },
+            Html::text(&axis.at.words),
+        ]
+    });
+    let caption = format!(
+        "Torques at programmed speeds, without cutting forces ({})",
+        figures.backing()
+    );
+    table(&caption, &columns, rows)
 }
 
 fn axis(axis: &AxisFigure) -> Vec<Html> {

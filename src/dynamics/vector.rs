@@ -1,0 +1,143 @@
+//! Vectors of any kind of number, and how they turn.
+
+use core::ops::{Add, Mul, Neg, Sub};
+use vcutc_geometry::number::Interval;
+
+/// What torques are computed with: plain numbers, or enclosures of them.
+pub trait Number:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Mul<f64, Output = Self>
+    + Neg<Output = Self>
+{
+    const ZERO: Self;
+
+    /// With a plain number added.
+    #[must_use]
+    fn plus(self, constant: f64) -> Self;
+}
+
+impl Number for f64 {
+    const ZERO: Self = 0.0;
+
+    #[inline(always)]
+    fn plus(self, constant: f64) -> Self {
+        self + constant
+    }
+}
+
+impl Number for Interval {
+    const ZERO: Self = Self { low: 0.0, high: 0.0 };
+
+    #[inline(always)]
+    fn plus(self, constant: f64) -> Self {
+        self + Self::exactly(constant)
+    }
+}
+
+pub(crate) type Vector<N> = [N; 3];
+
+#[inline(always)]
+pub(crate) fn sum<N: Number>(a: Vector<N>, b: Vector<N>) -> Vector<N> {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+#[inline(always)]
+pub(crate) fn cross<N: Number>(a: Vector<N>, b: Vector<N>) -> Vector<N> {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// The cross product with a plain vector.
+#[inline(always)]
+pub(crate) fn cross_plain<N: Number>(a: Vector<N>, b: Vector<f64>) -> Vector<N> {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// So many times a vector.
+#[inline(always)]
+pub(crate) fn scaled<N: Number>(a: Vector<N>, factor: N) -> Vector<N> {
+    [a[0] * factor, a[1] * factor, a[2] * factor]
+}
+
+/// So many times a plain vector.
+#[inline(always)]
+pub(crate) fn along<N: Number>(direction: Vector<f64>, amount: N) -> Vector<N> {
+    [
+        amount * direction[0],
+        amount * direction[1],
+        amount * direction[2],
+    ]
+}
+
+/// The part of a vector along a plain one.
+#[inline(always)]
+pub(crate) fn dot_plain<N: Number>(a: Vector<N>, b: Vector<f64>) -> N {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// A plain symmetric matrix of the entries xx, yy, zz, xy, xz and yz times a vector.
+#[inline(always)]
+pub(crate) fn symmetric<N: Number>([xx, yy, zz, xy, xz, yz]: [f64; 6], a: Vector<N>) -> Vector<N> {
+    [
+        a[0] * xx + a[1] * xy + a[2] * xz,
+        a[0] * xy + a[1] * yy + a[2] * yz,
+        a[0] * xz + a[1] * yz + a[2] * zz,
+    ]
+}
+
+/// How far a joint has turned: the sine of its angle, and one less its cosine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn<N> {
+    pub sine: N,
+    pub versine: N,
+}
+
+impl Turn<f64> {
+    /// By an angle, in rad.
+    #[must_use]
+    pub fn by(angle: f64) -> Self {
+        let (sine, cosine) = libm::sincos(angle);
+        Self {
+            sine,
+            versine: 1.0 - cosine,
+        }
+    }
+}
+
+impl<N: Number> Turn<N> {
+    /// A vector after the turn about a plain axis of length 1 (Rodrigues).
+    #[inline(always)]
+    pub(crate) fn out(self, axis: Vector<f64>, a: Vector<N>) -> Vector<N> {
+        // With the axis second, the cross product is the other way round.
+        let square = cross_plain(a, axis);
+        let twice = cross_plain(square, axis);
+        sum(a, sum(scaled(twice, self.versine), scaled(square, -self.sine)))
+    }
+
+    /// A plain vector before the turn.
+    #[inline(always)]
+    pub(crate) fn back_plain(self, axis: Vector<f64>, a: Vector<f64>) -> Vector<N> {
+        let square = cross_plain(a, axis);
+        let twice = cross_plain(square, axis);
+        let turned = sum(along(twice, self.versine), along(square, self.sine));
+        core::array::from_fn(|part| turned[part].plus(a[part]))
+    }
+
+    /// A vector before the turn.
+    #[inline(always)]
+    pub(crate) fn back(self, axis: Vector<f64>, a: Vector<N>) -> Vector<N> {
+        let square = cross_plain(a, axis);
+        let twice = cross_plain(square, axis);
+        sum(a, sum(scaled(twice, self.versine), scaled(square, self.sine)))
+    }
+}

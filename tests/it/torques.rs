@@ -1,0 +1,207 @@
+//! Torques of the axes of a robot: in the summary, as CSV, and above the limits of drives.
+
+use crate::cli::vcutc;
+use crate::pipeline::{Files, all_diagnostics, compile, fixed, told};
+use crate::repository::root;
+use tempfile::TempDir;
+use vcutc::diagnostics::Code;
+use vcutc::driver::Outcome;
+use vcutc::machine::catalogue;
+
+const JOB: &str = "job.vcut";
+
+/// A few cuts in front of a large arm.
+const SMALL: &str = r#"job "small"
+stock { size = (40 mm, 30 mm, 20 mm) }
+profile { start (0 mm, 10 mm) line to (40 mm, 10 mm) }
+blade dagger { cutting_length = 12 mm half_apex = 7.13 deg thickness = 0 mm edges = double }
+rough vcut {
+  blade = dagger
+  rake = 60 deg
+  lattice = orthogonal
+  swing = 35 deg
+  order = point
+  feed { cut = 100 mm/s, travel = 100 mm/s, reorient = 45 deg/s }
+  clearance = 10 mm
+}
+machine cell = robot "MODEL" {
+  tool = frame(x = 0 mm, y = 0 mm, z = 200 mm, a = 0 deg, b = 0 deg, c = 0 deg)
+  base = frame(x = 1800 mm, y = -20 mm, z = 700 mm, a = 90 deg, b = 0 deg, c = 0 deg)
+  LOAD
+  home = joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)
+}
+"#;
+
+const LOAD: &str = "load = load(mass = 14.5 kg, x = 0 mm, y = 0 mm, z = 140 mm)";
+
+fn small(model: &str, load: &str) -> Files {
+    Files::default().with(JOB, SMALL.replace("MODEL", model).replace("LOAD", load))
+}
+
+/// A folder with the small job.
+fn folder(load: &str) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    let text = SMALL
+        .replace("MODEL", "kuka/kr210_r3100_ultra")
+        .replace("LOAD", load);
+    std::fs::write(folder.path().join(JOB), text).unwrap();
+    folder
+}
+
+fn not_checked(outcome: &Outcome) -> String {
+    let checks = &outcome.compiled.as_ref().expect("a program").checks;
+    checks.not_checked().unwrap()
+}
+
+#[test]
+fn torques_that_are_not_known_are_named_as_not_checked() {
+    for (model, load, reason) in [
+        ("kuka/kr210_r2700_prime", LOAD, "torques of the axes"),
+        (
+            "kuka/kr210_r3100_ultra",
+            "load = number(3)",
+            "torques of the axes (the job does not state the load on the flange)",
+        ),
+        (
+            "kuka/kr210_r3100_ultra",
+            "",
+            "torques of the axes (the job does not state the load on the flange)",
+        ),
+    ] {
+        let outcome = compile(JOB, &small(model, load));
+        let compiled = outcome.compiled.as_ref().expect("a program");
+        assert_eq!(compiled.torques, None, "{model}");
+        assert!(
+            !compiled.summary.iter().any(|line| line.contains("torques")),
+            "{model}"
+        );
+        assert!(
+            not_checked(&outcome).contains(reason),
+            "{model}: {}",
+            not_checked(&outcome)
+        );
+    }
+}
+
+/// What an axis carries about its own line is found from the arm's energy: of a still arm, torques are the slopes of its height. So the
+/// torques of a program are compared with differences of the energies of the links where forward kinematics has them.
+#[test]
+fn weight_is_the_slope_of_height() {
+    let outcome = compile(JOB, &small("kuka/kr210_r3100_ultra", LOAD));
+    let compiled = outcome.compiled.as_ref().expect("a program");
+    let reached = compiled.program.reached().unwrap();
+    let model = catalogue::find("kuka/kr210_r3100_ultra").unwrap();
+    let masses = model.masses.as_ref().unwrap().carried().unwrap();
+    let linkage = vcutc::machine::kinematics::linkage::Linkage::from(&model.mechanism);
+    let height = |joints: &[f64; 6]| -> f64 {
+        let mut moved = vcutc::machine::kinematics::pose::Pose::IDENTITY;
+        let mut sum = 0.0;
+        for (joint, link) in linkage.tool.iter().zip(masses) {
+            moved = moved * joint.moved(joints);
+            sum += link.mass * (moved.rotation * link.centre_mm + moved.position).z;
+        }
+        let flange = moved * linkage.flange_at_zero;
+        sum + 14.5 * (flange.rotation.z_axis * 140.0 + flange.position).z
+    };
+    let figures = compiled.torques.as_ref().expect("torques");
+    let mut largest = [0.0_f64; 6];
+    for end in &reached.program.motion().ends {
+        for axis in 0..6 {
+            let at = |by: f64| {
+                let mut joints = end.0;
+                joints[axis] += by;
+                height(&joints)
+            };
+            let step = 1e-4;
+            let torque = 9.806_65e-3 * (at(step) - at(-step)) / (2.0 * step);
+            largest[axis] = largest[axis].max(torque.abs());
+        }
+    }
+    for (axis, largest) in figures.axes.iter().zip(largest) {
+        // Ends of ops are among the places that are looked at, and between them little changes.
+        let apart = axis.weight.abs() - largest;
+        assert!(
+            (-0.01..0.02 * largest + 0.5).contains(&apart),
+            "{axis:?} {largest}"
+        );
+    }
+    assert!(figures.axes[1].weight.abs() > 1000.0);
+    assert!(figures.axes[1].limit == Some(9600.0) && figures.without == ["motors", "balance", "friction"]);
+}
+
+#[test]
+fn a_table_has_the_torques_of_all_places() {
+    let shop = folder(LOAD);
+    let joints = vcutc(shop.path(), &[JOB, "--emit", "joints", "-o", "-", "-q"]).stdout;
+    let torques = vcutc(shop.path(), &[JOB, "--emit", "dynamics", "-o", "-", "-q"]).stdout;
+    let (joints, torques): (Vec<&str>, Vec<&str>) = (joints.lines().collect(), torques.lines().collect());
+    assert_eq!(joints.len(), torques.len());
+    let place = |row: &str| row.split(',').take(6).map(str::to_owned).collect::<Vec<_>>();
+    let mut moving = 0.0_f64;
+    for (one, other) in joints.iter().zip(&torques).skip(1) {
+        assert_eq!(place(one), place(other));
+        let numbers: Vec<f64> = other
+            .split(',')
+            .skip(6)
+            .map(|cell| cell.parse().unwrap())
+            .collect();
+        assert_eq!(numbers.len(), 24);
+        for axis in numbers.chunks(4) {
+            assert!((axis[0] + axis[1] - axis[2]).abs() < 2e-3, "{other}");
+        }
+        // Nothing hangs on an upright axis, and the limit of axis 2 is 9600 Nm.
+        assert_eq!(numbers[0], 0.0);
+        assert!((numbers[7] - numbers[6].abs() / 9600.0).abs() < 1e-4);
+        moving = moving.max(numbers[1].abs());
+    }
+    assert!(moving > 0.0 && moving < 100.0, "{moving}");
+    let unloaded = folder("");
+    let refused = vcutc(unloaded.path(), &[JOB, "--emit", "dynamics", "-o", "-"]);
+    assert!(
+        refused
+            .stderr
+            .contains("the torques of the job's machine are not known"),
+        "{}",
+        refused.stderr
+    );
+}
+
+/// The place that a message offers has been tried: there no drive is too weak, and one step nearer to where the job was one is.
+#[test]
+fn a_place_that_relieves_a_drive_is_offered() {
+    let folder = root().join("tests/process/err");
+    let text = std::fs::read_to_string(folder.join("VC0531_weak_arm.vcut")).unwrap();
+    let files = Files::of(&folder).with(JOB, text.clone());
+    let outcome = compile(JOB, &files);
+    assert!(outcome.compiled.is_none());
+    let [told_of] = outcome.diagnostics.as_slice() else {
+        panic!("{}", told(&outcome.diagnostics, &outcome));
+    };
+    assert_eq!(told_of.code, Code::TorqueAboveLimit);
+    let [fix] = told_of.fixes.as_slice() else {
+        panic!("{}", told(&outcome.diagnostics, &outcome));
+    };
+    let moved = compile(JOB, &fixed(&files, &outcome, fix));
+    let figures = moved
+        .compiled
+        .as_ref()
+        .expect("a program")
+        .torques
+        .as_ref()
+        .unwrap();
+    assert!(figures.nearest().unwrap().share().unwrap() <= 1.0);
+    assert!(
+        all_diagnostics(&moved)
+            .iter()
+            .all(|told| told.code != Code::TorqueAboveLimit)
+    );
+    // The same job with the limit a little below what is needed there is refused, at a little above it is not.
+    let needed = figures.nearest().unwrap().torque.abs();
+    for (limit, is_refused) in [(needed - 0.5, true), (needed + 0.5, false)] {
+        let sheet = std::fs::read_to_string(folder.join("support/weak_arm.toml")).unwrap();
+        let sheet = sheet.replacen("3000.0", &format!("{limit:.3}"), 1);
+        let files = fixed(&files, &outcome, fix).with("support/weak_arm.toml", sheet);
+        let outcome = compile(JOB, &files);
+        assert_eq!(outcome.compiled.is_none(), is_refused, "{limit}");
+    }
+}
