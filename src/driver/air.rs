@@ -94,7 +94,7 @@ fn air_cut(
     };
     let program = lifted.reached()?;
     let mut air = told(job, &compiled, program);
-    // What is wrong with the torques of its cuts is told already: an air cut goes the same ways, higher up.
+    // Torques above limits are reported for the cuts: an air cut goes the same ways, higher up.
     torques::add(job, &mut air);
     Ok(air)
 }

@@ -29,7 +29,7 @@ pub(crate) fn add(job: &CheckedJob, compiled: &mut Compiled) {
 /// What there is to say of torques above the limits of drives, with a place of the work that relieves them.
 pub(crate) fn above_limits(job: &CheckedJob, compiled: &Compiled, wanted: &Wanted) -> Option<Diagnostic> {
     let machine = job.machine.as_ref()?;
-    let told = above_limit(compiled.torques.as_ref()?, machine)?;
+    let diagnostic = above_limit(compiled.torques.as_ref()?, machine)?;
     let relieved = NEARER.into_iter().find_map(|by| {
         let change = base_nearer(job, by)?;
         let (_, there) = compile_checked(&change.job, wanted)?;
@@ -41,12 +41,12 @@ pub(crate) fn above_limits(job: &CheckedJob, compiled: &Compiled, wanted: &Wante
         Some((change, figures)) => {
             let title = format!("{}, where {}", change.advice, relief(&figures));
             if change.edits.is_empty() {
-                told.help(title)
+                diagnostic.help(title)
             } else {
-                told.fix_all(title, &change.edits)
+                diagnostic.fix_all(title, &change.edits)
             }
         }
-        None => told.help("use a lighter tool, lower speeds, or another place for the work"),
+        None => diagnostic.help("use a lighter tool, lower speeds, or another place for the work"),
     })
 }
 

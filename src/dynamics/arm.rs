@@ -6,12 +6,13 @@
 //!
 //! Signs: a torque is what the drive has to give, so it is positive where it turns the axis the way in which the controller counts.
 
-use crate::body::Body;
+use crate::body::{Body, MILLIMETRES};
 use crate::vector::{Number, Turn, Vector, along, cross, cross_plain, dot_plain, sum, symmetric};
 use glam::{DMat3, DVec3};
 use vcutc_backend_api::ir::Load;
 use vcutc_machine::Model;
-use vcutc_machine::kinematics::linkage::{Joint, Linkage};
+use vcutc_machine::kinematics::linkage::Linkage;
+use vcutc_machine::kinematics::opw::Coupling;
 use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// How many joints an arm has.
@@ -26,16 +27,8 @@ pub struct Arm {
     links: [Link; JOINTS],
     /// The acceleration that stands for its weight: up, in the root.
     rise: Vector<f64>,
-    elbow: Elbow,
-}
-
-/// What the third axis counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Elbow {
-    /// The turn of the third joint.
-    Own,
-    /// The inclination of the forearm: a parallelogram drives it, and the third joint turns by J3 - J2. Without the masses of crank and rod.
-    Coupled,
+    /// What the third axis counts. The masses of a parallelogram's crank and rod are left out.
+    coupling: Coupling,
 }
 
 /// A body and the joint that carries it.
@@ -62,28 +55,20 @@ pub struct State<N> {
     pub accelerations: [N; JOINTS],
 }
 
-/// Millimetres in a metre.
-const MILLIMETRES: f64 = 1000.0;
-
 impl Arm {
     /// The arm of a model, with what its flange carries. It stands upright: its weight pulls against z of its root.
     ///
-    /// None where the masses of its links are not known, and for machines that are no arm.
+    /// None where the masses of its links are not known, and for machines that are not arms.
     #[must_use]
     pub fn of(model: &Model, load: Option<Load>) -> Option<Self> {
         let links = model.masses.as_ref()?.carried()?;
-        let bodies = links.map(|link| Body {
-            mass: link.mass,
-            centre: link.centre_mm / MILLIMETRES,
-            inertia: link.inertia,
-        });
-        Self::new(&model.mechanism, bodies, load, DVec3::Z * GRAVITY)
+        Self::new(&model.mechanism, links.map(Body::from), load, DVec3::Z * GRAVITY)
     }
 
     /// An arm whose bodies, from joint 1 on, are where they are with all joints at zero, in the root. `rise` is the acceleration that
     /// stands for their weight: up, in m/s2.
     ///
-    /// None for a machine that is no arm.
+    /// None for a machine that is not an arm.
     #[must_use]
     pub fn new(
         mechanism: &Mechanism,
@@ -106,12 +91,9 @@ impl Arm {
             )
         });
         let joints: [_; JOINTS] = linkage.tool.as_slice().try_into().ok()?;
-        let third: &Joint = &joints[2];
-        let elbow = if third.weights[1] == 0.0 {
-            Elbow::Own
-        } else {
-            Elbow::Coupled
-        };
+        let coupling = mechanism
+            .ortho_parallel()
+            .map_or(Coupling::Serial, |arm| arm.coupling);
         let mut before = DVec3::ZERO;
         let mut place = 0;
         let links = joints.map(|joint| {
@@ -126,7 +108,7 @@ impl Arm {
         Some(Self {
             links,
             rise: rise.to_array(),
-            elbow,
+            coupling,
         })
     }
 
@@ -139,8 +121,14 @@ impl Arm {
     /// What hangs on each axis: its torques at rest, in Nm.
     #[must_use]
     pub fn weight(&self, joints: &Joints) -> [f64; JOINTS] {
+        self.weight_after(self.turns(joints))
+    }
+
+    /// The same, where its joints have turned so.
+    #[must_use]
+    pub fn weight_after(&self, turns: [Turn<f64>; JOINTS]) -> [f64; JOINTS] {
         self.torques(&State {
-            turns: self.turns(joints),
+            turns,
             rates: [0.0; JOINTS],
             accelerations: [0.0; JOINTS],
         })
@@ -192,9 +180,9 @@ impl Arm {
     }
 
     fn of_joints<N: Number>(&self, axes: [N; JOINTS]) -> [N; JOINTS] {
-        match self.elbow {
-            Elbow::Own => axes,
-            Elbow::Coupled => {
+        match self.coupling {
+            Coupling::Serial => axes,
+            Coupling::Parallelogram => {
                 let [a, b, c, d, e, f] = axes;
                 [a, b, c - b, d, e, f]
             }
@@ -203,9 +191,9 @@ impl Arm {
 
     /// Torques of joints as those of axes, by virtual work.
     fn at_axes<N: Number>(&self, joints: [N; JOINTS]) -> [N; JOINTS] {
-        match self.elbow {
-            Elbow::Own => joints,
-            Elbow::Coupled => {
+        match self.coupling {
+            Coupling::Serial => joints,
+            Coupling::Parallelogram => {
                 let [a, b, c, d, e, f] = joints;
                 [a, b - c, c, d, e, f]
             }

@@ -1,6 +1,10 @@
 //! Rigid bodies: masses, and how several of them make one.
 
 use glam::{DMat3, DVec3};
+use vcutc_machine::masses::Link;
+
+/// Millimetres in a metre.
+pub(crate) const MILLIMETRES: f64 = 1000.0;
 
 /// A rigid body, in kg and m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,6 +13,16 @@ pub struct Body {
     pub centre: DVec3,
     /// About the centre, in kg m2.
     pub inertia: DMat3,
+}
+
+impl From<&Link> for Body {
+    fn from(link: &Link) -> Self {
+        Self {
+            mass: link.mass,
+            centre: link.centre_mm / MILLIMETRES,
+            inertia: link.inertia,
+        }
+    }
 }
 
 impl Body {

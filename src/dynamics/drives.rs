@@ -18,7 +18,7 @@ use vcutc_motion::trajectory::{Motion, Sample, Spacing, motions};
 /// Why torques are not known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unknown {
-    /// The machine is no arm, or its description has no masses.
+    /// The machine is not an arm, or its description has no masses.
     Masses,
     /// The job does not state what the flange carries, or by a number of the controller only.
     Load,
@@ -138,11 +138,12 @@ impl<'m> Drives<'m> {
         // The samples of a motion are as far apart as its start is from the first one.
         let step = time.map(|time| time / motion.samples.len() as f64);
         let place = |(number, sample): (usize, &Sample)| {
-            let weight = arm.weight(&sample.joints);
+            let turns = arm.turns(&sample.joints);
+            let weight = arm.weight_after(turns);
             let moving = step.zip(motion.start).map(|(step, start)| {
                 let (rates, accelerations) = course(&start, &motion.samples, number, step);
                 arm.torques(&State {
-                    turns: arm.turns(&sample.joints),
+                    turns,
                     rates,
                     accelerations,
                 })

@@ -271,7 +271,7 @@ fn covered(table: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Vec<Covered> {
                     .iter()
                     .map(|(word, _)| format!("`{word}`"))
                     .collect();
-                let message = format!("`{word}` is no part of the torques of an arm");
+                let message = format!("`{word}` does not add to the torques of an arm");
                 let fault = table.fault(table.span_of("complete"), message, "unknown");
                 faults.push(fault.help(format!("use {}", words.join(", "))));
             }

@@ -232,4 +232,4 @@ fn places_in(root: &Table<'_>, axes: &[Axis], faults: &mut Vec<Diagnostic>) -> V
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

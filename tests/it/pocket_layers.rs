@@ -1,4 +1,4 @@
-//! Pockets from layers of DXF drawings as engineers draw them, from the file to the program. What a program clears is held against
+//! Pockets from layers of DXF drawings as engineers draw them, from the file to the program. What a program clears is compared with
 //! walls that the test works out from the drawing's own numbers.
 
 use crate::drawn::{Corner, Form, Sheet, regular};

@@ -8,7 +8,7 @@ use vcutc_backend_api::units::Mass;
 use vcutc_geometry::number::Interval;
 use vcutc_machine::catalogue;
 use vcutc_machine::kinematics::mounted::Mounted;
-use vcutc_machine::kinematics::opw::{Coupling, Opw};
+use vcutc_machine::kinematics::opw::Opw;
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_machine::kinematics::samples::irb2400;
 use vcutc_machine::kinematics::serial::{JointAxis, SerialArm};
@@ -19,11 +19,7 @@ const RISE: DVec3 = DVec3::new(0.0, 0.0, 9.81);
 fn named(name: &str, load: Option<Load>) -> Arm {
     let model = catalogue::find(name).unwrap();
     let links = model.masses.as_ref().unwrap().carried().unwrap();
-    let bodies = links.map(|link| Body {
-        mass: link.mass,
-        centre: link.centre_mm / MILLIMETRES,
-        inertia: link.inertia,
-    });
+    let bodies = links.map(Body::from);
     Arm::new(&model.mechanism, bodies, load, RISE).unwrap()
 }
 
@@ -393,11 +389,7 @@ proptest! {
             position: DVec3::new(300.0, -200.0, 1000.0),
         };
         let model = catalogue::find("kuka/kr210_r2700_2").unwrap();
-        let bodies = model.masses.as_ref().unwrap().carried().unwrap().map(|link| Body {
-            mass: link.mass,
-            centre: link.centre_mm / MILLIMETRES,
-            inertia: link.inertia,
-        });
+        let bodies = model.masses.as_ref().unwrap().carried().unwrap().map(Body::from);
         let moved = bodies.map(|body| Body {
             mass: body.mass,
             centre: root.position / MILLIMETRES + root.rotation * body.centre,

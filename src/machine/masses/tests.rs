@@ -2,29 +2,13 @@
 
 use super::*;
 use crate::catalogue;
+use crate::sheet::tests::SMALL;
 use crate::sheet::{Sheet, parse};
 use vcutc_diagnostics::source::FileId;
 
-/// A small arm with six light links.
+/// A small arm with these tables.
 fn text(dynamics: &str) -> String {
-    format!(
-        r#"
-model = "Shop arm"
-[opw]
-a1_mm = 300
-a2_mm = -100.0
-b_mm = 0.0
-c1_mm = 700.0
-c2_mm = 900.0
-c3_mm = 1_000.0
-c4_mm = 150.0
-joint_offsets_deg = [0.0, 0.0, -90.0, 0.0, 0.0, 0.0]
-joint_signs = [1, 1, 1, 1, 1, 1]
-[limits]
-limits_deg = [[-180.0, 180.0], [-60.0, 80.0], [-70.0, 160.0], [-300.0, 300.0], [-120.0, 120.0], [-360.0, 360.0]]
-{dynamics}
-"#
-    )
+    format!("{SMALL}{dynamics}\n")
 }
 
 fn links() -> String {
@@ -97,7 +81,7 @@ fn what_no_arm_has_is_refused() {
     let (_, message) = fault("\"link_4\"", "\"forearm\"");
     assert_eq!(message, "`link_4` has no mass");
     let (_, message) = fault("source = \"a scale\"", "complete = [\"cables\"]");
-    assert_eq!(message, "`cables` is no part of the torques of an arm");
+    assert_eq!(message, "`cables` does not add to the torques of an arm");
     let (_, message) = fault("source = \"a scale\"", "confidence = \"good\"");
     assert!(message.contains("good"), "{message}");
     let (_, message) = fault("mass_kg = 12.5", "mass_kg = nan");

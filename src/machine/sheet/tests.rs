@@ -11,7 +11,7 @@ fn parse(text: &str) -> Result<Sheet, Vec<Diagnostic>> {
 }
 
 /// The least a user writes.
-const SMALL: &str = r#"
+pub(crate) const SMALL: &str = r#"
 model = "Shop arm"
 [opw]
 a1_mm = 300
