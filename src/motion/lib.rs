@@ -11,6 +11,7 @@ pub mod describe;
 pub mod ladder;
 pub mod moves;
 pub mod pace;
+pub mod parts;
 pub mod path;
 pub mod reorient;
 pub mod rig;

@@ -69,6 +69,7 @@
 mod abreast;
 mod arm;
 mod arm_course;
+mod arm_way;
 mod around;
 mod axis_moves;
 mod bounds;
@@ -85,6 +86,7 @@ mod types;
 mod wide;
 mod worst;
 
+pub use arm_way::{ArmWay, Part};
 pub use axis_moves::{AxesBreach, AxesViolation, Block, are_axes_refuted, prove_axes};
 pub use joint::{Through, prove_through};
 pub use refuted::{Refuted, refuted};

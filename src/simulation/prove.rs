@@ -19,6 +19,7 @@
 
 mod along;
 mod cleared;
+mod edge;
 mod entry;
 mod findings;
 mod flank;
@@ -37,10 +38,11 @@ use super::surface::{Side, Single, Surface, Vee};
 use along::AlongSpine;
 pub use cleared::{Cleared, ClearingFault};
 use core::num::NonZeroU32;
+pub use edge::UsedEdge;
 pub use entry::below_top;
 pub(super) use entry::merge_heights;
 pub use findings::Findings;
-use findings::{is_longer, note};
+use findings::note;
 use flank::{FlankGeometry, flanks};
 use piece::Piece;
 pub use slit::{Slit, SlitFault};
@@ -164,6 +166,8 @@ pub struct Replay {
     pub findings: Findings,
     /// The longest edge that any cut uses.
     pub longest_edge: Length,
+    /// How much edge cuts use, in the program's order, as far as it is measured cut by cut.
+    pub edges: Vec<UsedEdge>,
     /// Cuts of each layer of each operation, in order.
     pub layers: Vec<(OperationId, usize)>,
     /// What tracks on a surface do, operation by operation; empty until they are judged where the surface is known.
@@ -315,6 +319,9 @@ struct Player<'p> {
     /// The deepest entry into the part of what leaves no trace in a surface, slits and chains, and how deep that is.
     traceless: Option<(Finding, f64)>,
     longest_edge: f64,
+    /// The op that is played.
+    playing: OpId,
+    edges: Vec<UsedEdge>,
     /// The cut of the chain that was counted last: it may stop on its way.
     counted: Option<Site>,
     /// How many cuts each layer has.
@@ -371,6 +378,8 @@ impl<'p> Player<'p> {
             kept: BTreeMap::new(),
             parts: BTreeMap::new(),
             longest_edge: 0.0,
+            playing: OpId(0),
+            edges: Vec::new(),
             counted: None,
             layers: BTreeMap::new(),
             along: AlongSpine::default(),
@@ -383,6 +392,7 @@ impl<'p> Player<'p> {
         let mut pieces = self.program.segments().filter(|segment| is_piece(segment.op));
         for (id, op, after) in self.program.ends() {
             show(id, &mut self.section);
+            self.playing = id;
             if let Some(cut) = Cut::of(op, after) {
                 self.cut(&cut, verified.is_single(id));
             } else if is_piece(op)
@@ -458,7 +468,7 @@ impl<'p> Player<'p> {
             Single::Inside => {
                 // Its slit is cut all the same.
                 let run = self.section.surface().flank(vee, cut.side());
-                self.longest_edge = self.longest_edge.max(run.reach * geometry.edge_per_height);
+                self.measure_edge(run.reach * geometry.edge_per_height);
                 self.note_blocked(run.blocked_at, cut);
                 self.note_edge(f64::INFINITY, |fault| cut.finding(program, fault));
             }
@@ -469,13 +479,6 @@ impl<'p> Player<'p> {
             }
         }
         self.release(cut, vee, Length::ZERO);
-    }
-
-    /// Notes how much edge a flank uses.
-    fn use_edge(&mut self, needed: f64, cut: &Cut) {
-        let program = self.program;
-        self.note_edge(needed, |fault| cut.finding(program, fault));
-        self.longest_edge = self.longest_edge.max(needed);
     }
 
     fn note_blocked(&mut self, at: Option<Point2>, cut: &Cut) {
@@ -489,30 +492,6 @@ impl<'p> Player<'p> {
     /// Counts a cut in its layer.
     fn count(&mut self, cut: &Cut) {
         *self.layers.entry((cut.operation, cut.layer)).or_default() += 1;
-    }
-
-    /// Notes a cut that needs more edge than there is.
-    fn note_edge(&mut self, needed: f64, finding: impl Fn(CutFault) -> Finding) {
-        let Some(available) = self.usable_edge() else {
-            return;
-        };
-        // The plan leaves out nothing below a nanometre; neither does the proof.
-        if needed > available + 1e-6 {
-            let fault = CutFault::NotFreed {
-                needed: Length::mm(needed),
-                available: Length::mm(available),
-            };
-            note(&mut self.findings.not_freed, finding(fault), is_longer);
-        }
-    }
-
-    /// The blade's edge, or what of it may be used.
-    fn usable_edge(&self) -> Option<f64> {
-        let (operation, tool) = self.at_work?;
-        let blade = self.program.blade(tool)?.straight()?.cutting_length;
-        let limit = self.bounds.get(usize::from(operation.0));
-        let limit = limit.and_then(|bound| bound.edge);
-        Some(limit.map_or(blade, |limit| limit.min(blade)).to_mm())
     }
 
     /// Takes the chip of a cut out, all of whose flanks are cut, each up to `below` lower than it says.
@@ -644,7 +623,7 @@ impl<'p> Player<'p> {
         let piece = Piece::new(course, blade, self.program.stock);
         let used = piece.edge_used(self.section.surface());
         self.note_edge(used, finding);
-        self.longest_edge = self.longest_edge.max(used);
+        self.measure_edge(used);
         let Some(bound) = self.bounds.get(usize::from(operation.0)) else {
             return;
         };
@@ -679,6 +658,7 @@ impl<'p> Player<'p> {
             surface: self.section.into_surface(),
             findings: self.findings,
             longest_edge: Length::mm(self.longest_edge),
+            edges: self.edges,
             layers: self
                 .layers
                 .into_iter()

@@ -57,6 +57,12 @@ impl<N: Number> Along<N> {
         }
     }
 
+    /// At the middle of the span.
+    #[inline(always)]
+    pub const fn middle(self) -> Interval<N> {
+        self.here
+    }
+
     /// On the whole span.
     #[inline(always)]
     pub const fn value(self) -> Interval<N> {

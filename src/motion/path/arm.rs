@@ -338,6 +338,15 @@ impl<N: Number> Refusal<N> {
     }
 }
 
+/// The controller's angles of an arm on a span of a course, each up to whole turns; none where the span is refused.
+pub(super) fn posture_on(arm: &Opw, branch: ArmBranch, flight: &Flight, span: Span) -> Option<[Along; 6]> {
+    let carried = flight.carried(DVec3::new(0.0, 0.0, -arm.c4)).numbers();
+    let round = flight.round();
+    let flange = Flange::over(&carried, round.as_ref(), flight.shape(), [span.middle, span.half]);
+    let posture = posture(arm, branch, &flange);
+    violation(posture.refusal.0).is_none().then_some(posture.axes)
+}
+
 /// The posture of the arm on a branch that carries the flange along a span.
 #[inline(always)]
 fn posture<N: Number>(arm: &Opw, branch: ArmBranch, flange: &Flange<N>) -> Posture<N> {
