@@ -46,6 +46,7 @@ mod console;
 #[cfg(feature = "krl")]
 mod convert;
 mod differences;
+mod dynamics;
 mod explain;
 mod external;
 mod files;
@@ -71,7 +72,6 @@ mod shell;
 mod snapshot;
 mod targets;
 mod tools;
-mod torques;
 mod verify;
 mod watch;
 

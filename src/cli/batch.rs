@@ -353,7 +353,7 @@ fn tell(
         numbers: figures.map(|figures| &figures.numbers),
         times: figures.map(|figures| &figures.times),
         reach: None,
-        torques: None,
+        dynamics: None,
         checks: figures.map(|figures| figures.checks.with(made.read_back)),
         parameters: figures.map_or(&[], |figures| &figures.parameters),
         placed: &made.placed,

@@ -313,7 +313,7 @@ pub(super) fn tell(
         numbers: compiled.and_then(Compiled::numbers_of_cuts),
         times: compiled.map(|compiled| &compiled.times),
         reach: compiled.and_then(|compiled| compiled.figures.as_ref()),
-        torques: compiled.and_then(|compiled| compiled.torques.as_ref()),
+        dynamics: compiled.map(|compiled| &compiled.dynamics),
         checks: compiled.map(|compiled| compiled.checks.with(made.read_back)),
         parameters: compiled.map_or(&[], |compiled| &compiled.parameters),
         placed: &made.placed,

@@ -19,11 +19,13 @@ use std::time::Duration;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Code, Diagnostic, Severity, github, has_errors, json, render};
 use vcutc_driver::checks::{CheckFigure, Checks};
+use vcutc_driver::dynamics::Dynamics;
 use vcutc_driver::hints::Hint;
 use vcutc_driver::numbers::Numbers;
 use vcutc_driver::summary::chosen::OperationFigures;
 use vcutc_driver::summary::times::{self, TimeFigures};
 use vcutc_driver::summary::verdict;
+use vcutc_dynamics::deviation::figures::DeviationFigures;
 use vcutc_dynamics::figures::TorqueFigures;
 use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 
@@ -123,8 +125,8 @@ pub(super) struct Summary<'a> {
     pub(super) times: Option<&'a TimeFigures>,
     /// What is asked of the machine.
     pub(super) reach: Option<&'a ReachFigures>,
-    /// What is asked of its drives.
-    pub(super) torques: Option<&'a TorqueFigures>,
+    /// What is asked of its drives, and how far forces push it off.
+    pub(super) dynamics: Option<&'a Dynamics>,
     /// Which checks were made of the program, and which were not.
     pub(super) checks: Option<Checks>,
     pub(super) parameters: &'a [OperationFigures],
@@ -171,6 +173,8 @@ struct SummaryBody<'a> {
     reach: Option<&'a ReachFigures>,
     #[serde(skip_serializing_if = "Option::is_none")]
     torques: Option<&'a TorqueFigures>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    deviation: Option<&'a DeviationFigures>,
     files: Vec<&'a str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     unchanged: Vec<&'a str>,
@@ -439,7 +443,8 @@ impl Console {
             numbers: summary.numbers,
             times: summary.times,
             reach: summary.reach,
-            torques: summary.torques,
+            torques: summary.dynamics.and_then(|dynamics| dynamics.torques.as_ref()),
+            deviation: summary.dynamics.and_then(|dynamics| dynamics.deviation.as_ref()),
             files: summary.placed.iter().map(Placed::path).collect(),
             unchanged: unchanged(summary.placed),
             replaced: replaced(summary.placed),

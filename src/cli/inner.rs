@@ -4,9 +4,9 @@
 //! the plan is a table for people who want to look at the cuts, in a spreadsheet or a plot.
 
 use super::args::InnerForm;
+use super::dynamics;
 use super::files::stem;
 use super::joints;
-use super::torques;
 use std::io::{self, BufWriter, Write};
 use vcutc_backend_api::bundle::{Sink, SinkError};
 use vcutc_backend_api::exchange::Exchange;
@@ -51,8 +51,10 @@ pub(super) fn write(
             (Some(_) | None, _) => Ok(Progressed::NotSoFar),
         },
         InnerForm::Dynamics => match (&outcome.job, &outcome.compiled) {
-            (Some(job), Some(compiled)) => match (compiled.program.reached(), &compiled.torques) {
-                (Some(reached), Some(_)) => file(sink, &name, |out| torques::write(job, reached, out)),
+            (Some(job), Some(compiled)) => match (compiled.program.reached(), &compiled.dynamics.torques) {
+                (Some(reached), Some(_)) => file(sink, &name, |out| {
+                    dynamics::write(job, reached, &compiled.report.edges, out)
+                }),
                 (Some(_), None) => Ok(Progressed::WithoutMasses),
                 (None, _) => Ok(Progressed::WithoutMachine),
             },

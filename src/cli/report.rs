@@ -91,7 +91,7 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         numbers: compiled.map(|compiled| &compiled.numbers),
         times: compiled.map(|compiled| &compiled.times),
         reach: compiled.and_then(|compiled| compiled.figures.as_ref()),
-        torques: compiled.and_then(|compiled| compiled.torques.as_ref()),
+        dynamics: compiled.map(|compiled| &compiled.dynamics),
         checks: compiled.map(|compiled| compiled.checks.with(read_back)),
         parameters: compiled.map_or(&[], |compiled| &compiled.parameters),
         placed: &placed,

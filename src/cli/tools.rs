@@ -155,7 +155,7 @@ fn tell(job: &str, outcome: &Outcome, placed: &[Placed], remark: Option<&str>, c
         numbers: None,
         times: None,
         reach: None,
-        torques: None,
+        dynamics: None,
         checks: None,
         parameters: &[],
         placed,

@@ -73,7 +73,7 @@ pub(super) fn verify(args: &VerifyArgs, linked: &Targets, targets: &Targets, con
         numbers: None,
         times: None,
         reach: None,
-        torques: None,
+        dynamics: None,
         checks: None,
         parameters: &[],
         placed: &[],

@@ -224,6 +224,14 @@ codes! {
     TorqueAboveLimit = "VC0531", Error, "torque above the limit of an axis";
     /// The same by numbers that are not those of the machine, or not all.
     TorqueIndicative = "VC0532", Warning, "torque probably above the limit of an axis";
+    /// Forces that push a cut farther off than may be.
+    DeviationAboveLimit = "VC0533", Error, "cut pushed off by more than its limit";
+    /// The same by a stiffness that is not that of the machine.
+    DeviationIndicative = "VC0534", Warning, "cut probably pushed off by more than its limit";
+    /// A limit on deviations that nothing can check.
+    DeviationUnknown = "VC0535", Error, "limit on deviation that cannot be checked";
+    /// Cuts that differ from how the forces of their blade were measured.
+    ForcesElsewhere = "VC0536", Warning, "forces measured under other conditions";
 
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "target that needs a machine";

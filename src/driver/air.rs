@@ -4,9 +4,9 @@
 use super::{Compiled, Finished, Outcome, Stage, internal, motions_broken, paced, rules_broken};
 use crate::air_cut::{least_gap, least_lift, lifted};
 use crate::checks::{Bodies, Carried, Checks};
+use crate::dynamics::{self, Dynamics};
 use crate::summary::air::{AirFigures, Mover, summary};
 use crate::summary::times::figures as time_figures;
-use crate::torques;
 use vcutc_backend_api::ir::{Head, Program, Purpose};
 use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::units::Length;
@@ -95,7 +95,7 @@ fn air_cut(
     let program = lifted.reached()?;
     let mut air = told(job, &compiled, program);
     // Torques above limits are reported for the cuts: an air cut goes the same ways, higher up.
-    torques::add(job, &mut air);
+    dynamics::add_torques(job, &mut air);
     Ok(air)
 }
 
@@ -229,7 +229,7 @@ fn told(job: &CheckedJob, cutting: &Compiled, program: Finished) -> Compiled {
         checks: Checks::of_air_cut(carried, paced.basis, Bodies::of(job)),
         parameters: cutting.parameters.clone(),
         not_followed: None,
-        torques: None,
+        dynamics: Dynamics::default(),
         left_over: cutting.left_over,
         numbers: cutting.numbers.clone(),
         times: time_figures(&report, paced.basis),

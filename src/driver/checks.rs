@@ -12,6 +12,7 @@ pub use words::CheckFigure;
 
 use vcutc_backend_api::ir::Axis;
 use vcutc_backend_api::units::Area;
+use vcutc_dynamics::deviation;
 use vcutc_dynamics::drives::Unknown;
 use vcutc_job::{CheckedJob, Machine};
 use vcutc_machine::Model;
@@ -53,6 +54,8 @@ pub enum Check {
     Turns,
     /// No axis needs more torque than its drive gives.
     Torques,
+    /// How far the forces of the blade push cuts off is bounded, and no more than the limit where one is set.
+    Deviation,
     /// The time of the program counts speeding up and slowing down.
     Accelerations,
     /// Shank and holder of the blade stay out of the work: of these blades, of all where none is named.
@@ -91,6 +94,10 @@ pub enum Reason {
     SectionsOnly,
     /// Nothing states the load on the flange.
     NoLoad,
+    /// It is not computed for such a machine.
+    NotComputed,
+    /// No blade states its forces.
+    NoForces,
     /// Places along the program are looked at, not what lies between them.
     PlacesOnly,
 }
@@ -241,6 +248,20 @@ impl Checks {
         Self(self.0.iter().cloned().chain(of_torques).collect())
     }
 
+    /// The same with that of the deviations by the forces of its blades.
+    #[must_use]
+    pub fn with_deviation(&self, known: Result<(), deviation::Unknown>) -> Self {
+        let of_deviation = match known {
+            Ok(()) => made(Check::Deviation),
+            Err(deviation::Unknown::Forces) => not_made(Check::Deviation, Reason::NoForces),
+            Err(deviation::Unknown::Elasticity | deviation::Unknown::Weight) => {
+                not_made(Check::Deviation, Reason::NotStated)
+            }
+            Err(deviation::Unknown::ClosedForm) => not_made(Check::Deviation, Reason::NotComputed),
+        };
+        Self(self.0.iter().cloned().chain([of_deviation]).collect())
+    }
+
     /// All of them, in a fixed order.
     pub fn iter(&self) -> impl Iterator<Item = &Checked> {
         self.0.iter()
@@ -269,6 +290,7 @@ impl Checks {
                 | Check::BetweenSections
                 | Check::AboveStock
                 | Check::Torques
+                | Check::Deviation
                 | Check::Accelerations
                 | Check::Holder(_)
                 | Check::Collisions

@@ -8,6 +8,7 @@ pub mod air_cut;
 mod asked;
 mod axis_moves;
 pub mod checks;
+pub mod dynamics;
 mod emitting;
 pub mod hints;
 mod home;
@@ -22,7 +23,6 @@ mod routes;
 pub mod starter;
 pub mod summary;
 mod target;
-mod torques;
 mod trials;
 pub mod ways;
 
@@ -35,6 +35,7 @@ pub use vcutc_job::sema::Typed;
 pub use vcutc_remedy::fallback::NotFollowed;
 
 use crate::checks::{Bodies, Carried, Checks};
+use crate::dynamics::Dynamics;
 use crate::left_over::LeftOver;
 use crate::memory::Memory;
 use crate::numbers::Numbers;
@@ -52,7 +53,6 @@ use vcutc_backend_api::verify::{Fault, VerifiedProgram};
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::{Loader, SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic, Severity, has_errors};
-use vcutc_dynamics::figures::TorqueFigures;
 use vcutc_job::CheckedJob;
 use vcutc_job::PlannedJob;
 use vcutc_job::sema;
@@ -189,8 +189,8 @@ pub struct Compiled {
     pub program: Finished,
     /// What it asks of the machine.
     pub figures: Option<ReachFigures>,
-    /// What it asks of the machine's drives, where that is known.
-    pub torques: Option<TorqueFigures>,
+    /// What it asks of the machine's drives, and how far its forces push it off.
+    pub dynamics: Dynamics,
     /// Its figures.
     pub report: Report,
     /// What is left over a part that changes along y; none over a profile, which the report measures.
@@ -340,12 +340,15 @@ fn plan_and_prove(
     let Some(job) = &outcome.job else { return };
     let ended = match routes::ended(made, job, &outcome.sources, run, progress) {
         Ended::Compiled(mut made) => {
-            torques::add(job, &mut made.compiled);
+            dynamics::add_torques(job, &mut made.compiled);
+            let mut told = dynamics::add_deviations(job, &mut made.compiled);
+            told.extend(dynamics::verdicts(job, &made.compiled, &outcome.sources, run));
             let mut objections = target::objections(job, &made.compiled, request);
-            match torques::above_limits(job, &made.compiled, run.wanted) {
-                Some(error) if error.severity() == Severity::Error => objections.push(error.into()),
-                warning => made.warnings.extend(warning),
-            }
+            let (errors, warnings): (Vec<_>, Vec<_>) = told
+                .into_iter()
+                .partition(|told| told.severity() == Severity::Error);
+            objections.extend(errors.into_iter().map(Into::into));
+            made.warnings.extend(warnings);
             if objections.is_empty() {
                 Ended::Compiled(made)
             } else {
@@ -470,7 +473,7 @@ fn compiled(
         op_times: paced.times,
         program,
         figures,
-        torques: None,
+        dynamics: Dynamics::default(),
         report,
         left_over,
         not_followed: None,

@@ -1,22 +1,19 @@
-//! An arm as a chain of bodies, and the torques that move it.
+//! An arm as bodies on a chain of joints, and the torques that move it.
 //!
 //! Torques are found by recursion along the chain and back (Newton-Euler [Luh 1980]), instead of from the matrices of [Ha 2019],
-//! equations 19 to 27, which give the same. Each body has a frame whose origin lies on the axis of its joint, and whose axes are those of
-//! the root when all joints are at zero: so all of its numbers are constants, and a joint is a turn about a constant axis.
+//! equations 19 to 27, which give the same. Each body is seen from the frame of its joint
+//! ([`crate::chain`]), so all of its numbers are constants.
 //!
 //! Signs: a torque is what the drive has to give, so it is positive where it turns the axis the way in which the controller counts.
 
 use crate::body::{Body, MILLIMETRES};
+pub use crate::chain::JOINTS;
+use crate::chain::{Chain, Hinge};
 use crate::vector::{Number, Turn, Vector, along, cross, cross_plain, dot_plain, sum, symmetric};
 use glam::{DMat3, DVec3};
 use vcutc_backend_api::ir::Load;
 use vcutc_machine::Model;
-use vcutc_machine::kinematics::linkage::Linkage;
-use vcutc_machine::kinematics::opw::Coupling;
 use vcutc_machine::kinematics::{Joints, Mechanism};
-
-/// How many joints an arm has.
-pub const JOINTS: usize = 6;
 
 /// The acceleration of free fall, in m/s2: the standard value (ISO 80000-3).
 const GRAVITY: f64 = 9.806_65;
@@ -24,19 +21,16 @@ const GRAVITY: f64 = 9.806_65;
 /// An arm with masses, at the controller's axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arm {
+    /// Of a parallelogram, crank and rod are left out.
+    chain: Chain,
     links: [Link; JOINTS],
     /// The acceleration that stands for its weight: up, in the root.
     rise: Vector<f64>,
-    /// What the third axis counts. The masses of a parallelogram's crank and rod are left out.
-    coupling: Coupling,
 }
 
-/// A body and the joint that carries it.
+/// What a joint carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Link {
-    axis: Vector<f64>,
-    /// From the origin before it, in m.
-    offset: Vector<f64>,
     mass: f64,
     /// Mass times centre, in kg m.
     moment: Vector<f64>,
@@ -76,79 +70,75 @@ impl Arm {
         load: Option<Load>,
         rise: DVec3,
     ) -> Option<Self> {
-        let linkage = match mechanism {
-            Mechanism::OrthoParallel(_) | Mechanism::Mounted(_) | Mechanism::Serial(_) => {
-                Linkage::from(mechanism)
-            }
-            Mechanism::FiveAxis(_) => return None,
-        };
+        let chain = Chain::of(mechanism)?;
         let carried = load.map(|load| {
-            let flange = linkage.flange_at_zero;
+            let flange = chain.flange_at_zero;
             let centre = DVec3::from_array(load.centre.to_array());
             Body::point(
                 load.mass.to_kg(),
                 (flange.rotation * centre + flange.position) / MILLIMETRES,
             )
         });
-        let joints: [_; JOINTS] = linkage.tool.as_slice().try_into().ok()?;
-        let coupling = mechanism
-            .ortho_parallel()
-            .map_or(Coupling::Serial, |arm| arm.coupling);
-        let mut before = DVec3::ZERO;
-        let mut place = 0;
-        let links = joints.map(|joint| {
-            let origin = joint.line.point / MILLIMETRES;
-            let own = bodies.get(place).into_iter();
+        let links = core::array::from_fn(|place| {
             let load = carried.iter().filter(|_| place + 1 == JOINTS);
-            let link = Link::new(joint.line.direction, [before, origin], own.chain(load));
-            before = origin;
-            place += 1;
-            link
+            Link::new(chain.origins[place], bodies.get(place).into_iter().chain(load))
         });
         Some(Self {
+            chain,
             links,
             rise: rise.to_array(),
-            coupling,
         })
     }
 
     /// By how much each joint has turned at these axis values, in rad.
     #[must_use]
     pub fn turns(&self, joints: &Joints) -> [Turn<f64>; JOINTS] {
-        self.of_joints(*joints).map(Turn::by)
+        self.chain.turns(joints)
     }
 
     /// What hangs on each axis: its torques at rest, in Nm.
     #[must_use]
     pub fn weight(&self, joints: &Joints) -> [f64; JOINTS] {
-        self.weight_after(self.turns(joints))
+        self.weight_after(&self.turns(joints))
     }
 
     /// The same, where its joints have turned so.
     #[must_use]
-    pub fn weight_after(&self, turns: [Turn<f64>; JOINTS]) -> [f64; JOINTS] {
-        self.torques(&State {
-            turns,
-            rates: [0.0; JOINTS],
-            accelerations: [0.0; JOINTS],
-        })
+    pub fn weight_after<N: Number>(&self, turns: &[Turn<N>; JOINTS]) -> [N; JOINTS] {
+        let mut rise: Option<Vector<N>> = None;
+        let needs = core::array::from_fn(|place| {
+            let (axis, turn) = (self.chain.hinges[place].axis, turns[place]);
+            let here = match rise {
+                Some(before) => turn.back(axis, before),
+                None => turn.back_plain(axis, self.rise),
+            };
+            rise = Some(here);
+            self.links[place].hanging(here)
+        });
+        self.carried(turns, needs)
     }
 
     /// What the drives have to give at the controller's axes, in Nm.
     #[must_use]
     #[inline]
     pub fn torques<N: Number>(&self, state: &State<N>) -> [N; JOINTS] {
-        let rates = self.of_joints(state.rates);
-        let accelerations = self.of_joints(state.accelerations);
-        let mut needs = self.needs(&state.turns, rates, accelerations);
+        let rates = self.chain.of_joints(state.rates);
+        let accelerations = self.chain.of_joints(state.accelerations);
+        let needs = self.needs(&state.turns, rates, accelerations);
+        self.carried(&state.turns, needs)
+    }
+
+    /// The torques where each body alone needs this.
+    #[inline]
+    fn carried<N: Number>(&self, turns: &[Turn<N>; JOINTS], mut needs: [Wrench<N>; JOINTS]) -> [N; JOINTS] {
+        let hinges = &self.chain.hinges;
         // From the flange to the root each body carries all that come after it.
         for place in (1..JOINTS).rev() {
-            let (link, turn) = (&self.links[place], state.turns[place]);
-            let carried = needs[place].turned(turn, link);
+            let carried = needs[place].turned(turns[place], &hinges[place]);
             needs[place - 1].add(&carried);
         }
-        self.at_axes(core::array::from_fn(|place| {
-            dot_plain(needs[place].moment, self.links[place].axis)
+        self.chain.at_axes(core::array::from_fn(|place| {
+            dot_plain(needs[place].moment, hinges[place].axis)
         }))
     }
 
@@ -162,52 +152,27 @@ impl Arm {
     ) -> [Wrench<N>; JOINTS] {
         let mut motion: Option<Motion<N>> = None;
         core::array::from_fn(|place| {
-            let (link, turn) = (&self.links[place], turns[place]);
+            let (hinge, turn) = (&self.chain.hinges[place], turns[place]);
             let base = match &motion {
-                Some(before) => before.turned(turn, link),
+                Some(before) => before.turned(turn, hinge),
                 // A root that rises pulls on its bodies as gravity does.
                 None => Motion {
-                    spin: [N::ZERO; 3],
-                    spinning: [N::ZERO; 3],
-                    rise: turn.back_plain(link.axis, self.rise),
+                    spin: [N::zero(); 3],
+                    spinning: [N::zero(); 3],
+                    rise: turn.back_plain(hinge.axis, self.rise),
                 },
             };
-            let own = base.with(link.axis, rates[place], accelerations[place]);
-            let needs = own.needs(link);
+            let own = base.with(hinge.axis, rates[place], accelerations[place]);
+            let needs = own.needs(&self.links[place]);
             motion = Some(own);
             needs
         })
     }
-
-    fn of_joints<N: Number>(&self, axes: [N; JOINTS]) -> [N; JOINTS] {
-        match self.coupling {
-            Coupling::Serial => axes,
-            Coupling::Parallelogram => {
-                let [a, b, c, d, e, f] = axes;
-                [a, b, c - b, d, e, f]
-            }
-        }
-    }
-
-    /// Torques of joints as those of axes, by virtual work.
-    fn at_axes<N: Number>(&self, joints: [N; JOINTS]) -> [N; JOINTS] {
-        match self.coupling {
-            Coupling::Serial => joints,
-            Coupling::Parallelogram => {
-                let [a, b, c, d, e, f] = joints;
-                [a, b - c, c, d, e, f]
-            }
-        }
-    }
 }
 
 impl Link {
-    /// Bodies that a joint carries. The origins are that of the joint before, and its own.
-    fn new<'b>(
-        direction: DVec3,
-        [before, origin]: [DVec3; 2],
-        bodies: impl Iterator<Item = &'b Body>,
-    ) -> Self {
+    /// Bodies that a joint with this origin carries.
+    fn new<'b>(origin: DVec3, bodies: impl Iterator<Item = &'b Body>) -> Self {
         let (mut mass, mut moment, mut inertia) = (0.0, DVec3::ZERO, DMat3::ZERO);
         for body in bodies {
             mass += body.mass;
@@ -216,11 +181,18 @@ impl Link {
         }
         let [x, y, z] = [inertia.x_axis, inertia.y_axis, inertia.z_axis];
         Self {
-            axis: direction.to_array(),
-            offset: (origin - before).to_array(),
             mass,
             moment: moment.to_array(),
             inertia: [x.x, y.y, z.z, x.y, x.z, y.z],
+        }
+    }
+
+    /// What it needs to rise so.
+    #[inline]
+    fn hanging<N: Number>(&self, rise: Vector<N>) -> Wrench<N> {
+        Wrench {
+            force: rise.map(|part| part * self.mass),
+            moment: cross_plain(rise, self.moment).map(|part| -part),
         }
     }
 }
@@ -239,14 +211,14 @@ struct Motion<N> {
 impl<N: Number> Motion<N> {
     /// Of the frame at the next joint, as if that joint stood still.
     #[inline]
-    fn turned(&self, turn: Turn<N>, link: &Link) -> Self {
+    fn turned(&self, turn: Turn<N>, hinge: &Hinge) -> Self {
         let Self { spin, spinning, rise } = *self;
-        let round = cross(spin, cross_plain(spin, link.offset));
-        let rise = sum(rise, sum(cross_plain(spinning, link.offset), round));
+        let round = cross(spin, cross_plain(spin, hinge.offset));
+        let rise = sum(rise, sum(cross_plain(spinning, hinge.offset), round));
         Self {
-            spin: turn.back(link.axis, spin),
-            spinning: turn.back(link.axis, spinning),
-            rise: turn.back(link.axis, rise),
+            spin: turn.back(hinge.axis, spin),
+            spinning: turn.back(hinge.axis, spinning),
+            rise: turn.back(hinge.axis, rise),
         }
     }
 
@@ -269,16 +241,12 @@ impl<N: Number> Motion<N> {
     fn needs(&self, link: &Link) -> Wrench<N> {
         let Self { spin, spinning, rise } = *self;
         let round = cross(spin, cross_plain(spin, link.moment));
-        let force = sum(
-            rise.map(|part| part * link.mass),
-            sum(cross_plain(spinning, link.moment), round),
-        );
         let turning = symmetric(link.inertia, spinning);
         let gyration = cross(spin, symmetric(link.inertia, spin));
-        let hanging = cross_plain(rise, link.moment).map(|part| -part);
+        let hanging = link.hanging(rise);
         Wrench {
-            force,
-            moment: sum(sum(turning, gyration), hanging),
+            force: sum(hanging.force, sum(cross_plain(spinning, link.moment), round)),
+            moment: sum(sum(turning, gyration), hanging.moment),
         }
     }
 }
@@ -293,12 +261,12 @@ struct Wrench<N> {
 impl<N: Number> Wrench<N> {
     /// The same about the origin before a joint, seen from the frame there.
     #[inline]
-    fn turned(&self, turn: Turn<N>, link: &Link) -> Self {
-        let force = turn.out(link.axis, self.force);
-        let moment = turn.out(link.axis, self.moment);
+    fn turned(&self, turn: Turn<N>, hinge: &Hinge) -> Self {
+        let force = turn.out(hinge.axis, self.force);
+        let moment = turn.out(hinge.axis, self.moment);
         Self {
             force,
-            moment: sum(moment, cross_plain(force, link.offset).map(|part| -part)),
+            moment: sum(moment, cross_plain(force, hinge.offset).map(|part| -part)),
         }
     }
 
@@ -310,4 +278,4 @@ impl<N: Number> Wrench<N> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -139,7 +139,7 @@ impl<'m> Drives<'m> {
         let step = time.map(|time| time / motion.samples.len() as f64);
         let place = |(number, sample): (usize, &Sample)| {
             let turns = arm.turns(&sample.joints);
-            let weight = arm.weight_after(turns);
+            let weight = arm.weight_after(&turns);
             let moving = step.zip(motion.start).map(|(step, start)| {
                 let (rates, accelerations) = course(&start, &motion.samples, number, step);
                 arm.torques(&State {

@@ -50,7 +50,7 @@ fn rounded<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error>
     serializer.serialize_f64((value * 1e3).round() / 1e3 + 0.0)
 }
 
-fn word<S: Serializer>(backing: &Backing, serializer: S) -> Result<S::Ok, S::Error> {
+pub(crate) fn word<S: Serializer>(backing: &Backing, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(backing.word())
 }
 

@@ -1,18 +1,25 @@
-//! Dynamics: which torques an arm needs to carry out a program.
+//! Dynamics: which torques an arm needs to carry out a program, and how far the forces of its blades bend it.
 //!
 //! | File | What |
 //! | --- | --- |
-//! | [`arm`] | the arm as bodies, and the torques of a state |
-//! | [`body`] | masses |
-//! | [`drives`] | torques at places along a program |
-//! | [`figures`] | the most that each axis needs, for people and programs |
-//! | [`verdict`] | torques above limits |
+//! | `chain` | the joints of an arm, and how they move what they carry |
+//! | [`body`], [`arm`] | masses; the arm as bodies, and the torques of a state |
+//! | [`drives`], [`figures`], [`verdict`] | torques at places along a program; the most of each axis; those above limits |
+//! | `push`, `springs` | how the work pushes an edge, and how joints yield |
+//! | [`deviation`] | how far cuts are off, everywhere on them; its figures and limits |
+//! | `peaks` | the most of quantities along motions, proven |
 
 pub mod arm;
 pub mod body;
+mod chain;
+pub mod deviation;
 pub mod drives;
 pub mod figures;
+mod peaks;
+mod push;
+mod springs;
 mod vector;
 pub mod verdict;
 
+pub use push::Shift;
 pub use vector::{Number, Turn};

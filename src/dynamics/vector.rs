@@ -1,9 +1,9 @@
 //! Vectors of any kind of number, and how they turn.
 
 use core::ops::{Add, Mul, Neg, Sub};
-use vcutc_geometry::number::Interval;
+use vcutc_geometry::number::{Along, Interval};
 
-/// What torques are computed with: plain numbers, or enclosures of them.
+/// What torques are computed with: plain numbers, or enclosures of them in a place or along a way.
 pub trait Number:
     Copy
     + Add<Output = Self>
@@ -12,7 +12,12 @@ pub trait Number:
     + Mul<f64, Output = Self>
     + Neg<Output = Self>
 {
-    const ZERO: Self;
+    /// A plain number.
+    fn plain(number: f64) -> Self;
+
+    fn zero() -> Self {
+        Self::plain(0.0)
+    }
 
     /// With a plain number added.
     #[must_use]
@@ -20,7 +25,10 @@ pub trait Number:
 }
 
 impl Number for f64 {
-    const ZERO: Self = 0.0;
+    #[inline(always)]
+    fn plain(number: f64) -> Self {
+        number
+    }
 
     #[inline(always)]
     fn plus(self, constant: f64) -> Self {
@@ -29,11 +37,26 @@ impl Number for f64 {
 }
 
 impl Number for Interval {
-    const ZERO: Self = Self { low: 0.0, high: 0.0 };
+    #[inline(always)]
+    fn plain(number: f64) -> Self {
+        Self::exactly(number)
+    }
 
     #[inline(always)]
     fn plus(self, constant: f64) -> Self {
         self + Self::exactly(constant)
+    }
+}
+
+impl Number for Along {
+    #[inline(always)]
+    fn plain(number: f64) -> Self {
+        Self::constant(number)
+    }
+
+    #[inline(always)]
+    fn plus(self, constant: f64) -> Self {
+        Self::plus(self, constant)
     }
 }
 
@@ -110,6 +133,18 @@ impl Turn<f64> {
         Self {
             sine,
             versine: 1.0 - cosine,
+        }
+    }
+}
+
+impl Turn<Along> {
+    /// By an angle along a part of a motion.
+    #[must_use]
+    pub fn along(angle: Along) -> Self {
+        let (sine, cosine) = angle.sin_cos();
+        Self {
+            sine,
+            versine: (-cosine).plus(1.0),
         }
     }
 }

@@ -3,6 +3,7 @@
 //! An operation takes the kind that it cuts with, such as [`StraightBlade`], so nothing after the check asks which kind it has.
 
 use super::Sourced;
+use super::forces::Forces;
 use vcutc_backend_api::ir::{self, Edges, Shape, Straight};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length};
 use vcutc_diagnostics::source::Span;
@@ -95,6 +96,8 @@ pub struct StraightBlade {
     pub edges: Edges,
     /// The body above the edge; none if the job does not state it.
     pub body: Option<Body>,
+    /// What its edge pushes with; none if the job does not state it.
+    pub forces: Option<Forces>,
 }
 
 /// A thin circular knife. Its heights count from the plane of its edge, along the axis towards the shank.
@@ -236,6 +239,15 @@ impl<'b> BladeRef<'b> {
             Self::Straight(blade) => blade.body.as_ref(),
             Self::Disc(disc) => Some(&disc.body),
             Self::Crusher(crusher) => crusher.body.as_ref(),
+        }
+    }
+
+    /// What its edge pushes with; none if the job does not state it.
+    #[must_use]
+    pub const fn forces(self) -> Option<&'b Forces> {
+        match self {
+            Self::Straight(blade) => blade.forces.as_ref(),
+            Self::Disc(_) | Self::Crusher(_) => None,
         }
     }
 
@@ -383,6 +395,9 @@ impl StraightBlade {
         self.thickness.forget_place(place);
         if let Some(body) = &mut self.body {
             body.forget_places(place);
+        }
+        if let Some(forces) = &mut self.forces {
+            forces.forget_places(place);
         }
     }
 }

@@ -6,6 +6,7 @@
 mod blades;
 pub mod description;
 pub mod follow;
+pub mod forces;
 pub mod operation;
 mod places;
 mod regions;
@@ -149,8 +150,19 @@ pub struct Machine {
     pub spindle: Option<Sourced<u32>>,
     /// How readiness is known. Default: 0.5 s after switching on.
     pub ready: Sourced<Ready>,
+    /// Whether its control takes out how far its arm sags under its own weight; none where the job does not state it.
+    pub gravity: Option<Sourced<Gravity>>,
     /// Options for targets: one for each nested block such as `krl { ... }`.
     pub targets: Vec<TargetOptions>,
+}
+
+/// What a control does about the weight of its arm.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gravity {
+    /// It sets the axes so that the tool is where it should be, however the arm sags.
+    Compensated,
+    /// It leaves the arm to sag.
+    Uncompensated,
 }
 
 impl Machine {

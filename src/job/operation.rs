@@ -44,6 +44,11 @@ pub trait Operation: OperationValue + Any + Debug + Send + Sync {
         None
     }
 
+    /// How far the forces of its blade may push it off, if that is limited.
+    fn deviation_limit(&self) -> Option<Sourced<Length>> {
+        None
+    }
+
     /// The same operation so that it leaves less on the part, but no less than this along its normal, for one that takes off
     /// the rest; what changes the least comes first.
     fn leaving_less(&self, _least: Length) -> Vec<Variant> {

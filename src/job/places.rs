@@ -79,6 +79,7 @@ fn machine(machine: &mut Machine, place: Span) {
     optional(&mut machine.ultrasonic, place);
     optional(&mut machine.spindle, place);
     machine.ready.forget_place(place);
+    optional(&mut machine.gravity, place);
     for target in &mut machine.targets {
         options(target, place);
     }

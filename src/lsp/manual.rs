@@ -129,6 +129,8 @@ fn fields_table(block: &str) -> Option<usize> {
         "limits" => headed("| Limit |"),
         "change" => headed("| Field of `change` |"),
         "feed" => behind("`feed { ... }`", "| Field |"),
+        "forces" => headed("| Field of `forces` |"),
+        "measured" => headed("| Field of `measured` |"),
         "points" => headed("| Field of `points` |"),
         "airfoil" => headed("| Field of `airfoil` |"),
         "dxf" | "svg" => headed("| Field of `dxf` and `svg` |"),

@@ -272,6 +272,10 @@ fn words_that_enter_formulas_show_them() {
     let mut shown = 0;
     for spot in spots_of_fields() {
         let is_operations = spot.text.starts_with("rough vcut") || spot.text.starts_with("blade b {");
+        // How forces were measured enters no formula.
+        if spot.text.contains("measured {") {
+            continue;
+        }
         let row = manual::row(Table::Formulas, &spot.word);
         if let (Some(row), true) = (row, is_operations && spot.text[spot.at..].contains(['='])) {
             let text = explained(&spot).unwrap_or_default();

@@ -2,6 +2,7 @@
 //! by URDF all end as a [`Model`].
 
 pub mod catalogue;
+pub mod elasticity;
 pub mod facts;
 pub mod habits;
 pub mod kinematics;
@@ -18,6 +19,7 @@ pub use limit_places::LimitPlaces;
 pub use usual_home::usual_home;
 
 use crate::kinematics::Mechanism;
+use elasticity::Elasticity;
 use masses::{Masses, Torques};
 use path_limits::PathLimits;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
@@ -41,6 +43,8 @@ pub struct Model {
     pub masses: Option<Masses>,
     /// The torques of its drives, when known.
     pub torques: Option<Torques>,
+    /// How its joints yield, when known.
+    pub elasticity: Option<Elasticity>,
 }
 
 impl Model {

@@ -255,7 +255,8 @@ impl Masses {
     }
 }
 
-fn backing(table: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Backing {
+/// How far the numbers of a table are backed: by others, where it does not say.
+pub(super) fn backing(table: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Backing {
     let word = table.word("confidence", Backing::WORDS, faults);
     word.unwrap_or(Backing::Published)
 }

@@ -1,5 +1,6 @@
 //! The ranges of the numbers of a sheet.
 
+use core::ops::Bound;
 use vcutc_diagnostics::schema::dimension::Dimension;
 use vcutc_diagnostics::schema::range::Range;
 
@@ -26,6 +27,10 @@ pub(crate) const MASS: Range = Range::closed(Dimension::MASS, 0.0, 1e6);
 pub(crate) const INERTIA: Range = Range::closed(Dimension::PURE, -1e6, 1e6);
 /// Torques, in Nm.
 pub(crate) const TORQUE: Range = Range::closed(Dimension::PURE, 0.001, 1e7);
+/// Stiffnesses of joints, in Nm/rad.
+pub(crate) const STIFFNESS: Range = Range::closed(Dimension::PURE, 100.0, 1e9);
+/// By which share of itself a number may be off.
+pub(crate) const SPREAD: Range = Range::new(Dimension::PURE, Bound::Included(0.0), Bound::Excluded(1.0));
 /// Parts of a unit quaternion.
 pub(crate) const QUATERNION_PART: Range = Range::closed(Dimension::PURE, -1.0, 1.0);
 /// Tolerances, in the unit of their key.

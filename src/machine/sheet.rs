@@ -10,6 +10,7 @@ mod types;
 
 use super::LimitPlaces;
 use super::Model;
+use super::elasticity::{self, Elasticity};
 use super::facts::{self, Facts, FkCheck};
 use super::masses::{self, Masses, Torques};
 use super::path_limits::{self, PathLimits};
@@ -42,6 +43,8 @@ pub struct Sheet {
     pub masses: Option<Masses>,
     /// The torques of its drives, when stated.
     pub torques: Option<Torques>,
+    /// How its joints yield, when stated.
+    pub elasticity: Option<Elasticity>,
     /// For people.
     pub facts: Facts,
 }
@@ -98,6 +101,7 @@ const FIELDS: &[FieldSpec] = &[
     optional(path_limits::KEY),
     optional(masses::KEY),
     optional(masses::TORQUE_KEY),
+    optional(elasticity::KEY),
 ];
 
 /// How messages speak of sheets.
@@ -142,6 +146,7 @@ fn read(root: Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Sheet> {
         masses.check(root, arm.length(), faults);
     }
     let torques = Torques::read(root, faults);
+    let elasticity = Elasticity::read(root, faults);
     let missed = |check: &FkCheck| check.missed(&mechanism, &body.axes);
     faults.extend(facts.fk_checks.iter().filter_map(missed));
     Some(Sheet {
@@ -154,6 +159,7 @@ fn read(root: Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Sheet> {
         path,
         masses,
         torques,
+        elasticity,
         facts,
     })
 }
@@ -190,6 +196,7 @@ impl Sheet {
             path: self.path,
             masses: self.masses.clone(),
             torques: self.torques.clone(),
+            elasticity: self.elasticity.clone(),
         }
     }
 }

@@ -77,6 +77,7 @@ fn read(name: &str, file: FileId, text: &str, flange: Flange<'_>) -> Read<Model>
         path: PathLimits::UNKNOWN,
         masses: None,
         torques: None,
+        elasticity: None,
     })
 }
 

@@ -148,13 +148,14 @@ fn left_to_people(outcome: &Outcome) -> Vec<String> {
         .collect()
 }
 
-/// Page and sheet come from one list: what the page does not claim, the sheet leaves to a person, and nothing else.
+/// Page and sheet come from one list: what the page does not claim, the sheet leaves to a person, and nothing else. Of forces that
+/// nobody has measured it says nothing.
 fn assert_sheet_agrees(name: &str, outcome: &Outcome) {
     let left = left_to_people(outcome);
     let figures = compiled(outcome).checks.figures();
     let open: BTreeSet<&str> = figures
         .iter()
-        .filter(|figure| !figure.made)
+        .filter(|figure| !figure.made && figure.reason != Some("no_forces"))
         .map(|figure| figure.check)
         .collect();
     assert_eq!(left.len(), open.len(), "{name}: {left:#?} for {open:?}");

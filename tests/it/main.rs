@@ -37,6 +37,8 @@ mod finish_surface;
 #[cfg(feature = "krl")]
 mod five_axis;
 mod fmt;
+#[cfg(feature = "krl")]
+mod forces;
 #[cfg(all(feature = "gcode", feature = "krl"))]
 mod gcode;
 #[cfg(feature = "krl")]
@@ -95,7 +97,6 @@ mod serial_arm;
 mod shop;
 mod skim;
 mod slit;
-#[cfg(feature = "krl")]
 #[cfg(feature = "krl")]
 mod spine;
 mod status;

@@ -70,7 +70,7 @@ fn torques_that_are_not_known_are_named_as_not_checked() {
     ] {
         let outcome = compile(JOB, &small(model, load));
         let compiled = outcome.compiled.as_ref().expect("a program");
-        assert_eq!(compiled.torques, None, "{model}");
+        assert_eq!(compiled.dynamics.torques, None, "{model}");
         assert!(
             !compiled.summary.iter().any(|line| line.contains("torques")),
             "{model}"
@@ -103,7 +103,7 @@ fn weight_is_the_slope_of_height() {
         let flange = moved * linkage.flange_at_zero;
         sum + 14.5 * (flange.rotation.z_axis * 140.0 + flange.position).z
     };
-    let figures = compiled.torques.as_ref().expect("torques");
+    let figures = compiled.dynamics.torques.as_ref().expect("torques");
     let mut largest = [0.0_f64; 6];
     for end in &reached.program.motion().ends {
         for axis in 0..6 {
@@ -186,6 +186,7 @@ fn a_place_that_relieves_a_drive_is_offered() {
         .compiled
         .as_ref()
         .expect("a program")
+        .dynamics
         .torques
         .as_ref()
         .unwrap();

@@ -164,6 +164,18 @@ quantity! {
     kg / to_kg = 1.0;
 }
 quantity! {
+    /// A force; held in newtons.
+    Force,
+    /// Newtons.
+    n / to_n = 1.0;
+}
+quantity! {
+    /// A force on each length of an edge; held in N/mm.
+    EdgeForce,
+    /// Newtons a millimetre.
+    n_per_mm / to_n_per_mm = 1.0;
+}
+quantity! {
     /// An area in the x-z plane; held in mm2.
     Area,
     /// Square millimetres.

@@ -192,7 +192,7 @@ impl<'a> Watched<'a> {
             numbers: compiled.map(|compiled| &compiled.numbers),
             times: compiled.map(|compiled| &compiled.times),
             reach: compiled.and_then(|compiled| compiled.figures.as_ref()),
-            torques: compiled.and_then(|compiled| compiled.torques.as_ref()),
+            dynamics: compiled.map(|compiled| &compiled.dynamics),
             checks: compiled.map(|compiled| compiled.checks.clone()),
             parameters: compiled.map_or(&[], |compiled| &compiled.parameters),
             placed: &[],

@@ -37,6 +37,10 @@ impl Dimension {
     pub const SPEED: Self = Self::new(1, 0, -1, 0);
     /// A turning rate.
     pub const TURNING_RATE: Self = Self::new(0, 1, -1, 0);
+    /// A force.
+    pub const FORCE: Self = Self::new(1, 0, -2, 1);
+    /// A force on each length of an edge.
+    pub const EDGE_FORCE: Self = Self::new(0, 0, -2, 1);
 
     /// From the four exponents.
     pub const fn new(length: i8, angle: i8, time: i8, mass: i8) -> Self {
@@ -92,6 +96,8 @@ impl Dimension {
             (1, 0, -1, 0) => "a speed",
             (0, 1, -1, 0) => "a turning rate",
             (1, 0, -2, 0) => "an acceleration",
+            (1, 0, -2, 1) => "a force",
+            (0, 0, -2, 1) => "a force per length",
             _ => return format!("a quantity in {}", self.unit()),
         };
         name.to_owned()
@@ -99,8 +105,11 @@ impl Dimension {
 
     /// The unit that people use for it: `mm`, `deg`, `mm/s`; empty for a pure number.
     pub fn unit(self) -> String {
-        if self == Self::AREA {
-            return "mm2".to_owned();
+        match self {
+            Self::AREA => return "mm2".to_owned(),
+            Self::FORCE => return "N".to_owned(),
+            Self::EDGE_FORCE => return "N/mm".to_owned(),
+            _ => {}
         }
         let powers = [
             ("mm", self.length),
@@ -137,6 +146,10 @@ impl Dimension {
 
     /// How much one of [`Self::unit`] is in the units in which values are stored (mm, rad, s, kg).
     pub fn unit_size(self) -> f64 {
+        if matches!(self, Self::FORCE | Self::EDGE_FORCE) {
+            // A newton is 1 kg m/s2.
+            return 1000.0;
+        }
         match self.angle {
             0 => 1.0,
             1 => PI / 180.0,
@@ -155,6 +168,11 @@ mod tests {
         assert_eq!(Dimension::LENGTH.words(), "a length");
         assert_eq!(Dimension::TURNING_RATE.unit(), "deg/s");
         assert_eq!(Dimension::new(1, 0, -2, 0).unit(), "mm/s^2");
+        assert_eq!(Dimension::FORCE.unit(), "N");
+        assert_eq!(
+            Dimension::FORCE.over(Dimension::LENGTH),
+            Some(Dimension::EDGE_FORCE)
+        );
         assert_eq!(Dimension::new(0, 0, -1, 0).words(), "a quantity in 1/s");
         assert_eq!(Dimension::new(1, 1, -1, -2).unit(), "mm*deg/s/kg^2");
         assert_eq!(Dimension::PURE.unit(), "");

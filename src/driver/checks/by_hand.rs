@@ -12,6 +12,10 @@ impl Checks {
         let mut list: Vec<String> = Vec::new();
         for checked in self.iter() {
             if let Outcome::NotMade(reason) = checked.outcome {
+                // Where nobody has measured forces, the first part shows what they do, and other lines ask to measure it.
+                if reason == Reason::NoForces {
+                    continue;
+                }
                 let line = format!("{} ({}).", checked.check.by_hand(&unknown), reason.why_by_hand());
                 if !list.contains(&line) {
                     list.push(line);
@@ -59,6 +63,9 @@ impl Check {
             Self::Torques => {
                 "The drives give the torques that the program needs: watch the loads of the axes on the control"
             }
+            Self::Deviation => {
+                "The forces of the blade do not push it off by more than the part allows: measure the first part"
+            }
             Self::Accelerations => "Time of the first part: computed without speeding up and slowing down",
             Self::Holder(blades) => {
                 return format!(
@@ -89,6 +96,8 @@ impl Reason {
                 "the compiler looks at sections across the tracks, not at what lies between them"
             }
             Self::NoLoad => "the job does not state the load on the flange",
+            Self::NotComputed => "the compiler does not compute it for such a machine",
+            Self::NoForces => "not all blades state their forces",
             Self::PlacesOnly => {
                 "the compiler looks at places along the program, not at what lies between them"
             }
@@ -120,6 +129,7 @@ mod tests {
             Check::ElbowAngle,
             Check::Turns,
             Check::Torques,
+            Check::Deviation,
             Check::Accelerations,
             Check::Holder(Vec::new()),
             Check::Collisions,

@@ -29,6 +29,7 @@ impl Checks {
             | Check::BetweenSections
             | Check::AboveStock
             | Check::Torques
+            | Check::Deviation
             | Check::Accelerations
             | Check::Holder(_)
             | Check::Collisions

@@ -66,6 +66,11 @@ impl Checks {
         if self.is_made(&Check::AxisLimits) {
             parts.push(self.of_motions());
         }
+        if self.is_made(&Check::Deviation) {
+            parts.push(
+                "the forces of its blades push no flank off by more than the stated deviation".to_owned(),
+            );
+        }
         if self.is_made(&Check::ReadBack) {
             parts.push("the written text reads back as the same program".to_owned());
         }
@@ -161,6 +166,7 @@ impl Checks {
                     | Check::ElbowAngle
                     | Check::Turns
                     | Check::Torques
+                    | Check::Deviation
                     | Check::Accelerations
                     | Check::Holder(_)
                     | Check::Collisions
@@ -208,6 +214,7 @@ impl Check {
             Self::ElbowAngle => "elbow_angle",
             Self::Turns => "turns",
             Self::Torques => "torques",
+            Self::Deviation => "deviation",
             Self::Accelerations => "accelerations",
             Self::Holder(_) => "holder",
             Self::Collisions => "collisions",
@@ -232,6 +239,7 @@ impl Check {
             Self::ElbowAngle => "the angle between the arms, J3 - J2",
             Self::Turns => "the sweep of the edge where the blade turns beside the work",
             Self::Torques => "torques of the axes",
+            Self::Deviation => "how far the forces of the blade push it off",
             Self::Accelerations => "times with accelerations",
             Self::Holder(_) => "shank and holder of the blade",
             Self::Collisions => "collisions of the machine",
@@ -253,6 +261,8 @@ impl Reason {
             Self::NoReader => "no_reader",
             Self::SectionsOnly => "sections_only",
             Self::NoLoad => "no_load",
+            Self::NotComputed => "not_computed",
+            Self::NoForces => "no_forces",
             Self::PlacesOnly => "places_only",
         }
     }
@@ -269,6 +279,8 @@ impl Reason {
             Self::NoReader => "the target has no reader",
             Self::SectionsOnly => "sections are looked at, 10 mm apart or 200 of them",
             Self::NoLoad => "the job does not state the load on the flange",
+            Self::NotComputed => "not computed for such a machine",
+            Self::NoForces => "not all blades state their forces",
             Self::PlacesOnly => {
                 "places are looked at, at most 25 mm of the tip's way or 5 deg of turning apart"
             }

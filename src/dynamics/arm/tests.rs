@@ -8,7 +8,7 @@ use vcutc_backend_api::units::Mass;
 use vcutc_geometry::number::Interval;
 use vcutc_machine::catalogue;
 use vcutc_machine::kinematics::mounted::Mounted;
-use vcutc_machine::kinematics::opw::Opw;
+use vcutc_machine::kinematics::opw::{Coupling, Opw};
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_machine::kinematics::samples::irb2400;
 use vcutc_machine::kinematics::serial::{JointAxis, SerialArm};
@@ -88,8 +88,8 @@ fn every_sheet_with_masses_has_the_torques_of_pinocchio() {
     }
 }
 
-/// The arm of [Ha 2019], table 3, with masses that are made up: the paper has none.
-fn of_the_paper() -> Arm {
+/// The arm of [Ha 2019], table 3, with bodies whose masses are made up: the paper has none.
+pub(crate) fn parts_of_the_paper() -> (Mechanism, [Body; JOINTS]) {
     // a, d in m and the twist of each joint, and its body: mass, centre and principal inertias in the frame of Denavit and Hartenberg.
     let rows = [
         (
@@ -138,7 +138,12 @@ fn of_the_paper() -> Arm {
         (line, body)
     });
     let arm = SerialArm::new(placed.map(|(line, _)| line), frame).unwrap();
-    Arm::new(&Mechanism::Serial(arm), placed.map(|(_, body)| body), None, RISE).unwrap()
+    (Mechanism::Serial(arm), placed.map(|(_, body)| body))
+}
+
+fn of_the_paper() -> Arm {
+    let (mechanism, bodies) = parts_of_the_paper();
+    Arm::new(&mechanism, bodies, None, RISE).unwrap()
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! `blade NAME { ... }` and `blade NAME = KIND { ... }`.
 
 mod body;
+mod forces;
 mod kinds;
 
 pub(crate) use kinds::spec;
@@ -11,6 +12,7 @@ use super::heads::BladeHead;
 use super::read::Reader;
 use super::report::Checked;
 use super::session::Session;
+use crate::forces::Forces;
 use crate::{Blade, BladeKind, Crusher, Disc, Sourced, StraightBlade};
 use body::Edge;
 use kinds::EDGES;
@@ -26,15 +28,28 @@ pub(crate) fn check(
     session: &mut Session<'_>,
 ) -> Checked<Blade> {
     let fields = Fields::sort(spec(head.kind), place, &block.entries, session);
+    let pushing = match head.kind {
+        BladeKind::Straight => {
+            let given = fields.block("forces");
+            let span = fields.place_of("forces").unwrap_or(place.head);
+            given.and_then(|given| forces::check(given.map(|inner| (inner, span)), scope, session))
+        }
+        BladeKind::Disc | BladeKind::Crusher => Ok(None),
+    };
     let mut reader = Reader::new(scope, &mut session.reports);
     match head.kind {
-        BladeKind::Straight => straight(head, &fields, &mut reader).map(Blade::Straight),
+        BladeKind::Straight => straight(head, &fields, pushing, &mut reader).map(Blade::Straight),
         BladeKind::Disc => disc(head, &fields, &mut reader).map(Blade::Disc),
         BladeKind::Crusher => crusher(head, &fields, &mut reader).map(Blade::Crusher),
     }
 }
 
-fn straight(head: BladeHead<'_>, fields: &Fields<'_>, reader: &mut Reader<'_>) -> Checked<StraightBlade> {
+fn straight(
+    head: BladeHead<'_>,
+    fields: &Fields<'_>,
+    forces: Checked<Option<Forces>>,
+    reader: &mut Reader<'_>,
+) -> Checked<StraightBlade> {
     let cutting_length = reader.required(fields, "cutting_length");
     let half_apex = reader.required(fields, "half_apex");
     let thickness = reader.required(fields, "thickness");
@@ -50,6 +65,7 @@ fn straight(head: BladeHead<'_>, fields: &Fields<'_>, reader: &mut Reader<'_>) -
         thickness: thickness?,
         edges: edges?.value,
         body: body?,
+        forces: forces?,
     })
 }
 

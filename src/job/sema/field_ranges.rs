@@ -41,6 +41,16 @@ pub const LONGEST_TIME: Range = Range::positive(Dimension::TIME, 31_536_000.0);
 pub const MOST_CUTS: Range = Range::closed(Dimension::PURE, 1.0, 4_000_000.0);
 /// Masses on a flange.
 pub const MASS: Range = Range::closed(Dimension::MASS, 0.0, 10_000.0);
+/// Forces at the tip of a blade.
+pub const FORCE: Range = Range::closed(Dimension::FORCE, 0.0, 1e5);
+/// Forces on each millimetre of an edge.
+pub const EDGE_FORCE: Range = Range::closed(Dimension::EDGE_FORCE, 0.0, 1e4);
+/// By which share of itself a measured value may be off, either way.
+pub const SPREAD: Range = Range::new(Dimension::PURE, Bound::Included(0.0), Bound::Excluded(1.0));
+/// Swings of a blade, upright ones too.
+pub const SWING_OR_UPRIGHT: Range = Range::new(Dimension::ANGLE, Bound::Included(0.0), Bound::Excluded(90.0));
+/// Factors by which forces grow.
+pub const GROWTH: Range = Range::closed(Dimension::PURE, 1.0, 100.0);
 /// Factors by which a file's points are stretched.
 pub const SCALE: Range = Range::positive(Dimension::PURE, 1e6);
 /// Gaps between the lines of a drawing over which they are joined.

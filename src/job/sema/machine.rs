@@ -9,11 +9,11 @@ use super::heads::Head;
 use super::home::{self, JOINTS};
 use super::model;
 use super::options;
-use super::read::{Reader, default, sourced};
+use super::read::{Reader, default, sourced, words_of};
 use super::report::Checked;
 use super::session::{Described, Session};
 use super::tools;
-use crate::{Machine, Sourced};
+use crate::{Gravity, Machine, Sourced};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Load, PlacedFrame, Ready, Registered};
 use vcutc_backend_api::units::{Duration, Mass};
@@ -23,6 +23,10 @@ use vcutc_syntax::ast::{Block, Expr};
 
 pub(crate) const LOADS: &[(&str, &str)] = &[("load", LOAD), ("number", "number(2)")];
 const OUTPUTS: &[(&str, &str)] = &[("output", "output(12)")];
+const GRAVITY: &[(&str, Gravity)] = &[
+    ("compensated", Gravity::Compensated),
+    ("uncompensated", Gravity::Uncompensated),
+];
 const READY: &[(&str, &str)] = &[("input", "input(7)"), ("after", "after(0.5 s)")];
 pub(crate) const LOAD: &str = "load(mass = 8 kg, x = 0 mm, y = 0 mm, z = 120 mm)";
 
@@ -46,6 +50,7 @@ pub(crate) const SPEC: BlockSpec = BlockSpec {
         value("ultrasonic", "output(12)").takes(Takes::Calls(OUTPUTS)),
         value("spindle", "output(13)").takes(Takes::Calls(OUTPUTS)),
         value("ready", "after(0.5 s)").takes(Takes::Calls(READY)),
+        value("gravity", "compensated").takes(Takes::Words(|| words_of(GRAVITY))),
     ],
     inner: Inner::Machine {
         named: tools::TOOL,
@@ -105,6 +110,7 @@ pub(crate) fn check(
         return Err(reader.reports.push(one_output(generator, drive, place.head)));
     }
     let ready = optional(&fields, "ready", &mut reader, ready);
+    let gravity = reader.choice(&fields, "gravity", GRAVITY);
     let Described { model, limits } = model?;
     Ok(Machine {
         name: head.name.node.to_owned(),
@@ -119,6 +125,7 @@ pub(crate) fn check(
         ultrasonic: ultrasonic?,
         spindle: spindle?,
         ready: ready?.unwrap_or(default(Ready::After(SETTLED))),
+        gravity: gravity?,
         targets: targets?,
     })
 }

@@ -1,7 +1,7 @@
 //! Quantities: a number with its dimension, stored in mm, rad, s and kg.
 
 use super::dimension::Dimension;
-use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, Length, Mass, Speed};
+use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, EdgeForce, Force, Length, Mass, Speed};
 pub use vcutc_diagnostics::number::number;
 
 /// A number with its dimension.
@@ -96,8 +96,29 @@ measured! {
     Angle, ANGLE, Angle::rad, Angle::to_rad;
     Duration, TIME, Duration::s, Duration::to_s;
     Mass, MASS, Mass::kg, Mass::to_kg;
+    Force, FORCE, from_base_force, to_base_force;
+    EdgeForce, EDGE_FORCE, from_base_edge_force, to_base_edge_force;
     Speed, SPEED, Speed::mm_per_s, Speed::to_mm_per_s;
     AngularSpeed, TURNING_RATE, AngularSpeed::rad_per_s, AngularSpeed::to_rad_per_s;
+}
+
+/// One newton in kg mm/s2, and one newton a millimetre in kg/s2.
+const NEWTON: f64 = 1000.0;
+
+const fn from_base_force(value: f64) -> Force {
+    Force::n(value / NEWTON)
+}
+
+const fn to_base_force(force: Force) -> f64 {
+    force.to_n() * NEWTON
+}
+
+const fn from_base_edge_force(value: f64) -> EdgeForce {
+    EdgeForce::n_per_mm(value / NEWTON)
+}
+
+const fn to_base_edge_force(force: EdgeForce) -> f64 {
+    force.to_n_per_mm() * NEWTON
 }
 
 #[cfg(test)]

@@ -40,6 +40,8 @@ pub(super) const UNITS: &[Unit] = &[
     unit("h", "hour", 3600.0, Dimension::TIME),
     unit("g", "gram", 0.001, Dimension::MASS),
     unit("kg", "kilogram", 1.0, Dimension::MASS),
+    unit("N", "newton", 1000.0, Dimension::FORCE),
+    unit("kN", "kilonewton", 1e6, Dimension::FORCE),
     unit("%", "percent", 0.01, Dimension::PURE),
 ];
 
@@ -82,6 +84,8 @@ const ALIASES: &[(&str, &str)] = &[
     ("grams", "g"),
     ("kilogram", "kg"),
     ("kilograms", "kg"),
+    ("newton", "N"),
+    ("newtons", "N"),
     ("percent", "%"),
 ];
 
@@ -124,7 +128,10 @@ pub(super) fn spoken(name: &str) -> Option<String> {
 /// The units of a dimension: simple ones, and the quotients that people write.
 pub(super) fn fitting(dimension: Dimension) -> Vec<String> {
     let simple = UNITS.iter().map(|unit| unit.name);
-    let quotients = COMPOUND_ALIASES.iter().map(|(_, unit)| *unit).chain(["rad/s"]);
+    let quotients = COMPOUND_ALIASES
+        .iter()
+        .map(|(_, unit)| *unit)
+        .chain(["rad/s", "N/mm"]);
     simple
         .chain(quotients)
         .filter(|unit| quantity(1.0, unit).is_some_and(|one| one.dimension == dimension))
@@ -228,6 +235,11 @@ mod tests {
         assert_eq!(quantity(1.0, "rev"), quantity(360.0, "deg"));
         assert_eq!(quantity(3000.0, "rev/min"), quantity(18_000.0, "deg/s"));
         assert_eq!(quantity(30.0, "%"), Some(Quantity::pure(0.3)));
+        assert_eq!(quantity(1.0, "N").map(Quantity::text).as_deref(), Some("1 N"));
+        assert_eq!(
+            quantity(3.0, "kN/m").map(Quantity::text).as_deref(),
+            Some("3 N/mm")
+        );
         assert_eq!(quantity(5.0, "furlong"), None);
         assert_eq!(quantity(5.0, "mm/furlong"), None);
     }

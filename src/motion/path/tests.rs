@@ -128,6 +128,7 @@ fn made_up(arm: Opw, limits: [(f64, f64); 6]) -> Model {
         path: PathLimits::UNKNOWN,
         masses: None,
         torques: None,
+        elasticity: None,
     }
 }
 

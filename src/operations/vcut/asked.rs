@@ -84,6 +84,8 @@ pub struct Limits {
     pub chosen: Option<ChosenScallop>,
     /// Longest edge that a cut may use.
     pub edge: Option<Sourced<Length>>,
+    /// Farthest that a flank may be off for the forces of the blade.
+    pub deviation: Option<Sourced<Length>>,
     /// Longest time of the operation, as planned.
     pub time: Option<Sourced<Duration>>,
     /// Most V-cuts of the operation, as planned; at least 1.

@@ -119,7 +119,10 @@ impl Operation for RoughVcut {
         limits.swing.forget_places(place);
         limits.layer.forget_places(place);
         limits.step.forget_places(place);
-        for limit in [&mut limits.scallop, &mut limits.edge].into_iter().flatten() {
+        for limit in [&mut limits.scallop, &mut limits.edge, &mut limits.deviation]
+            .into_iter()
+            .flatten()
+        {
             limit.forget_place(place);
         }
         forget(&mut limits.time, place);
@@ -128,6 +131,10 @@ impl Operation for RoughVcut {
 
     fn scallop_limit(&self) -> Option<Sourced<Length>> {
         self.limits.scallop
+    }
+
+    fn deviation_limit(&self) -> Option<Sourced<Length>> {
+        self.limits.deviation
     }
 
     fn leaving_less(&self, least: Length) -> Vec<Variant> {

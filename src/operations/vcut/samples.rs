@@ -64,6 +64,7 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
                 thickness: mm(0.0),
                 edges: Edges::Double,
                 body: None,
+                forces: None,
             },
             tips: None,
             lattice: given(Auto::Given(Lattice::Orthogonal)),

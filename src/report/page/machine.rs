@@ -5,6 +5,7 @@ use super::{Section, Subject};
 use crate::html::{Column, Html, near, table, terms};
 use crate::pictures;
 use vcutc_diagnostics::number::show;
+use vcutc_dynamics::deviation::figures::{DeviationFigures, ShiftFigure, millimetres};
 use vcutc_dynamics::figures::TorqueFigures;
 use vcutc_motion::summary::{self as reach_summary, AxisFigure, ReachFigures, SingularFigure, margin_words};
 use vcutc_picture::Prefix;
@@ -36,8 +37,11 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     if !figures.singular.is_empty() {
         body += singular(figures);
     }
-    if let Some(figures) = &subject.material.compiled.torques {
+    if let Some(figures) = &subject.material.compiled.dynamics.torques {
         body += torques(figures);
+    }
+    if let Some(figures) = &subject.material.compiled.dynamics.deviation {
+        body += deviations(figures);
     }
     Some(Section {
         id: "machine",
@@ -90,6 +94,42 @@ fn torques(figures: &TorqueFigures) -> Html {
     let caption = format!(
         "Torques at programmed speeds, without cutting forces ({})",
         figures.backing()
+    );
+    table(&caption, &columns, rows)
+}
+
+/// How far the forces of the blades push cuts off, operation by operation.
+fn deviations(figures: &DeviationFigures) -> Html {
+    let columns = [
+        Column::Words("Operation"),
+        Column::Numbers("into the waste"),
+        Column::Words("at"),
+        Column::Numbers("into the part"),
+        Column::Words("at"),
+        Column::Numbers("limit"),
+    ];
+    let most = |shift: &ShiftFigure| Html::text(&millimetres(shift.most));
+    let place = |shift: &ShiftFigure| Html::text(&shift.words());
+    let rows = figures.operations.iter().map(|of| {
+        vec![
+            Html::text(&(of.operation + 1).to_string()),
+            most(&of.into_waste),
+            place(&of.into_waste),
+            most(&of.into_part),
+            place(&of.into_part),
+            of.limit.map_or_else(
+                || Html::text("none"),
+                |limit| Html::text(&format!("{} mm", show(limit))),
+            ),
+        ]
+    });
+    let lines = figures.lines();
+    let others = lines.iter().filter(|(name, _)| *name != "deviation");
+    let words: Vec<String> = others.map(|(name, text)| format!("{name}: {text}")).collect();
+    let caption = format!(
+        "Deviation of the flanks by the forces of the blade, at most; stiffness {}. {}",
+        figures.stiffness.word(),
+        words.join("; "),
     );
     table(&caption, &columns, rows)
 }

@@ -234,7 +234,7 @@ fn units_fit_the_dimension_of_their_place() {
         "rough vcut { layer = (2 |) / 3 }",
         "let any = 3 |",
     ] {
-        assert_eq!(tried.labels(piece).len(), 17, "{piece}");
+        assert_eq!(tried.labels(piece).len(), 19, "{piece}");
     }
     tried.process.end();
 }

@@ -1,8 +1,9 @@
 //! The tables of fields of the kinds of blades.
 
+use super::forces::FORCES;
 use crate::BladeKind;
 use crate::sema::field_ranges::{DISTANCE, HALF_APEX, RAMP, SIZE, SPIN};
-use crate::sema::fields::{BlockSpec, Inner, Takes, points, value};
+use crate::sema::fields::{BlockSpec, Inner, Takes, block, points, value};
 use crate::sema::read::words_of;
 use vcutc_backend_api::ir::Edges;
 
@@ -25,9 +26,13 @@ const STRAIGHT: BlockSpec = BlockSpec {
             .required()
             .takes(Takes::Words(|| words_of(EDGES))),
         points("body", "(40 mm, 8 mm) (90 mm, 30 mm)"),
+        block("forces", FORCES_SAMPLE).takes(Takes::Fields(&FORCES)),
     ],
     inner: Inner::Refused,
 };
+
+const FORCES_SAMPLE: &str = "{ drag = 1.0 N/mm, axial = 0.3 N/mm, side = 0.2 N/mm, spread = 30 %, \
+     measured { feed = 200 mm/s, rake = 60 deg, swing = 35 deg }, source = \"our dynamometer\" }";
 
 const DISC: BlockSpec = BlockSpec {
     title: "`disc`",

@@ -19,6 +19,7 @@ pub(super) const LIMITS: BlockSpec = BlockSpec {
         bounds("step", "8 mm").within(SIZE),
         limit("scallop", "10 mm").within(SIZE),
         limit("edge", "10 mm").within(SIZE),
+        limit("deviation", "0.2 mm").within(SIZE),
         limit("time", "10 min").within(LONGEST_TIME),
         limit("cuts", "200").within(MOST_CUTS),
     ],
@@ -37,6 +38,7 @@ pub(super) fn check(inner: Option<&Block>, scope: Scope<'_>, session: &mut Sessi
     let step = both(&fields, "step", &mut reader);
     let scallop = reader.optional(&fields, "scallop");
     let edge = reader.optional(&fields, "edge");
+    let deviation = reader.optional(&fields, "deviation");
     let time = reader.optional(&fields, "time");
     let cuts = reader.optional(&fields, "cuts");
     Ok(Limits {
@@ -46,6 +48,7 @@ pub(super) fn check(inner: Option<&Block>, scope: Scope<'_>, session: &mut Sessi
         scallop: scallop?,
         chosen: None,
         edge: edge?,
+        deviation: deviation?,
         time: time?,
         cuts: cuts?,
     })

@@ -139,6 +139,7 @@ prop_compose! {
             step: bounds(step),
             scallop: scallop.map(|value| given(Length::mm(value))),
             edge: edge.map(|value| given(Length::mm(value))),
+            deviation: None,
             time: None,
             cuts: cuts.map(given),
             chosen: None,

@@ -362,6 +362,7 @@ fn blades_of_a_job() {
         thickness: mm(1.5),
         edges: Edges::Double,
         body: None,
+        forces: None,
     };
     let knife = Knife::of(&dagger, Angle::deg(60.0), Auto::Auto, Cover::Uncut);
     assert_eq!(knife.standoff, Length::mm(0.75));

@@ -1,0 +1,128 @@
+//! `--emit dynamics`: the torques of the axes and the forces of the blade all along the program, as CSV.
+//!
+//! Rows are those of `--emit joints`. Columns: `op`, `operation`, `layer`, `cut`, `motion` and `done` as there; then of each axis
+//! its weight, what it needs to move, and both together in Nm, as the controller counts; and the share of its limit, empty where
+//! none is known. Where the forces of a blade and the stiffness of the arm are known, there follow how much edge is in the material at
+//! most, the force on the blade in the work, what each axis needs against it, and how far the flank is off along its normal at the tip
+//! and at the end of that edge, positive into the waste: all by the numbers as they are stated, and empty where nothing is cut.
+
+use super::joints::{HEADING, place};
+use std::io::{self, Write};
+use vcutc_backend_api::ir::Op;
+use vcutc_driver::dynamics::forces;
+use vcutc_dynamics::deviation::{Deviations, Known};
+use vcutc_dynamics::drives::{Drives, Torques};
+use vcutc_job::CheckedJob;
+use vcutc_machine::Model;
+use vcutc_motion::rigs::Rigs;
+use vcutc_motion::solve::Reached;
+use vcutc_motion::trajectory::{Sample, Spacing};
+use vcutc_simulation::prove::UsedEdge;
+
+/// Writes the rows of a machine whose torques are known, one after the other.
+pub(super) fn write(
+    job: &CheckedJob,
+    reached: &Reached,
+    edges: &[UsedEdge],
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let program = reached.program.program();
+    let (Some(machine), Some(cell)) = (&job.machine, &program.cell) else {
+        return Ok(());
+    };
+    let model = &machine.model;
+    let Ok(drives) = Drives::of(model, cell, program) else {
+        return Ok(());
+    };
+    let rigs = Rigs::of(model, cell, program);
+    let known = Known {
+        model,
+        reached: &reached.program,
+        rigs: &rigs,
+        edges,
+    };
+    let deviations = Deviations::of(known, &forces(job)).ok();
+    let columns = match deviations {
+        Some(_) => Forces::Known,
+        None => Forces::Unknown,
+    };
+    heading(model, columns, out)?;
+    drives.along(&reached.program, &Spacing::CLOSE, |sample, torques| {
+        let Some(op) = program.ops.get(sample.op.0 as usize) else {
+            return Ok(());
+        };
+        row(op, sample, torques, model, out)?;
+        if let Some(deviations) = &deviations {
+            pushed(deviations, sample, model, out)?;
+        }
+        writeln!(out)
+    })
+}
+
+/// Whether rows have the forces of blades.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Forces {
+    Known,
+    Unknown,
+}
+
+fn heading(model: &Model, forces: Forces, out: &mut dyn Write) -> io::Result<()> {
+    write!(out, "{HEADING}")?;
+    for axis in &model.axes {
+        let name = &axis.name;
+        write!(
+            out,
+            ",{name}_weight_nm,{name}_motion_nm,{name}_nm,{name}_of_limit"
+        )?;
+    }
+    if forces == Forces::Known {
+        write!(out, ",edge_mm,force_x_n,force_y_n,force_z_n")?;
+        for axis in &model.axes {
+            write!(out, ",{}_cutting_nm", axis.name)?;
+        }
+        write!(out, ",deviation_tip_mm,deviation_end_mm")?;
+    }
+    writeln!(out)
+}
+
+/// What pushes the blade in a place, and how far.
+fn pushed(
+    deviations: &Deviations<'_>,
+    sample: &Sample,
+    model: &Model,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let Some(there) = deviations.in_place(sample.op, sample.done, &sample.joints) else {
+        let columns = 6 + model.axes.len();
+        return write!(out, "{}", ",".repeat(columns));
+    };
+    // Adding zero turns a negative zero into zero.
+    let rounded = |value: f64, by: f64| (value * by).round() / by + 0.0;
+    write!(out, ",{:.3}", there.edge.to_mm())?;
+    for part in there.force.to_array().into_iter().chain(there.torques) {
+        write!(out, ",{:.3}", rounded(part, 1e3))?;
+    }
+    for shift in [there.shift.tip, there.shift.end] {
+        write!(out, ",{:.5}", rounded(shift, 1e5))?;
+    }
+    Ok(())
+}
+
+fn row(op: &Op, sample: &Sample, torques: &Torques, model: &Model, out: &mut dyn Write) -> io::Result<()> {
+    place(op, sample, out)?;
+    let parts = torques.weight.iter().zip(&torques.motion);
+    for (axis, (weight, motion)) in parts.enumerate().take(model.axes.len()) {
+        let all = torques.of(axis);
+        // Adding zero turns a negative zero into zero.
+        let [weight, motion, sum] = [*weight, *motion, all].map(|torque| (torque * 1e3).round() / 1e3 + 0.0);
+        write!(out, ",{weight:.3},{motion:.3},{sum:.3},")?;
+        let limit = model
+            .torques
+            .as_ref()
+            .and_then(|torques| torques.limits.get(axis));
+        if let Some(limit) = limit {
+            write!(out, "{:.4}", all.abs() / limit)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,204 @@
+//! What a program asks of the drives of its machine, and how far its forces bend it, as far as these are known.
+
+use crate::summary::row;
+use crate::{Compiled, Run, compile_checked};
+use std::collections::BTreeMap;
+use vcutc_cancellation::Wanted;
+use vcutc_diagnostics::source::SourceMap;
+use vcutc_diagnostics::{Diagnostic, Severity};
+use vcutc_dynamics::deviation::figures::{Asked, DeviationFigures};
+use vcutc_dynamics::deviation::{self, Known, verdict};
+use vcutc_dynamics::figures::TorqueFigures;
+use vcutc_dynamics::verdict::{above_limit, is_within_limits, relief};
+use vcutc_job::forces::Forces;
+use vcutc_job::{CheckedJob, Machine};
+use vcutc_motion::rigs::Rigs;
+use vcutc_motion::solve::Reached;
+use vcutc_remedy::base_nearer;
+
+/// How far the base is moved towards the arm where a drive is too weak, in mm.
+const NEARER: [f64; 8] = [50.0, 100.0, 150.0, 200.0, 300.0, 400.0, 500.0, 700.0];
+
+/// The forces of a program, and what they do.
+#[derive(Clone, Debug, Default)]
+pub struct Dynamics {
+    /// What it asks of the machine's drives, where that is known.
+    pub torques: Option<TorqueFigures>,
+    /// How far the forces of its blades push its cuts off, where that is known.
+    pub deviation: Option<DeviationFigures>,
+}
+
+/// Computes the torques of a program, and adds them to what is known of it.
+pub(crate) fn add_torques(job: &CheckedJob, compiled: &mut Compiled) {
+    let Some((machine, reached)) = carried(job, compiled) else {
+        return;
+    };
+    let figures = TorqueFigures::of(&machine.model, &reached.program);
+    let known = figures.as_ref().map(|_| ()).map_err(|why| *why);
+    let line = figures.as_ref().ok().and_then(TorqueFigures::line);
+    compiled.checks = compiled.checks.with_torques(known);
+    compiled.summary.extend(line.map(|line| row("torques", &line)));
+    compiled.dynamics.torques = figures.ok();
+}
+
+/// Computes how far forces push the cuts of a program off, and adds that to what is known of it. Returns the limits that nothing can
+/// check.
+pub(crate) fn add_deviations(job: &CheckedJob, compiled: &mut Compiled) -> Vec<Diagnostic> {
+    let Some((machine, reached)) = carried(job, compiled) else {
+        let limited = job.operations.iter();
+        let limits = limited.filter_map(|operation| {
+            let limit = operation.deviation_limit()?;
+            Some(verdict::without_machine(limit, operation.setup().head_span))
+        });
+        return limits.collect();
+    };
+    let figures = deviations(job, machine, reached, compiled);
+    let unchecked = unchecked(job, machine, &figures);
+    let known = figures.as_ref().map_err(|why| *why).and_then(|figures| {
+        if figures.operations.len() == job.operations.len() {
+            Ok(())
+        } else {
+            Err(deviation::Unknown::Forces)
+        }
+    });
+    let lines = figures
+        .as_ref()
+        .map_or_else(|_| Vec::new(), DeviationFigures::lines);
+    compiled.checks = compiled.checks.with_deviation(known);
+    compiled
+        .summary
+        .extend(lines.iter().map(|(name, text)| row(name, text)));
+    compiled.dynamics.deviation = figures.ok();
+    unchecked
+}
+
+fn deviations(
+    job: &CheckedJob,
+    machine: &Machine,
+    reached: &Reached,
+    compiled: &Compiled,
+) -> Result<DeviationFigures, deviation::Unknown> {
+    let program = reached.program.program();
+    let cell = program.cell.as_ref().ok_or(deviation::Unknown::ClosedForm)?;
+    let rigs = Rigs::of(&machine.model, cell, program);
+    let known = Known {
+        model: &machine.model,
+        reached: &reached.program,
+        rigs: &rigs,
+        edges: &compiled.report.edges,
+    };
+    let limits = job.operations.iter();
+    let limits: Vec<_> = limits
+        .map(|operation| operation.deviation_limit().map(|limit| limit.value))
+        .collect();
+    let asked = Asked {
+        forces: &forces(job),
+        limits: &limits,
+        gravity: machine.gravity.map(|gravity| gravity.value),
+    };
+    DeviationFigures::of(known, asked)
+}
+
+/// The forces of the blades of a job that state some, by their names.
+#[must_use]
+pub fn forces(job: &CheckedJob) -> BTreeMap<&str, &Forces> {
+    let blades = job.operations.iter().flat_map(|operation| operation.blades());
+    let stating = blades.filter_map(|blade| Some((blade.name(), blade.forces()?)));
+    stating.collect()
+}
+
+/// The limits of operations whose deviations are not known.
+fn unchecked(
+    job: &CheckedJob,
+    machine: &Machine,
+    figures: &Result<DeviationFigures, deviation::Unknown>,
+) -> Vec<Diagnostic> {
+    let limited = (0..).zip(&job.operations);
+    let unknown = limited.filter_map(|(number, operation): (u16, _)| {
+        let limit = operation.deviation_limit()?;
+        let why = match figures {
+            Ok(figures) if figures.operations.iter().any(|known| known.operation == number) => return None,
+            Ok(_) => deviation::Unknown::Forces,
+            Err(why) => *why,
+        };
+        let head = operation.setup().head_span;
+        Some(verdict::not_checked(why, limit, head, machine))
+    });
+    unknown.collect()
+}
+
+/// What there is to say of torques and deviations above their limits, and of forces that were measured otherwise.
+pub(crate) fn verdicts(
+    job: &CheckedJob,
+    compiled: &Compiled,
+    sources: &SourceMap,
+    run: &mut Run<'_>,
+) -> Vec<Diagnostic> {
+    let mut all: Vec<Diagnostic> = above_limits(job, compiled, sources, run).into_iter().collect();
+    let Some(figures) = &compiled.dynamics.deviation else {
+        return all;
+    };
+    all.extend(figures.operations.iter().filter_map(|of| {
+        let operation = job.operations.get(usize::from(of.operation))?;
+        let limit = operation.deviation_limit()?;
+        verdict::above_limit(figures, of, limit, operation.setup().head_span)
+    }));
+    let forces = forces(job);
+    all.extend(figures.elsewhere.iter().filter_map(|found| {
+        let forces = forces.get(found.blade.as_str())?;
+        Some(verdict::elsewhere(found, forces))
+    }));
+    all
+}
+
+/// Torques above the limits of drives. Of an error a place of the work that relieves them is looked for, while that is wanted.
+fn above_limits(
+    job: &CheckedJob,
+    compiled: &Compiled,
+    sources: &SourceMap,
+    run: &mut Run<'_>,
+) -> Option<Diagnostic> {
+    let machine = job.machine.as_ref()?;
+    let diagnostic = above_limit(compiled.dynamics.torques.as_ref()?, machine)?;
+    let advice = "use a lighter tool, lower speeds, or another place for the work";
+    if diagnostic.severity() != Severity::Error {
+        return Some(diagnostic.help(advice));
+    }
+    let wanted = run.patience.refused(core::slice::from_ref(&diagnostic), sources);
+    let relieved = relieving(job, &wanted);
+    Some(match relieved {
+        Some((change, figures)) => {
+            let title = format!("{}, where {}", change.advice, relief(&figures));
+            if change.edits.is_empty() {
+                diagnostic.help(title)
+            } else {
+                diagnostic.fix_all(title, &change.edits)
+            }
+        }
+        None => {
+            let diagnostic = diagnostic.help(advice);
+            match run.patience.cut_short().filter(|_| wanted.is_needless()) {
+                Some(words) => diagnostic.note(words),
+                None => diagnostic,
+            }
+        }
+    })
+}
+
+/// The nearest of some places of the work where no drive is too weak.
+fn relieving(job: &CheckedJob, wanted: &Wanted) -> Option<(vcutc_remedy::Change, TorqueFigures)> {
+    NEARER.into_iter().find_map(|by| {
+        if wanted.is_needless() {
+            return None;
+        }
+        let change = base_nearer(job, by)?;
+        let (_, there) = compile_checked(&change.job, wanted)?;
+        let (machine, reached) = carried(&change.job, &there)?;
+        let figures = TorqueFigures::of(&machine.model, &reached.program).ok()?;
+        is_within_limits(&figures).then_some((change, figures))
+    })
+}
+
+fn carried<'a>(job: &'a CheckedJob, compiled: &'a Compiled) -> Option<(&'a Machine, &'a Reached)> {
+    job.machine.as_ref().zip(compiled.program.reached())
+}

@@ -1,0 +1,315 @@
+//! The deviations of a program for people and for programs.
+
+use super::{Condition, Deviations, Extreme, Known, LargestForce, Unknown};
+use crate::figures::word;
+use serde::{Serialize, Serializer};
+use std::collections::BTreeMap;
+use vcutc_backend_api::ir::{OpId, OperationId};
+use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::number::{number, show};
+use vcutc_geometry::number::Interval;
+use vcutc_job::Gravity;
+use vcutc_job::forces::Forces;
+use vcutc_machine::masses::Backing;
+use vcutc_motion::describe::site_words;
+use vcutc_motion::summary::PlaceFigure;
+
+/// How far the forces of its blades push the cuts of a program off.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DeviationFigures {
+    pub force: ForceFigure,
+    /// Of the operations whose blades state their forces.
+    pub operations: Vec<OperationDeviation>,
+    /// How far the stiffness of the joints is backed.
+    #[serde(serialize_with = "word")]
+    pub stiffness: Backing,
+    /// What the weight of the arm does; none where its masses or the load are not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gravity: Option<GravityFigure>,
+    /// Cuts that differ from how the forces were measured, blade by blade.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub elsewhere: Vec<Elsewhere>,
+}
+
+/// The largest force on a blade, in N.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ForceFigure {
+    #[serde(serialize_with = "hundredths")]
+    pub force: f64,
+    #[serde(serialize_with = "hundredths")]
+    pub drag: f64,
+    #[serde(serialize_with = "hundredths")]
+    pub axial: f64,
+    #[serde(serialize_with = "hundredths")]
+    pub side: f64,
+    /// How much edge is in the material, in mm.
+    #[serde(serialize_with = "hundredths")]
+    pub edge: f64,
+    pub at: PlaceFigure,
+}
+
+/// How far the cuts of an operation are off at most.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct OperationDeviation {
+    /// Which, from 0.
+    pub operation: u16,
+    pub into_waste: ShiftFigure,
+    pub into_part: ShiftFigure,
+    /// How many times as much where the ultrasound fails, when that is stated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failed: Option<f64>,
+    /// The most that it may be, in mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit: Option<f64>,
+}
+
+/// The most that cuts are off to one side: nowhere more.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ShiftFigure {
+    /// In mm.
+    #[serde(serialize_with = "tenths_of_um")]
+    pub most: f64,
+    pub at: PlaceFigure,
+    /// The axis that yields most there.
+    pub axis: String,
+    /// Its share of what all axes yield.
+    #[serde(serialize_with = "hundredths")]
+    pub share: f64,
+}
+
+/// What the weight of the arm does to the flanks of the cuts.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct GravityFigure {
+    /// By how much the sag along the normals of the flanks changes over the cuts, at most, in mm.
+    #[serde(serialize_with = "tenths_of_um")]
+    pub change: f64,
+    pub counted: Counted,
+}
+
+/// Whether the change of sag is part of the deviation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Counted {
+    /// The control takes the sag out.
+    Compensated,
+    /// It does not: half of the change counts, either way.
+    Uncompensated,
+    /// The job does not state what the control does: it does not count.
+    NotStated,
+}
+
+/// A cut that is farthest from how the forces of its blade were measured.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Elsewhere {
+    pub blade: String,
+    pub cut: Condition,
+    pub at: PlaceFigure,
+}
+
+/// What figures are asked of.
+#[derive(Clone, Copy)]
+pub struct Asked<'a> {
+    /// The forces of blades, by their names.
+    pub forces: &'a BTreeMap<&'a str, &'a Forces>,
+    /// The limits of the operations, in order.
+    pub limits: &'a [Option<Length>],
+    pub gravity: Option<Gravity>,
+}
+
+pub(super) fn hundredths<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64((value * 100.0).round() / 100.0 + 0.0)
+}
+
+fn tenths_of_um<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64((value * 1e4).ceil() / 1e4 + 0.0)
+}
+
+impl DeviationFigures {
+    /// Of a program.
+    ///
+    /// # Errors
+    /// Why its deviations are not known.
+    pub fn of<'p>(known: Known<'p>, asked: Asked<'p>) -> Result<Self, Unknown> {
+        let deviations = Deviations::of(known, asked.forces)?;
+        let largest = deviations.largest_force().ok_or(Unknown::Forces)?;
+        let backing = known
+            .model
+            .elasticity
+            .as_ref()
+            .ok_or(Unknown::Elasticity)?
+            .backing;
+        let sag = deviations.sag();
+        if sag.is_none() && asked.gravity == Some(Gravity::Uncompensated) {
+            return Err(Unknown::Weight);
+        }
+        let gravity = sag.map(|sag| sagging(sag, asked.gravity));
+        let sag = Length::mm(gravity.map_or(0.0, GravityFigure::either_way));
+        let operations = (0..).map(OperationId).zip(asked.limits);
+        let operation = |(operation, limit): (OperationId, &Option<Length>)| {
+            let extremes = deviations.extremes(operation, limit.map(|limit| limit - sag))?;
+            Some(OperationDeviation {
+                operation: operation.0,
+                into_waste: shift(known, extremes.into_waste, sag),
+                into_part: shift(known, extremes.into_part, sag),
+                failed: failed(known, asked, operation),
+                limit: limit.map(Length::to_mm),
+            })
+        };
+        Ok(Self {
+            force: force(known, largest),
+            operations: operations.filter_map(operation).collect(),
+            stiffness: backing,
+            gravity,
+            elsewhere: deviations
+                .elsewhere(asked.forces)
+                .into_iter()
+                .map(|(blade, op, cut)| Elsewhere {
+                    blade,
+                    cut,
+                    at: place(known, op),
+                })
+                .collect(),
+        })
+    }
+
+    /// The lines of a summary: names and texts.
+    #[must_use]
+    pub fn lines(&self) -> Vec<(&'static str, String)> {
+        let mut lines = vec![("force", self.force.line())];
+        let worst = |side: fn(&OperationDeviation) -> &ShiftFigure| {
+            let all = self.operations.iter().map(side);
+            all.max_by(|one, other| one.most.total_cmp(&other.most))
+        };
+        if let (Some(waste), Some(part)) = (worst(|of| &of.into_waste), worst(|of| &of.into_part)) {
+            let failed = self.operations.iter().filter_map(|of| of.failed);
+            let failed = failed.reduce(f64::max).map_or_else(String::new, |times| {
+                format!(", {} times as much where the ultrasound fails", show(times))
+            });
+            let sag = self.gravity.map_or(0.0, GravityFigure::either_way);
+            let sag = if sag > 0.0 {
+                format!(", {} of it by the sag of the arm", millimetres(sag))
+            } else {
+                String::new()
+            };
+            lines.push((
+                "deviation",
+                format!(
+                    "{} into the waste ({}), {} into the part ({}), at most, by the forces of the blade{sag}{failed}; stiffness {}",
+                    millimetres(waste.most),
+                    waste.words(),
+                    millimetres(part.most),
+                    part.words(),
+                    self.stiffness.word(),
+                ),
+            ));
+        }
+        lines.extend(self.gravity.map(|gravity| ("gravity", gravity.line())));
+        lines
+    }
+}
+
+/// To a tenth of a micrometre, upward.
+#[must_use]
+pub fn millimetres(most: f64) -> String {
+    format!("{} mm", number((most * 1e4).ceil() / 1e4))
+}
+
+/// How many times as much the blades of an operation push where the ultrasound fails: the most of them.
+fn failed(known: Known<'_>, asked: Asked<'_>, operation: OperationId) -> Option<f64> {
+    let blades = known.reached.program().blades_of(operation);
+    let forces = blades.filter_map(|blade| asked.forces.get(blade.name.as_str()));
+    let failed = forces.filter_map(|forces| forces.failed.map(|times| times.value));
+    failed.reduce(f64::max)
+}
+
+fn place(known: Known<'_>, op: OpId) -> PlaceFigure {
+    let program = known.reached.program();
+    let words = program.op(op).map(|op| site_words(program, op.site));
+    PlaceFigure {
+        op: op.0,
+        words: words.unwrap_or_default(),
+    }
+}
+
+fn force(known: Known<'_>, largest: LargestForce) -> ForceFigure {
+    ForceFigure {
+        force: largest.force.to_n(),
+        drag: largest.parts.drag.to_n(),
+        axial: largest.parts.axial.to_n(),
+        side: largest.parts.side.to_n(),
+        edge: largest.edge.to_mm(),
+        at: place(known, largest.op),
+    }
+}
+
+fn shift(known: Known<'_>, extreme: Extreme, sag: Length) -> ShiftFigure {
+    let (axis, share) = extreme.softest;
+    ShiftFigure {
+        most: (extreme.most + sag).to_mm(),
+        at: place(known, extreme.op),
+        axis: known
+            .model
+            .axes
+            .get(axis)
+            .map_or_else(String::new, |axis| axis.name.clone()),
+        share,
+    }
+}
+
+fn sagging(sag: Interval, gravity: Option<Gravity>) -> GravityFigure {
+    GravityFigure {
+        change: sag.width(),
+        counted: match gravity {
+            Some(Gravity::Compensated) => Counted::Compensated,
+            Some(Gravity::Uncompensated) => Counted::Uncompensated,
+            None => Counted::NotStated,
+        },
+    }
+}
+
+impl GravityFigure {
+    /// What of it counts as deviation either way, in mm.
+    const fn either_way(self) -> f64 {
+        match self.counted {
+            Counted::Compensated | Counted::NotStated => 0.0,
+            Counted::Uncompensated => 0.5 * self.change,
+        }
+    }
+
+    fn line(self) -> String {
+        let counted = match self.counted {
+            Counted::Compensated => "not counted, as the control compensates it",
+            Counted::Uncompensated => "half of it counted either way",
+            Counted::NotStated => "not counted, as the machine does not state `gravity`",
+        };
+        format!(
+            "the sag of the arm along the normals of these flanks changes by up to {}; {counted}",
+            millimetres(self.change),
+        )
+    }
+}
+
+impl ForceFigure {
+    fn line(&self) -> String {
+        let [force, drag, axial, side] = [self.force, self.drag, self.axial, self.side]
+            .map(|newtons| show((newtons * 10.0).round() / 10.0));
+        format!(
+            "{force} N at most (parts: drag up to {drag}, axial {axial}, side {side}) at {}, on {} mm of edge",
+            self.at.words,
+            show((self.edge * 10.0).round() / 10.0),
+        )
+    }
+}
+
+impl ShiftFigure {
+    /// `layer 1, cut 4; 62 % of the push by A4`.
+    #[must_use]
+    pub fn words(&self) -> String {
+        format!(
+            "{}; {:.0} % of the push by {}",
+            self.at.words,
+            100.0 * self.share,
+            self.axis
+        )
+    }
+}

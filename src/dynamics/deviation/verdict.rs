@@ -1,0 +1,122 @@
+//! Deviations above limits, and forces that were measured otherwise, in words.
+
+use super::figures::{DeviationFigures, Elsewhere, OperationDeviation, ShiftFigure, millimetres};
+use super::{Condition, Unknown};
+use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::number::{number, show};
+use vcutc_diagnostics::source::Span;
+use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::forces::Forces;
+use vcutc_job::{Machine, Sourced};
+use vcutc_machine::masses::Backing;
+
+/// Whether the stiffness is that of the machine itself.
+const fn is_own(backing: Backing) -> bool {
+    matches!(backing, Backing::Measured | Backing::Maker)
+}
+
+/// What is wrong with the deviations of an operation, where they are above its limit: an error where the stiffness is that of the
+/// machine, and a warning where it is that of others.
+#[must_use]
+pub fn above_limit(
+    figures: &DeviationFigures,
+    operation: &OperationDeviation,
+    limit: Sourced<Length>,
+    head: Span,
+) -> Option<Diagnostic> {
+    let above = |side: &ShiftFigure| side.most > limit.value.to_mm();
+    let sides = [("part", &operation.into_part), ("waste", &operation.into_waste)];
+    let broken = sides.into_iter().filter(|(_, side)| above(side));
+    let (into, worst) = broken.max_by(|(_, one), (_, other)| one.most.total_cmp(&other.most))?;
+    let (code, indicative) = if is_own(figures.stiffness) {
+        (Code::DeviationAboveLimit, String::new())
+    } else {
+        (
+            Code::DeviationIndicative,
+            format!(". Indicative: the stiffness is {}", figures.stiffness.word()),
+        )
+    };
+    let diagnostic = Diagnostic::new(
+        code,
+        format!(
+            "the blade yields by up to {} into the {into} at {}, but its limit is {} mm{indicative}",
+            millimetres(worst.most),
+            worst.at.words,
+            number(limit.value.to_mm()),
+        ),
+        limit.span.unwrap_or(head),
+        format!("{:.0} % of the push by {}", 100.0 * worst.share, worst.axis),
+    );
+    let kept = f64::max(operation.into_part.most, operation.into_waste.most);
+    let kept = millimetres((kept * 100.0).ceil() / 100.0);
+    let diagnostic = diagnostic
+        .note("to lower it, use smaller layers, move the work nearer to the arm, or use a shorter tool");
+    Some(match limit.span {
+        Some(span) => diagnostic.fix(format!("`deviation <= {kept}` is kept"), span, kept),
+        None => diagnostic,
+    })
+}
+
+/// A limit on deviations that nothing can check.
+#[must_use]
+pub fn not_checked(why: Unknown, limit: Sourced<Length>, head: Span, machine: &Machine) -> Diagnostic {
+    let (name, place) = (&machine.model.name, machine.model_span);
+    let fault = |what: String| unchecked(limit, head, &what);
+    match why {
+        Unknown::Forces => fault("the blade of the operation states no forces".to_owned())
+            .help("measure them and state `forces { ... }` in the blade, or delete the limit"),
+        Unknown::Elasticity => fault(format!("`{name}` does not state how its joints yield"))
+            .and(place, "no `[elasticity]`")
+            .help("state `[elasticity]` in a sheet of your machine (docs/machines.md), or delete the limit"),
+        Unknown::Weight => {
+            fault("the weight of the arm counts, and its masses or its load are not known".to_owned())
+                .and(place, "with `gravity = uncompensated`")
+                .help("state `load` in the machine and `[dynamics]` in its sheet, or delete the limit")
+        }
+        Unknown::ClosedForm => fault(format!("`{name}` is not an arm with a spherical wrist"))
+            .and(place, "the machine")
+            .help("delete the limit"),
+    }
+}
+
+/// The same of a job without a machine.
+#[must_use]
+pub fn without_machine(limit: Sourced<Length>, head: Span) -> Diagnostic {
+    unchecked(limit, head, "the job has no machine")
+        .help("add the machine that carries the blade, or delete the limit")
+}
+
+fn unchecked(limit: Sourced<Length>, head: Span, why: &str) -> Diagnostic {
+    Diagnostic::new(
+        Code::DeviationUnknown,
+        format!("`deviation` cannot be checked: {why}"),
+        limit.span.unwrap_or(head),
+        "a limit that nothing checks",
+    )
+}
+
+/// A warning of cuts that are made otherwise than the forces were measured.
+#[must_use]
+pub fn elsewhere(found: &Elsewhere, forces: &Forces) -> Diagnostic {
+    let words = |condition: Condition| {
+        format!(
+            "{} mm/s, rake {} deg and swing {} deg",
+            show((condition.feed * 10.0).round() / 10.0),
+            show((condition.rake * 10.0).round() / 10.0),
+            show((condition.swing * 10.0).round() / 10.0),
+        )
+    };
+    Diagnostic::new(
+        Code::ForcesElsewhere,
+        format!(
+            "the forces of `{}` were measured at {}; {} is cut at {}",
+            found.blade,
+            words(Condition::of(&forces.measured)),
+            found.at.words,
+            words(found.cut),
+        ),
+        forces.span,
+        "used as they are",
+    )
+    .help("measure them as you cut")
+}

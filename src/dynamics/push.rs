@@ -1,0 +1,352 @@
+//! How the work pushes the edge of a blade.
+//!
+//! All directions are seen from the hand. They stay the same along a straight cut; on others they are those in the middle of a part of
+//! it, and what they are off by there is bounded.
+
+use crate::body::MILLIMETRES;
+use crate::chain::{Column, JOINTS};
+use crate::springs::Springs;
+use crate::vector::{Number, Vector};
+use glam::{DMat3, DVec3};
+use vcutc_backend_api::units::{Angle, Length};
+use vcutc_geometry::number::{Along, Interval};
+use vcutc_job::forces::{Forces, Parts};
+
+/// A plane that rises less than this across the work is upright: it has no upper side.
+const UPRIGHT: f64 = 1e-6;
+
+/// The blade in a cut: how it is held, and which way its tip goes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Posture {
+    /// The blade frame T in the work.
+    pub(crate) blade_in_work: DMat3,
+    /// T in the hand.
+    pub(crate) blade_in_hand: DMat3,
+    /// Which way its tip goes in the work, of length 1.
+    pub(crate) way: DVec3,
+    /// How far that way and the blade are turned away from this at most.
+    pub(crate) turns: Angle,
+    pub(crate) half_apex: Angle,
+    /// How much edge is in the material at most.
+    pub(crate) edge: Length,
+}
+
+/// What pushes an edge that is in the material up to a length of it, uniformly along that.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Push {
+    /// The length, in m.
+    edge: f64,
+    /// From the tip along the edge.
+    along_edge: Vector<f64>,
+    /// The normal of the blade's plane, into the waste.
+    pub(crate) normal: Vector<f64>,
+    pub(crate) sides: Sides,
+    drag: Force,
+    axial: Force,
+    side: Force,
+    /// How far the way of the tip may be off its direction, in rad.
+    turns: f64,
+}
+
+/// On which sides of the blade's plane the part may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sides {
+    /// Against the normal.
+    Known,
+    /// On either: the plane is upright.
+    Either,
+}
+
+/// A part of a force, in N: of all the edge, and at the tip.
+#[derive(Clone, Copy, Debug)]
+struct Force {
+    direction: Vector<f64>,
+    edge: Amount,
+    tip: Amount,
+}
+
+/// So much, and so much more or less.
+#[derive(Clone, Copy, Debug)]
+struct Amount {
+    centre: f64,
+    off: f64,
+}
+
+impl Force {
+    fn any(&self) -> Interval {
+        self.edge.any() + self.tip.any()
+    }
+
+    fn most(&self) -> f64 {
+        self.any().magnitude()
+    }
+}
+
+impl Amount {
+    fn of(force: f64, spread: f64) -> Self {
+        Self {
+            centre: force,
+            off: force * spread,
+        }
+    }
+
+    /// The same in either direction.
+    fn either_way(self) -> Self {
+        Self {
+            centre: 0.0,
+            off: self.centre + self.off,
+        }
+    }
+
+    fn any(self) -> Interval {
+        Interval::around(self.centre, self.off)
+    }
+}
+
+/// A displacement along the normal of an edge, in m: positive into the waste.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shift {
+    /// At the tip.
+    pub tip: f64,
+    /// At the end of the edge that is in the material.
+    pub end: f64,
+}
+
+impl Push {
+    /// The push on a blade whose edge has these forces.
+    pub(crate) fn new(forces: &Forces, held: &Posture) -> Self {
+        let work_in_blade = held.blade_in_work.transpose();
+        let way = work_in_blade * held.way;
+        let up = work_in_blade.z_axis;
+        let into_waste = if up.y < 0.0 { -DVec3::Y } else { DVec3::Y };
+        let sides = if up.y.abs() > held.turns.sin() + UPRIGHT {
+            Sides::Known
+        } else {
+            Sides::Either
+        };
+        let leading = if way.x < 0.0 { -DVec3::X } else { DVec3::X };
+        let (sine, cosine) = libm::sincos(held.half_apex.to_rad());
+        let in_hand = |direction: DVec3| (held.blade_in_hand * direction).to_array();
+        let Parts { drag, axial, side } = forces.edge;
+        let spread = forces.spread.value;
+        let force = |direction: DVec3, along: f64, tip: f64| Force {
+            direction: in_hand(direction),
+            edge: Amount::of(along * held.edge.to_mm(), spread),
+            tip: Amount::of(tip, spread),
+        };
+        let mut side = force(into_waste, side.to_n_per_mm(), forces.tip.side.to_n());
+        if sides == Sides::Either {
+            (side.edge, side.tip) = (side.edge.either_way(), side.tip.either_way());
+        }
+        Self {
+            edge: held.edge.to_mm() / MILLIMETRES,
+            along_edge: in_hand(leading * sine - DVec3::Z * cosine),
+            normal: in_hand(into_waste),
+            sides,
+            drag: force(-way, drag.to_n_per_mm(), forces.tip.drag.to_n()),
+            axial: force(-DVec3::Z, axial.to_n_per_mm(), forces.tip.axial.to_n()),
+            side,
+            turns: held.turns.to_rad(),
+        }
+    }
+
+    const fn forces(&self) -> [&Force; 3] {
+        [&self.drag, &self.axial, &self.side]
+    }
+
+    /// The force as it was measured, of the whole edge and the tip, seen from the hand, in N.
+    pub(crate) fn stated(&self) -> DVec3 {
+        let part =
+            |force: &Force| DVec3::from_array(force.direction) * (force.edge.centre + force.tip.centre);
+        self.forces().into_iter().map(part).sum()
+    }
+
+    /// The largest parts that it may have, in N: drag, axial and side.
+    pub(crate) fn largest(&self) -> Parts<f64> {
+        let [drag, axial, side] = self.forces().map(Force::most);
+        Parts { drag, axial, side }
+    }
+
+    /// The largest size that it may have, in N.
+    pub(crate) fn largest_size(&self) -> f64 {
+        // A size is convex: it is largest where all parts are at an end.
+        let corners = (0..8_u32).map(|corner| {
+            let parts = (0..).zip(self.forces()).map(|(place, force): (u32, &Force)| {
+                let any = force.any();
+                let end = if corner >> place & 1 == 0 {
+                    any.low
+                } else {
+                    any.high
+                };
+                DVec3::from_array(force.direction) * end
+            });
+            parts.sum::<DVec3>().length()
+        });
+        corners.fold(0.0, f64::max)
+    }
+
+    /// What a force pushes each axis with, in Nm for each N of it, where it acts so far up the edge.
+    fn torques<N: Number>(
+        &self,
+        columns: &[Column<N>; JOINTS],
+        direction: Vector<f64>,
+        up: f64,
+    ) -> [N; JOINTS] {
+        let arm = DVec3::from_array(self.along_edge) * up;
+        let moment = arm.cross(DVec3::from_array(direction)).to_array();
+        columns.map(|column| column.of(direction, moment))
+    }
+
+    /// How each axis moves the tip and the end of the edge along the normal, in m/rad.
+    pub(crate) fn normals<N: Number>(&self, columns: &[Column<N>; JOINTS]) -> [[N; JOINTS]; 2] {
+        [0.0, self.edge].map(|up| self.torques(columns, self.normal, up))
+    }
+
+    /// What the force as it was measured pushes each axis with, in Nm.
+    pub(crate) fn stated_torques(&self, columns: &[Column<f64>; JOINTS]) -> [f64; JOINTS] {
+        let mut all = [0.0; JOINTS];
+        for force in self.forces() {
+            let tip = self.torques(columns, force.direction, 0.0);
+            let edge = self.torques(columns, force.direction, 0.5 * self.edge);
+            for (axis, torque) in all.iter_mut().enumerate() {
+                *torque += force.tip.centre * tip[axis] + force.edge.centre * edge[axis];
+            }
+        }
+        all
+    }
+
+    /// What the force as it was measured shifts the edge by, by each axis.
+    pub(crate) fn shares(&self, columns: &[Column<f64>; JOINTS], springs: &Springs) -> [Shift; JOINTS] {
+        let [tips, ends] = self.normals(columns);
+        let torques = self.stated_torques(columns);
+        core::array::from_fn(|axis| {
+            let turned = springs.each()[axis].stated * torques[axis];
+            Shift {
+                tip: tips[axis] * turned,
+                end: ends[axis] * turned,
+            }
+        })
+    }
+
+    /// All shifts of any place of the edge while no more than its length is in the material, in the middle of a part of a cut and
+    /// everywhere on it. The forces and the springs may be anything within their spread.
+    ///
+    /// Whatever stretches of the edge are in the material, what pushes them amounts to one force somewhere on the edge, of at most
+    /// the whole. The place `s` up the edge then shifts by `tip(s) + t edge(s, m)`, with a share `t` from 0 to 1 and the place `m` of that force,
+    /// where `edge` is linear in `s` and in `m`: its extremes are at the ends of the edge.
+    pub(crate) fn shifts(&self, columns: &[Column<Along>; JOINTS], springs: &Springs) -> [Interval; 2] {
+        let normals = self.normals(columns);
+        let of = |force: fn(&Force) -> Amount, up: f64| {
+            let each = self.forces().map(|part| Pushed {
+                amount: force(part),
+                torques: self.torques(columns, part.direction, up),
+            });
+            normals.map(|normal| {
+                let [middle, everywhere] = self.shift(&normal, &each, springs);
+                [middle, everywhere + self.turned(columns, &normal, &each, springs)]
+            })
+        };
+        let tips = of(|force| force.tip, 0.0);
+        let edges = [0.0, self.edge].map(|up| of(|force| force.edge, up));
+        core::array::from_fn(|view| {
+            let place = |place: usize| {
+                let tip = tips[place][view];
+                let edge = edges[0][place][view].hull(edges[1][place][view]);
+                tip.hull(tip + edge)
+            };
+            // In the air nothing pushes.
+            place(0).hull(place(1)).hull(Interval::ZERO)
+        })
+    }
+
+    /// By how much torques at the axes shift the edge along the normal, at either end, in the middle of a part and everywhere on it.
+    pub(crate) fn shifts_by(
+        &self,
+        torques: &[Along; JOINTS],
+        columns: &[Column<Along>; JOINTS],
+        springs: &Springs,
+    ) -> [Interval; 2] {
+        let ends = self.normals(columns).map(|normal| {
+            let mut stated = Along::constant(0.0);
+            let mut off = [Interval::ZERO; 2];
+            for ((spring, normal), torque) in springs.each().iter().zip(normal).zip(torques) {
+                let each = normal * *torque;
+                stated = stated + each * spring.stated;
+                for (off, each) in off.iter_mut().zip(views(each)) {
+                    *off = *off + spring.off * each;
+                }
+            }
+            let [middle, everywhere] = views(stated);
+            [middle + off[0], everywhere + off[1]]
+        });
+        core::array::from_fn(|view| {
+            let both = ends[0][view].hull(ends[1][view]);
+            match self.sides {
+                Sides::Known => both,
+                Sides::Either => both.either_way(),
+            }
+        })
+    }
+
+    /// What forces shift a place by, whose shifts by each axis are these: in the middle of a part, and everywhere on it.
+    fn shift(&self, normal: &[Along; JOINTS], pushes: &[Pushed; 3], springs: &Springs) -> [Interval; 2] {
+        let zero = Along::constant(0.0);
+        let mut stated = zero;
+        let mut off = [Interval::ZERO; 2];
+        for push in pushes {
+            let mut yields = zero;
+            let mut softer = [Interval::ZERO; 2];
+            for ((spring, normal), torque) in springs.each().iter().zip(normal).zip(&push.torques) {
+                let each = *normal * *torque;
+                yields = yields + each * spring.stated;
+                for (softer, each) in softer.iter_mut().zip(views(each)) {
+                    *softer = *softer + spring.off * each;
+                }
+            }
+            stated = stated + yields * push.amount.centre;
+            let (any, radius) = (push.amount.any(), Interval::around(0.0, push.amount.off));
+            for ((off, softer), yields) in off.iter_mut().zip(softer).zip(views(yields)) {
+                *off = *off + any * softer + radius * yields;
+            }
+        }
+        let [middle, everywhere] = views(stated);
+        [middle + off[0], everywhere + off[1]]
+    }
+
+    /// What the forces may add where their directions are off.
+    fn turned(
+        &self,
+        columns: &[Column<Along>; JOINTS],
+        normal: &[Along; JOINTS],
+        pushes: &[Pushed; 3],
+        springs: &Springs,
+    ) -> Interval {
+        if self.turns == 0.0 {
+            return Interval::ZERO;
+        }
+        let force: f64 = pushes.iter().map(|push| push.amount.any().magnitude()).sum();
+        let each = columns.iter().zip(normal).zip(springs.each());
+        let yields = each.map(|((column, normal), spring)| {
+            // A force of 1 N anywhere on the edge pushes the axis with no more than this, and no direction is off by more than the turn.
+            let most = column.largest(self.edge);
+            let normal = normal.value().magnitude();
+            spring.any().magnitude() * most * (normal + self.turns * most)
+        });
+        // The normal is off as the forces are.
+        Interval::around(0.0, 2.0 * force * self.turns * yields.sum::<f64>())
+    }
+}
+
+/// A force and what it pushes each axis with, for each N.
+struct Pushed {
+    amount: Amount,
+    torques: [Along; JOINTS],
+}
+
+/// In the middle of a part, and everywhere on it.
+fn views(along: Along) -> [Interval; 2] {
+    [along.middle(), along.value()]
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,323 @@
+//! Pushes on the blade of a KR 210 whose stiffness was identified three times, against numbers that were computed with another
+//! program; and against the same arm with its springs wound up.
+
+use super::*;
+use crate::chain::Chain;
+use crate::springs::Spring;
+use core::f64::consts::FRAC_PI_2;
+use glam::DMat3;
+use proptest::prelude::*;
+use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
+use vcutc_backend_api::units::{EdgeForce, Speed};
+use vcutc_diagnostics::source::{SourceMap, Span};
+use vcutc_job::Sourced;
+use vcutc_job::forces::Measured;
+use vcutc_machine::kinematics::opw::{Coupling, Opw};
+use vcutc_machine::kinematics::pose::Pose;
+use vcutc_machine::kinematics::{Joints, Mechanism};
+
+/// The stiffnesses of one KR 210, as they were identified three times.
+const IDENTIFIED: [[f64; 6]; 3] = [
+    [2.2072e6, 3.3767e6, 2.7757e6, 2.3502e6, 2.1575e6, 0.4671e6],
+    [2.1998e6, 3.3789e6, 2.7761e6, 1.5055e6, 1.7028e6, 0.4646e6],
+    [1.8940e6, 3.3873e6, 2.8198e6, 3.3644e6, 1.6148e6, 0.4986e6],
+];
+
+/// The flange is where the wrist is; the tool's tip lies this far before it, in mm.
+const TOOL: f64 = 525.0;
+
+fn arm() -> Opw {
+    Opw {
+        a1: 350.0,
+        a2: 41.0,
+        b: 0.0,
+        c1: 675.0,
+        c2: 1150.0,
+        c3: 1200.0,
+        c4: 0.0,
+        offsets: [0.0, -FRAC_PI_2, 0.0, 0.0, 0.0, 0.0],
+        signs: [-1.0, 1.0, 1.0, -1.0, 1.0, -1.0],
+        coupling: Coupling::Serial,
+    }
+}
+
+fn stated<T>(value: T) -> Sourced<T> {
+    Sourced { value, span: None }
+}
+
+fn nowhere() -> Span {
+    let mut sources = SourceMap::default();
+    Span::of_bytes(sources.add("forces", ""), 0..0)
+}
+
+fn forces(spread: f64) -> Forces {
+    Forces {
+        span: nowhere(),
+        edge: Parts {
+            drag: EdgeForce::n_per_mm(1.0),
+            axial: EdgeForce::n_per_mm(0.3),
+            side: EdgeForce::n_per_mm(0.2),
+        },
+        tip: Parts::default(),
+        spread: stated(spread),
+        failed: None,
+        measured: Measured {
+            feed: stated(Speed::mm_per_s(200.0)),
+            rake: stated(Angle::deg(60.0)),
+            swing: stated(Angle::deg(34.155)),
+        },
+        source: "made up".to_owned(),
+    }
+}
+
+/// A flank of a V: -1 for the left one, 1 for the right one, seen along +y.
+fn flank(side: f64, swing: Angle, rake: Angle) -> DMat3 {
+    let shank = DVec3::new(
+        side * swing.sin() * rake.sin(),
+        rake.cos(),
+        swing.cos() * rake.sin(),
+    );
+    let normal = DVec3::new(-side * swing.cos(), 0.0, swing.sin());
+    DMat3::from_cols(normal.cross(-shank), normal, -shank)
+}
+
+struct Case {
+    chain: Chain,
+    joints: Joints,
+    columns: [Column<f64>; JOINTS],
+    push: Push,
+    /// The hand in the work.
+    rotation: DMat3,
+}
+
+/// The V of [Cui 2020], table 1, cut towards +y.
+fn case(side: f64, elbow: Elbow, spread: f64) -> Case {
+    let blade_in_work = flank(side, Angle::deg(34.155), Angle::deg(60.0));
+    let tip = DVec3::new(1800.0 + 42.5, -25.0 + 25.0, 700.0 + 20.0);
+    let tool = Pose {
+        rotation: DMat3::IDENTITY,
+        position: DVec3::new(0.0, 0.0, TOOL),
+    };
+    let flange = Pose {
+        rotation: blade_in_work,
+        position: tip,
+    } * tool.inverse();
+    let branch = Branch::Arm {
+        shoulder: Shoulder::Front,
+        elbow,
+        wrist: Wrist::Positive,
+    };
+    let joints = arm().on_branch(&flange, branch, &[0.0; 6]).unwrap();
+    of_posture(joints, blade_in_work, tool, &forces(spread), DVec3::Y)
+}
+
+fn of_posture(joints: Joints, blade_in_work: DMat3, tool: Pose, forces: &Forces, way: DVec3) -> Case {
+    let chain = Chain::of(&Mechanism::OrthoParallel(arm())).unwrap();
+    let hand = chain.in_hand(tool);
+    let posture = Posture {
+        blade_in_work,
+        blade_in_hand: hand.rotation,
+        way,
+        turns: Angle::ZERO,
+        half_apex: Angle::deg(7.13),
+        edge: Length::mm(10.0),
+    };
+    Case {
+        columns: chain.columns(&chain.turns(&joints), hand.position.to_array()),
+        push: Push::new(forces, &posture),
+        rotation: blade_in_work * hand.rotation.transpose(),
+        chain,
+        joints,
+    }
+}
+
+fn exact(stiffness: [f64; 6]) -> Springs {
+    Springs::of(stiffness.map(|stiffness| Spring {
+        stated: 1.0 / stiffness,
+        off: Interval::ZERO,
+    }))
+}
+
+/// Any of the springs that were identified, axis by axis.
+fn identified() -> Springs {
+    let [first, ..] = IDENTIFIED;
+    Springs::of(core::array::from_fn(|axis| {
+        let all = IDENTIFIED.map(|stiffness| 1.0 / stiffness[axis]);
+        let stated = 1.0 / first[axis];
+        Spring {
+            stated,
+            off: Interval {
+                low: all.into_iter().fold(f64::MAX, f64::min) - stated,
+                high: all.into_iter().fold(f64::MIN, f64::max) - stated,
+            },
+        }
+    }))
+}
+
+#[track_caller]
+fn assert_near(found: f64, wanted: f64, within: f64) {
+    assert!((found - wanted).abs() <= within, "{found} for {wanted}");
+}
+
+#[test]
+fn a_blade_that_is_pushed_moves_by_as_much_as_published() {
+    let Case {
+        columns,
+        push,
+        rotation,
+        ..
+    } = case(-1.0, Elbow::Forward, 0.3);
+    let force = rotation * push.stated();
+    for (found, wanted) in force.to_array().into_iter().zip([0.1964, -8.5, 3.2728]) {
+        assert_near(found, wanted, 1e-4);
+    }
+    // That program counts some axes the other way round.
+    let torques = push.stated_torques(&columns);
+    let wanted = [-15.6428, -4.8559, -2.6110, 2.2793, 3.2184, -0.0012];
+    for (axis, wanted) in wanted.into_iter().enumerate() {
+        assert_near(torques[axis].abs(), f64::abs(wanted), 1e-3);
+    }
+    let springs = exact(IDENTIFIED[0]);
+    let tip = |case: &Case| {
+        let shares = case.push.shares(&case.columns, &springs);
+        1e6 * shares.iter().map(|share| share.tip).sum::<f64>()
+    };
+    assert_near(tip(&case(-1.0, Elbow::Forward, 0.3)), 2.451, 1e-3);
+    assert_near(tip(&case(1.0, Elbow::Forward, 0.3)), 1.361, 1e-3);
+}
+
+#[test]
+fn forces_and_springs_within_their_spread_move_it_within_what_is_published() {
+    let tip = |side: f64| {
+        let Case {
+            chain, joints, push, ..
+        } = case(side, Elbow::Forward, 0.3);
+        let turns = chain.turns_along(joints.map(Along::constant));
+        let hand = chain.in_hand(Pose {
+            rotation: DMat3::IDENTITY,
+            position: DVec3::new(0.0, 0.0, TOOL),
+        });
+        let columns = chain.columns(&turns, hand.position.to_array());
+        let normals = push.normals(&columns);
+        let pushes = push.forces().map(|force| Pushed {
+            amount: force.edge,
+            torques: push.torques(&columns, force.direction, 0.5 * push.edge),
+        });
+        let [tip, end] = normals.map(|normal| push.shift(&normal, &pushes, &identified())[1]);
+        (1e6 * tip.hull(end).low, 1e6 * tip.hull(end).high)
+    };
+    // The published bounds are of boxes of forces, which hold more than forces whose parts are each within their spread.
+    for (side, [low, high]) in [(-1.0, [0.563, 4.280]), (1.0, [0.754, 2.076])] {
+        let (found_low, found_high) = tip(side);
+        assert!(low <= found_low && found_high <= high, "{found_low} {found_high}");
+        assert_near(found_low, low, 0.2);
+        assert_near(found_high, high, 0.2);
+    }
+}
+
+/// The shift along the normal for 1 N in the worst direction, in um.
+fn worst(case: &Case, stiffness: [f64; 6]) -> f64 {
+    let [tips, _] = case.push.normals(&case.columns);
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|direction| {
+        let torques = case.push.torques(&case.columns, direction.to_array(), 0.0);
+        let each = (0..JOINTS).map(|axis| tips[axis] * torques[axis] / stiffness[axis]);
+        each.sum::<f64>()
+    });
+    1e6 * DVec3::from_array(axes).length()
+}
+
+#[test]
+fn the_worst_direction_of_a_force_is_that_published() {
+    let forward = case(-1.0, Elbow::Forward, 0.3);
+    assert_near(worst(&forward, IDENTIFIED[0]), 1.2251, 1e-4);
+    let softer = [0.9339e6, 4.1293e6, 1.9075e6, 0.2332e6, 0.4044e6, 0.0796e6];
+    // Published for another set of angles of the same arm.
+    assert!(worst(&forward, softer) > worst(&forward, IDENTIFIED[0]));
+}
+
+proptest! {
+    /// With its springs wound up by the torques, the arm carries the tip as far along the normal as its shares say, but for
+    /// terms of the second order.
+    #[test]
+    fn shares_are_those_of_an_arm_whose_springs_are_wound_up(
+        joints in prop::array::uniform6(-1.0..1.0_f64),
+        size in 0.1..2.0_f64,
+        way in 0.0..6.3_f64,
+    ) {
+        let joints: Joints = core::array::from_fn(|axis| joints[axis] + [0.0, -1.4, 1.6, 0.3, 0.9, 0.0][axis]);
+        let tool = Pose { rotation: DMat3::from_rotation_y(0.7), position: DVec3::new(40.0, -25.0, 300.0) };
+        let blade_in_work = arm().forward(&joints).rotation * tool.rotation;
+        let way = blade_in_work * DVec3::new(libm::cos(way), 0.0, libm::sin(way));
+        let mut forces = forces(0.0);
+        forces.edge.drag = EdgeForce::n_per_mm(size);
+        let Case { columns, push, rotation, .. } = of_posture(joints, blade_in_work, tool, &forces, way);
+        let springs = exact(IDENTIFIED[0]);
+        let torques = push.stated_torques(&columns);
+        let wound: Joints = core::array::from_fn(|axis| joints[axis] + torques[axis] / IDENTIFIED[0][axis]);
+        let tip_of = |joints: &Joints, up: f64| {
+            let blade = arm().forward(joints) * tool;
+            let edge = blade.rotation * (blade_in_work.transpose() * rotation * DVec3::from_array(push.along_edge));
+            blade.position / MILLIMETRES + edge * up
+        };
+        let normal = rotation * DVec3::from_array(push.normal);
+        let shares = push.shares(&columns, &springs);
+        for (up, found) in [
+            (0.0, shares.iter().map(|share| share.tip).sum::<f64>()),
+            (0.01, shares.iter().map(|share| share.end).sum::<f64>()),
+        ] {
+            let moved = tip_of(&wound, up) - tip_of(&joints, up);
+            prop_assert!((moved.dot(normal) - found).abs() < 1e-9, "{} {found}", moved.dot(normal));
+        }
+    }
+
+    /// Whatever stretch of the edge is in the material, and whatever forces and springs are within their spread, every place of
+    /// the edge shifts by no more than the bounds.
+    #[test]
+    fn shifts_hold_samples(
+        parts in prop::array::uniform3(-1.0..1.0_f64),
+        soft in prop::array::uniform6(-1.0..1.0_f64),
+        from in 0.0..1.0_f64,
+        to in 0.0..1.0_f64,
+        up in 0.0..1.0_f64,
+        place in -1.0..1.0_f64,
+        (side, swing) in (prop::sample::select(vec![-1.0, 1.0]), 0.0..60.0_f64),
+        tip in 0.0..5.0_f64,
+    ) {
+        let spread = 0.3;
+        let joints: Joints = [0.1, -1.3, 1.5, 0.4, 0.8, 0.2];
+        let slopes: Joints = [0.05, 0.03, -0.04, 0.06, 0.02, -0.05];
+        let tool = Pose { rotation: DMat3::IDENTITY, position: DVec3::new(0.0, 0.0, TOOL) };
+        let blade_in_work = flank(side, Angle::deg(swing), Angle::deg(60.0));
+        let mut all = forces(spread);
+        all.tip.drag = vcutc_backend_api::units::Force::n(tip);
+        let Case { chain, push, .. } = of_posture(joints, blade_in_work, tool, &all, DVec3::Y);
+        let hand = chain.in_hand(tool);
+        let springs = Springs::from(&vcutc_machine::elasticity::Elasticity {
+            stiffness: IDENTIFIED[0],
+            spread: [0.2; 6],
+            backing: vcutc_machine::masses::Backing::Example,
+            sources: Vec::new(),
+        });
+        let along = core::array::from_fn(|axis| Along::line(joints[axis], slopes[axis]));
+        let columns = chain.columns(&chain.turns_along(along), hand.position.to_array());
+        let [_, bound] = push.shifts(&columns, &springs);
+
+        let here: Joints = core::array::from_fn(|axis| joints[axis] + slopes[axis] * place);
+        let columns = chain.columns(&chain.turns(&here), hand.position.to_array());
+        let (from, to) = (from.min(to), from.max(to));
+        let up = up * push.edge;
+        let normal = push.torques(&columns, push.normal, up);
+        let mut shift = 0.0;
+        for (force, part) in push.forces().into_iter().zip(parts) {
+            let amount = |amount: Amount| amount.centre + amount.off * part;
+            let tip = push.torques(&columns, force.direction, 0.0);
+            let edge = push.torques(&columns, force.direction, 0.5 * (from + to) * push.edge);
+            for axis in 0..JOINTS {
+                let stiffness = IDENTIFIED[0][axis] * (1.0 + 0.2 * soft[axis]);
+                let torque = amount(force.tip) * tip[axis] + (to - from) * amount(force.edge) * edge[axis];
+                shift += normal[axis] * torque / stiffness;
+            }
+        }
+        prop_assert!(bound.low <= shift && shift <= bound.high, "{shift} {bound:?}");
+    }
+}
