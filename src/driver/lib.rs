@@ -341,12 +341,12 @@ fn plan_and_prove(
     let ended = match routes::ended(made, job, &outcome.sources, run, progress) {
         Ended::Compiled(mut made) => {
             dynamics::add_torques(job, &mut made.compiled);
-            let mut told = dynamics::add_deviations(job, &mut made.compiled);
-            told.extend(dynamics::verdicts(job, &made.compiled, &outcome.sources, run));
+            let mut found = dynamics::add_deviations(job, &mut made.compiled);
+            found.extend(dynamics::verdicts(job, &made.compiled, &outcome.sources, run));
             let mut objections = target::objections(job, &made.compiled, request);
-            let (errors, warnings): (Vec<_>, Vec<_>) = told
+            let (errors, warnings): (Vec<_>, Vec<_>) = found
                 .into_iter()
-                .partition(|told| told.severity() == Severity::Error);
+                .partition(|diagnostic| diagnostic.severity() == Severity::Error);
             objections.extend(errors.into_iter().map(Into::into));
             made.warnings.extend(warnings);
             if objections.is_empty() {

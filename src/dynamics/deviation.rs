@@ -34,7 +34,7 @@ const LEAST: f64 = 1e-7;
 /// Why deviations are not known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unknown {
-    /// No blade of the job states its forces.
+    /// A blade of the job does not state its forces.
     Forces,
     /// The machine's description does not say how its joints yield.
     Elasticity,
@@ -64,8 +64,6 @@ pub struct Deviations<'p> {
     tips: Vec<[f64; 3]>,
     /// The arm with each tool, where its masses are known.
     arms: Option<Vec<Arm>>,
-    /// T of each tool in the hand.
-    blades: Vec<DMat3>,
     cuts: BTreeMap<OpId, Pushed<'p>>,
 }
 
@@ -125,11 +123,8 @@ struct Pushed<'p> {
     operation: OperationId,
     tool: ToolId,
     parts: u32,
-    line: LinearSegment,
-    half_apex: Angle,
+    cut: OnLine,
     forces: &'p Forces,
-    /// How much edge is in the material at most.
-    edge: Length,
     /// What pushes it in the middle of its way, and everywhere where neither way nor blade turns.
     push: Push,
 }
@@ -220,10 +215,8 @@ impl<'p> Deviations<'p> {
                     operation,
                     tool,
                     parts,
-                    line,
-                    half_apex: blade.half_apex,
+                    cut,
                     forces,
-                    edge,
                     push: Push::new(forces, &posture),
                 };
                 (segment.id, pushed)
@@ -233,7 +226,6 @@ impl<'p> Deviations<'p> {
             arms: arms(known.model, program),
             springs: Springs::from(springs),
             tips: hands.iter().map(|hand| hand.position.to_array()).collect(),
-            blades: hands.iter().map(|hand| hand.rotation).collect(),
             known,
             motions,
             chain,
@@ -291,7 +283,7 @@ impl<'p> Deviations<'p> {
                 },
             ])
         })?;
-        Some(Interval {
+        (high.most.is_finite() && low.most.is_finite()).then_some(Interval {
             low: -low.most * 1000.0,
             high: high.most * 1000.0,
         })
@@ -302,7 +294,7 @@ impl<'p> Deviations<'p> {
     pub fn largest_force(&self) -> Option<LargestForce> {
         let each = self.cuts.iter().map(|(op, pushed)| {
             let parts = pushed.push.largest();
-            (*op, pushed.edge, parts, pushed.push.largest_size())
+            (*op, pushed.cut.edge, parts, pushed.push.largest_size())
         });
         let (op, edge, parts, force) = each.reduce(|best, next| if next.3 > best.3 { next } else { best })?;
         Some(LargestForce {
@@ -318,7 +310,6 @@ impl<'p> Deviations<'p> {
     }
 
     /// Of each blade the cut that differs most from how its forces were measured, where that matters.
-    #[must_use]
     fn elsewhere(&self, forces: &BTreeMap<&str, &Forces>) -> Vec<(String, OpId, Condition)> {
         let program = self.known.reached.program();
         let mut farthest: BTreeMap<&str, (f64, OpId, Condition)> = BTreeMap::new();
@@ -352,10 +343,11 @@ impl<'p> Deviations<'p> {
         };
         let push = self.push_on(pushed, here)?;
         let shares = push.shares(&columns, &self.springs);
-        let hand_in_work = self.hand_in_work(pushed.tool, joints);
+        let blade_in_work = self.known.rigs.with(pushed.tool).blade_in_work(joints);
+        let hand_in_work = blade_in_work.rotation * pushed.cut.blade_in_hand.transpose();
         Some(InPlace {
-            edge: pushed.edge,
-            force: hand_in_work.rotation * push.stated(),
+            edge: pushed.cut.edge,
+            force: hand_in_work * push.stated(),
             torques: push.stated_torques(&columns).map(|torque| -torque),
             shift: Shift {
                 tip: 1000.0 * shares.iter().map(|share| share.tip).sum::<f64>(),
@@ -395,27 +387,15 @@ impl<'p> Deviations<'p> {
 
     /// What pushes the blade on a part of a cut.
     fn push_on(&self, pushed: &Pushed<'_>, part: Part) -> Option<Push> {
-        let cut = OnLine {
-            line: pushed.line,
-            half_apex: pushed.half_apex,
-            edge: pushed.edge,
-            blade_in_hand: *self.blades.get(usize::from(pushed.tool.0))?,
-        };
-        if cut.turns() == Angle::ZERO {
+        if pushed.cut.turns() == Angle::ZERO {
             return Some(pushed.push);
         }
-        let posture = cut.posture(self.known.reached.program(), part)?;
+        let posture = pushed.cut.posture(self.known.reached.program(), part)?;
         Some(Push::new(pushed.forces, &posture))
     }
 
     fn tip(&self, tool: ToolId) -> [f64; 3] {
         self.tips.get(usize::from(tool.0)).copied().unwrap_or_default()
-    }
-
-    fn hand_in_work(&self, tool: ToolId, joints: &Joints) -> Pose {
-        let rig = self.known.rigs.with(tool);
-        let blade_in_hand = self.chain.in_hand(rig.flange_in_blade.inverse());
-        rig.blade_in_work(joints) * blade_in_hand.inverse()
     }
 
     /// All shifts of the edge of a cut: in the middle of a part, and everywhere on it.
@@ -449,6 +429,7 @@ const WHOLE: Part = Part {
 struct OnLine {
     line: LinearSegment,
     half_apex: Angle,
+    /// How much edge is in the material at most.
     edge: Length,
     blade_in_hand: DMat3,
 }

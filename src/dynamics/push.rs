@@ -237,7 +237,7 @@ impl Push {
     pub(crate) fn shifts(&self, columns: &[Column<Along>; JOINTS], springs: &Springs) -> [Interval; 2] {
         let normals = self.normals(columns);
         let of = |force: fn(&Force) -> Amount, up: f64| {
-            let each = self.forces().map(|part| Pushed {
+            let each = self.forces().map(|part| Pushing {
                 amount: force(part),
                 torques: self.torques(columns, part.direction, up),
             });
@@ -267,17 +267,9 @@ impl Push {
         springs: &Springs,
     ) -> [Interval; 2] {
         let ends = self.normals(columns).map(|normal| {
-            let mut stated = Along::constant(0.0);
-            let mut off = [Interval::ZERO; 2];
-            for ((spring, normal), torque) in springs.each().iter().zip(normal).zip(torques) {
-                let each = normal * *torque;
-                stated = stated + each * spring.stated;
-                for (off, each) in off.iter_mut().zip(views(each)) {
-                    *off = *off + spring.off * each;
-                }
-            }
-            let [middle, everywhere] = views(stated);
-            [middle + off[0], everywhere + off[1]]
+            let yielded = Yielded::of(&normal, torques, springs);
+            let [middle, everywhere] = views(yielded.stated);
+            [middle + yielded.off[0], everywhere + yielded.off[1]]
         });
         core::array::from_fn(|view| {
             let both = ends[0][view].hull(ends[1][view]);
@@ -289,23 +281,15 @@ impl Push {
     }
 
     /// What forces shift a place by, whose shifts by each axis are these: in the middle of a part, and everywhere on it.
-    fn shift(&self, normal: &[Along; JOINTS], pushes: &[Pushed; 3], springs: &Springs) -> [Interval; 2] {
-        let zero = Along::constant(0.0);
-        let mut stated = zero;
+    fn shift(&self, normal: &[Along; JOINTS], pushes: &[Pushing; 3], springs: &Springs) -> [Interval; 2] {
+        let mut stated = Along::constant(0.0);
         let mut off = [Interval::ZERO; 2];
         for push in pushes {
-            let mut yields = zero;
-            let mut softer = [Interval::ZERO; 2];
-            for ((spring, normal), torque) in springs.each().iter().zip(normal).zip(&push.torques) {
-                let each = *normal * *torque;
-                yields = yields + each * spring.stated;
-                for (softer, each) in softer.iter_mut().zip(views(each)) {
-                    *softer = *softer + spring.off * each;
-                }
-            }
-            stated = stated + yields * push.amount.centre;
+            let yielded = Yielded::of(normal, &push.torques, springs);
+            stated = stated + yielded.stated * push.amount.centre;
             let (any, radius) = (push.amount.any(), Interval::around(0.0, push.amount.off));
-            for ((off, softer), yields) in off.iter_mut().zip(softer).zip(views(yields)) {
+            let each = yielded.off.into_iter().zip(views(yielded.stated));
+            for (off, (softer, yields)) in off.iter_mut().zip(each) {
                 *off = *off + any * softer + radius * yields;
             }
         }
@@ -318,7 +302,7 @@ impl Push {
         &self,
         columns: &[Column<Along>; JOINTS],
         normal: &[Along; JOINTS],
-        pushes: &[Pushed; 3],
+        pushes: &[Pushing; 3],
         springs: &Springs,
     ) -> Interval {
         if self.turns == 0.0 {
@@ -338,9 +322,34 @@ impl Push {
 }
 
 /// A force and what it pushes each axis with, for each N.
-struct Pushed {
+struct Pushing {
     amount: Amount,
     torques: [Along; JOINTS],
+}
+
+/// By how much torques at the axes shift a place along the normal.
+struct Yielded {
+    /// With the springs as they are stated.
+    stated: Along,
+    /// By how much it may differ from that: in the middle of a part, and everywhere on it.
+    off: [Interval; 2],
+}
+
+impl Yielded {
+    fn of(normal: &[Along; JOINTS], torques: &[Along; JOINTS], springs: &Springs) -> Self {
+        let mut all = Self {
+            stated: Along::constant(0.0),
+            off: [Interval::ZERO; 2],
+        };
+        for ((spring, normal), torque) in springs.each().iter().zip(normal).zip(torques) {
+            let each = *normal * *torque;
+            all.stated = all.stated + each * spring.stated;
+            for (off, each) in all.off.iter_mut().zip(views(each)) {
+                *off = *off + spring.off * each;
+            }
+        }
+        all
+    }
 }
 
 /// In the middle of a part, and everywhere on it.

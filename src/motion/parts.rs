@@ -5,19 +5,17 @@ use super::path::{ArmWay, Course, Part};
 use super::rigs::Rigs;
 use vcutc_backend_api::ir::OpId;
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_backend_api::segments::{LinearSegment, Path};
+use vcutc_backend_api::segments::Path;
 use vcutc_geometry::number::Along;
-use vcutc_machine::kinematics::Joints;
 
-/// A part of a course is at most this long at first, in mm, and the blade, or an axis that moves by itself, turns by at most
-/// [`FIRST_TURN`] on it.
+/// A part of a course is at most this long at first, in mm, and blade and way turn by at most [`FIRST_TURN`] on it.
 const FIRST_WAY: f64 = 250.0;
 /// In rad: 15 deg.
 const FIRST_TURN: f64 = core::f64::consts::PI / 12.0;
 /// Most parts of a motion at first.
 const MOST_PARTS: f64 = 4096.0;
 
-/// The motions of a program, each on its own.
+/// The lines and arcs of a program, each on its own.
 #[derive(Debug)]
 pub struct Motions<'p> {
     reached: &'p ReachableProgram,
@@ -25,17 +23,11 @@ pub struct Motions<'p> {
     paths: Vec<Path>,
 }
 
-/// What an op moves.
+/// A line or an arc that the arm follows.
 pub struct Moving<'p> {
-    axes: Axes<'p>,
+    way: ArmWay<'p>,
     /// Into how many parts it is divided at first.
     pub parts: u32,
-}
-
-enum Axes<'p> {
-    Carrying(ArmWay<'p>),
-    /// The axes move by themselves, from the first values to the second.
-    Themselves(Joints, Joints),
 }
 
 impl<'p> Motions<'p> {
@@ -48,33 +40,17 @@ impl<'p> Motions<'p> {
         }
     }
 
-    /// What an op moves; none of an op that moves nothing, whose start is not known, or whose arm has no closed form.
+    /// The line or the arc of an op; none of an op that has none, or whose arm has no closed form.
     #[must_use]
     pub fn moving(&self, op: OpId) -> Option<Moving<'p>> {
-        match self.paths.get(op.0 as usize)? {
-            Path::Still => None,
-            Path::Home | Path::Change | Path::Axes(_) => {
-                let start = self.reached.axes_before(op)?.0;
-                let end = self.reached.axes_after(op)?.0;
-                let pairs = start.iter().zip(&end);
-                let turn = pairs.fold(0.0, |most, (from, to)| f64::max(most, (to - from).abs()));
-                Some(Moving {
-                    axes: Axes::Themselves(start, end),
-                    parts: count(turn / FIRST_TURN),
-                })
-            }
-            Path::Linear(line) => self.carrying(op, line),
-        }
-    }
-
-    fn carrying(&self, op: OpId, line: &LinearSegment) -> Option<Moving<'p>> {
+        let line = self.paths.get(op.0 as usize)?.line()?;
         let course = Course::of(self.reached.program(), line)?;
         let branch = self.reached.branch_after(op)?;
         let way = ArmWay::new(self.rigs.during(op), &course, branch)?;
         let turn = line.arc().map_or(0.0, |arc| arc.sweep().to_rad());
         let turn = turn.max(line.turn.to_rad()) / FIRST_TURN;
         Some(Moving {
-            axes: Axes::Carrying(way),
+            way,
             parts: count(turn.max(line.length().to_mm() / FIRST_WAY)),
         })
     }
@@ -95,12 +71,6 @@ impl Moving<'_> {
     /// is too long to say.
     #[must_use]
     pub fn axes_on(&self, part: Part) -> Option<[Along; 6]> {
-        match &self.axes {
-            Axes::Carrying(way) => way.axes_on(part),
-            Axes::Themselves(from, to) => Some(core::array::from_fn(|axis| {
-                let way = to[axis] - from[axis];
-                Along::line(from[axis] + way * part.middle, way * part.half)
-            })),
-        }
+        self.way.axes_on(part)
     }
 }

@@ -148,8 +148,8 @@ fn left_to_people(outcome: &Outcome) -> Vec<String> {
         .collect()
 }
 
-/// Page and sheet come from one list: what the page does not claim, the sheet leaves to a person, and nothing else. Of forces that
-/// nobody has measured it says nothing.
+/// Page and sheet come from one list: what the page does not claim, the sheet leaves to a person, and nothing else. The sheet
+/// does not list forces that are not stated.
 fn assert_sheet_agrees(name: &str, outcome: &Outcome) {
     let left = left_to_people(outcome);
     let figures = compiled(outcome).checks.figures();

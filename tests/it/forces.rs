@@ -342,7 +342,7 @@ fn a_limit_that_is_passed_is_an_error_with_one_that_is_kept() {
     let passed = outcome
         .diagnostics
         .iter()
-        .find(|told| told.code == Code::DeviationAboveLimit);
+        .find(|diagnostic| diagnostic.code == Code::DeviationAboveLimit);
     let passed = passed.expect("an error");
     assert_eq!(passed.severity(), Severity::Error);
     let mended = compile(JOB, &fixed(&files, &outcome, &passed.fixes[0]));
@@ -362,6 +362,6 @@ fn a_limit_without_a_machine_is_not_silently_kept() {
         outcome
             .diagnostics
             .iter()
-            .any(|told| told.code == Code::DeviationUnknown)
+            .any(|diagnostic| diagnostic.code == Code::DeviationUnknown)
     );
 }

@@ -12,7 +12,7 @@ impl Checks {
         let mut list: Vec<String> = Vec::new();
         for checked in self.iter() {
             if let Outcome::NotMade(reason) = checked.outcome {
-                // Where nobody has measured forces, the first part shows what they do, and other lines ask to measure it.
+                // Forces that are not stated cannot be compared. Other lines ask to measure the first part, which shows their effect.
                 if reason == Reason::NoForces {
                     continue;
                 }

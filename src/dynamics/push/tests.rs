@@ -4,7 +4,6 @@
 use super::*;
 use crate::chain::Chain;
 use crate::springs::Spring;
-use core::f64::consts::FRAC_PI_2;
 use glam::DMat3;
 use proptest::prelude::*;
 use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
@@ -12,8 +11,9 @@ use vcutc_backend_api::units::{EdgeForce, Speed};
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_job::Sourced;
 use vcutc_job::forces::Measured;
-use vcutc_machine::kinematics::opw::{Coupling, Opw};
+use vcutc_machine::kinematics::opw::Opw;
 use vcutc_machine::kinematics::pose::Pose;
+use vcutc_machine::kinematics::samples::kr210;
 use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// The stiffnesses of one KR 210, as they were identified three times.
@@ -28,16 +28,10 @@ const TOOL: f64 = 525.0;
 
 fn arm() -> Opw {
     Opw {
-        a1: 350.0,
-        a2: 41.0,
-        b: 0.0,
-        c1: 675.0,
         c2: 1150.0,
         c3: 1200.0,
         c4: 0.0,
-        offsets: [0.0, -FRAC_PI_2, 0.0, 0.0, 0.0, 0.0],
-        signs: [-1.0, 1.0, 1.0, -1.0, 1.0, -1.0],
-        coupling: Coupling::Serial,
+        ..kr210()
     }
 }
 
@@ -199,7 +193,7 @@ fn forces_and_springs_within_their_spread_move_it_within_what_is_published() {
         });
         let columns = chain.columns(&turns, hand.position.to_array());
         let normals = push.normals(&columns);
-        let pushes = push.forces().map(|force| Pushed {
+        let pushes = push.forces().map(|force| Pushing {
             amount: force.edge,
             torques: push.torques(&columns, force.direction, 0.5 * push.edge),
         });
