@@ -3,8 +3,8 @@
 use crate::krl_text;
 use crate::pipeline::{all_diagnostics, compile, compile_on, emit, emit_for, fixed, numbers, told};
 #[cfg(feature = "gcode")]
-use crate::shop::{DIALECTS, NOT_IN, folder_for, has_words_for};
-use crate::shop::{FAILING, NOT_ON, Pairing, compiling, folder, jobs};
+use crate::shop::{DIALECTS, NOT_IN, compiled_for, has_words_for};
+use crate::shop::{FAILING, NOT_ON, Pairing, compiled, compiling, folder, jobs};
 use std::collections::BTreeSet;
 use vcutc::registry;
 
@@ -34,12 +34,12 @@ fn examples_compile_for_every_machine_and_target() {
     let mut programs = 0;
     for (name, pairings) in compiling() {
         for Pairing { machine, target } in pairings {
-            let outcome = compile_on(machine, &name, &folder());
-            assert_eq!(told(&outcome.diagnostics, &outcome), "", "{name} on {machine:?}");
+            let outcome = compiled(machine, &name);
+            assert_eq!(told(&outcome.diagnostics, outcome), "", "{name} on {machine:?}");
             for backend in registry::backends() {
-                let refused = emit_for(backend, &outcome).err().unwrap_or_default();
+                let refused = emit_for(backend, outcome).err().unwrap_or_default();
                 if backend.id() == target {
-                    assert_eq!(told(&refused, &outcome), "", "{name} on {machine:?}");
+                    assert_eq!(told(&refused, outcome), "", "{name} on {machine:?}");
                     programs += 1;
                 } else {
                     assert_eq!(
@@ -64,23 +64,18 @@ fn examples_compile_for_every_machine_and_target() {
 fn examples_compile_for_every_dialect_of_g_code() {
     let mut programs = 0;
     for &(dialect, _) in DIALECTS {
-        let files = folder_for(dialect);
         for (name, pairings) in compiling() {
             for Pairing { machine, .. } in pairings.iter().filter(|pairing| pairing.target == "gcode") {
-                let outcome = compile_on(*machine, &name, &files);
+                let outcome = compiled_for(dialect, *machine, &name);
                 let target = registry::backend("gcode").unwrap();
                 if !has_words_for(dialect, &name) {
                     let found = numbers(&outcome.diagnostics);
                     assert_eq!(found, ["VC0605"], "{name} for {dialect}");
                     continue;
                 }
-                let refused = emit_for(target, &outcome).err().unwrap_or_default();
-                assert_eq!(told(&outcome.diagnostics, &outcome), "", "{name} on {machine:?}");
-                assert_eq!(
-                    told(&refused, &outcome),
-                    "",
-                    "{name} on {machine:?} for {dialect}"
-                );
+                let refused = emit_for(target, outcome).err().unwrap_or_default();
+                assert_eq!(told(&outcome.diagnostics, outcome), "", "{name} on {machine:?}");
+                assert_eq!(told(&refused, outcome), "", "{name} on {machine:?} for {dialect}");
                 programs += 1;
             }
         }

@@ -4,8 +4,7 @@
 //! Which mutants are made follows from the text alone, so that every run makes the same ones. What stands in comments is
 //! left alone, and so are mutants that read the same, such as two equal lines swapped.
 
-use crate::pipeline::compile_on;
-use crate::shop::{self, Pairing, compiling, folder, folder_for, has_words_for};
+use crate::shop::{self, Pairing, compiled, compiled_for, compiling, has_words_for};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
@@ -278,13 +277,12 @@ fn examples() -> Vec<Example> {
 impl Example {
     /// Runs all mutants; returns how many there were, and those that were not found.
     fn tried(&self) -> (usize, Vec<String>) {
-        let files = match self.target {
-            "gcode" => folder_for(self.dialect.name),
-            _ => folder(),
+        let outcome = match self.target {
+            "gcode" => compiled_for(self.dialect.name, self.machine, &self.job),
+            _ => compiled(self.machine, &self.job),
         };
         let backend = registry::backend(self.target).unwrap();
-        let outcome = compile_on(self.machine, &self.job, &files);
-        let written = driver::write(&outcome, backend).unwrap().unwrap();
+        let written = driver::write(outcome, backend).unwrap().unwrap();
         let reached = outcome.compiled.as_ref().unwrap().program.reached();
         let (job, plan) = (outcome.job.as_ref(), outcome.plan.as_ref());
         let reader = backend.reader().unwrap();

@@ -1,9 +1,9 @@
 //! Pictures of jobs: what they show is what the report says, they stay within their sheets, and those in the documentation are
 //! true.
 
-use crate::pipeline::{compile, compile_on};
+use crate::pipeline::compile;
 use crate::repository::{read, root};
-use crate::shop::{compiling, folder};
+use crate::shop::{compiled, compiling, folder};
 use std::collections::BTreeSet;
 use std::fs;
 use vcutc::driver::Outcome;
@@ -117,8 +117,8 @@ fn is_of_vs((example, _): &(String, Vec<crate::shop::Pairing>)) -> bool {
 fn chips_add_up_to_what_is_removed() {
     // Strips are no chips of a V, and pockets free none.
     for (example, pairings) in compiling().into_iter().filter(is_of_vs) {
-        let outcome = compile_on(pairings[0].machine, &example, &folder());
-        let material = Material::of(&outcome).unwrap();
+        let outcome = compiled(pairings[0].machine, &example);
+        let material = Material::of(outcome).unwrap();
         let program = material.compiled.program.verified();
         let mut all = Vec::new();
         let (last, _) = prove::watched(program, &verdict::bounds(material.plan), &mut |_, _, taken| {
@@ -146,14 +146,14 @@ fn chips_add_up_to_what_is_removed() {
 #[test]
 fn what_is_marked_is_what_the_report_says() {
     for (example, pairings) in compiling() {
-        let outcome = compile_on(pairings[0].machine, &example, &folder());
-        let material = Material::of(&outcome).unwrap();
+        let outcome = compiled(pairings[0].machine, &example);
+        let material = Material::of(outcome).unwrap();
         let report = &material.compiled.report;
         let scallop = report.scallop.height.to_mm();
         let marked = format!("{scallop:.2} mm");
         for what in ["contour", "deviation"] {
             assert!(
-                picture(what, &outcome, Prefix::NONE).contains(&marked),
+                picture(what, outcome, Prefix::NONE).contains(&marked),
                 "{example} {what}"
             );
         }
@@ -164,7 +164,7 @@ fn what_is_marked_is_what_the_report_says() {
         assert!(report.largest_deviation() >= report.scallop.height);
         let share = format!(">{:.4} at lag ", report.correlation);
         assert!(
-            picture("correlation", &outcome, Prefix::NONE).contains(&share),
+            picture("correlation", outcome, Prefix::NONE).contains(&share),
             "{example}"
         );
     }
@@ -176,9 +176,9 @@ fn what_is_marked_is_what_the_report_says() {
 fn pictures_stay_within_their_sheets() {
     // The lattice shows a strip by the centre of its disc, which may run beside the stock and the sheet.
     for (example, pairings) in compiling().into_iter().filter(is_of_vs) {
-        let outcome = compile_on(pairings[0].machine, &example, &folder());
+        let outcome = compiled(pairings[0].machine, &example);
         for what in ALL {
-            assert_within_its_sheet(&example, what, &outcome);
+            assert_within_its_sheet(&example, what, outcome);
         }
     }
     let outcome = outcome("bent_hill");
@@ -254,14 +254,14 @@ fn maps_are_of_parts_that_change_along_y() {
 #[test]
 fn every_colour_is_another_one_in_the_dark() {
     for (example, pairings) in compiling() {
-        let outcome = compile_on(pairings[0].machine, &example, &folder());
-        let page = vcutc::report::page::page(&outcome, vcutc::report::page::Further::NOTHING).unwrap();
+        let outcome = compiled(pairings[0].machine, &example);
+        let page = vcutc::report::page::page(outcome, vcutc::report::page::Further::NOTHING).unwrap();
         let (_, dark) = page
             .split_once("(prefers-color-scheme: dark) {\n.view svg")
             .unwrap();
         let (dark, _) = dark.split_once("</style>").unwrap();
         for what in ALL {
-            assert_dark(&example, what, &outcome, dark);
+            assert_dark(&example, what, outcome, dark);
         }
     }
     let outcome = outcome("bent_hill");

@@ -2,9 +2,9 @@
 //!
 //! The readers here are made for these tests: base64 by arithmetic, matrices as lists of rows.
 
-use crate::pipeline::{Files, compile, compile_on};
+use crate::pipeline::{Files, compile};
 use crate::repository::read;
-use crate::shop::{compiling, folder};
+use crate::shop::{compiled, compiling, folder};
 use serde_json::Value;
 use std::convert::Infallible;
 use vcutc::driver::Outcome;
@@ -126,9 +126,9 @@ fn counted(site: Site) -> (u16, u32, u32) {
 
 #[test]
 fn a_page_says_every_op_of_the_program() {
-    for (job, _) in compiling() {
-        let outcome = compile(&job, &folder());
-        let data = data(&shown(&outcome));
+    for (job, pairings) in compiling() {
+        let outcome = compiled(pairings[0].machine, &job);
+        let data = data(&shown(outcome));
         let columns = &data["timeline"];
         let kinds = bytes(&columns["kinds"]);
         let operations = numbers(&columns["operations"], u16::from_le_bytes);
@@ -140,7 +140,7 @@ fn a_page_says_every_op_of_the_program() {
         let vias = numbers(&columns["arcs"]["vias"], i32::from_le_bytes);
         let seconds = numbers(&columns["seconds"], f64::from_le_bytes);
         let times = &outcome.compiled.as_ref().unwrap().op_times;
-        let program = program(&outcome);
+        let program = program(outcome);
         assert_eq!(kinds.len(), program.ops.len(), "{job}");
         for (i, segment) in program.segments().enumerate() {
             let (op, pose) = (segment.op, segment.end());
@@ -176,12 +176,12 @@ fn a_page_says_every_op_of_the_program() {
 fn axes_are_told_again_all_along_the_program() {
     for (job, pairings) in compiling() {
         for pairing in pairings {
-            let outcome = compile_on(pairing.machine, &job, &folder());
-            let knots = knots(&data(&shown(&outcome))["cell"]);
+            let outcome = compiled(pairing.machine, &job);
+            let knots = knots(&data(&shown(outcome))["cell"]);
             let reached = outcome.compiled.as_ref().unwrap().program.reached().unwrap();
-            let cell = program(&outcome).cell.as_ref().unwrap();
+            let cell = program(outcome).cell.as_ref().unwrap();
             let machine = outcome.job.as_ref().unwrap().machine.as_ref().unwrap();
-            let rigs = Rigs::of(&machine.model, cell, program(&outcome));
+            let rigs = Rigs::of(&machine.model, cell, program(outcome));
             let taken: Result<(), Infallible> =
                 trajectory(&reached.program, &rigs, &Spacing::CLOSE, |sample| {
                     let told = between(&knots[sample.op.0 as usize], sample.done);
@@ -275,10 +275,10 @@ fn tip(cell: &Value, axes: &[f64], tool: usize) -> [f64; 3] {
 fn the_pages_machine_brings_the_blade_where_the_program_has_it() {
     for (job, pairings) in compiling() {
         for pairing in pairings {
-            let outcome = compile_on(pairing.machine, &job, &folder());
-            let data = data(&shown(&outcome));
+            let outcome = compiled(pairing.machine, &job);
+            let data = data(&shown(outcome));
             let reached = outcome.compiled.as_ref().unwrap().program.reached().unwrap();
-            for segment in program(&outcome).segments() {
+            for segment in program(outcome).segments() {
                 let number = segment.id.0;
                 let (Some(pose), Some(axes)) = (segment.end(), reached.program.axes_after(segment.id)) else {
                     continue;
@@ -297,14 +297,14 @@ fn the_pages_machine_brings_the_blade_where_the_program_has_it() {
 
 #[test]
 fn ten_thousand_cuts_take_less_than_twelve_megabytes() {
-    for (job, _) in compiling() {
-        let outcome = compile(&job, &folder());
-        let page = shown(&outcome);
+    for (job, pairings) in compiling() {
+        let outcome = compiled(pairings[0].machine, &job);
+        let page = shown(outcome);
         let (_, rest) = page.split_once("id=\"vcut-playback-data\">").unwrap();
         let size = rest.split_once("</script>").unwrap().0.len();
         let cuts = outcome.compiled.as_ref().unwrap().report.cuts();
         let follows = |action: &Action| action.kind() == ActionKind::Follow;
-        let poses = program(&outcome)
+        let poses = program(outcome)
             .ops
             .iter()
             .filter(|op| follows(&op.action))

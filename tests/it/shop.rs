@@ -1,7 +1,10 @@
 //! The examples' shop: its jobs, its machines, and the controls that its gantries may have.
 
-use crate::pipeline::Files;
+use crate::pipeline::{Files, compile_on};
 use crate::repository::{files, root};
+use std::collections::BTreeMap;
+use std::sync::{Mutex, OnceLock};
+use vcutc::driver::Outcome;
 
 /// The examples that are meant to fail, with the codes they show.
 pub(crate) const FAILING: &[(&str, &[&str])] = &[
@@ -147,4 +150,37 @@ pub(crate) fn folder_for(dialect: &str) -> Files {
         all = all.with(name, text);
     }
     all
+}
+
+/// Examples that were compiled: for a control of gantries, on a machine, by name.
+type Compiled = BTreeMap<(Option<String>, Option<String>, String), &'static OnceLock<Outcome>>;
+
+/// An example on one of its machines. Many tests look at the same ones, and to compile them takes most of their time: a run of
+/// the tests compiles each once, and keeps it.
+pub(crate) fn compiled(machine: Option<&str>, job: &str) -> &'static Outcome {
+    compiled_once(None, machine, job)
+}
+
+/// As [`compiled`], with gantries under that control.
+pub(crate) fn compiled_for(dialect: &str, machine: Option<&str>, job: &str) -> &'static Outcome {
+    compiled_once(Some(dialect), machine, job)
+}
+
+fn compiled_once(dialect: Option<&str>, machine: Option<&str>, job: &str) -> &'static Outcome {
+    static COMPILED: Mutex<Compiled> = Mutex::new(BTreeMap::new());
+    let key = (
+        dialect.map(str::to_owned),
+        machine.map(str::to_owned),
+        job.to_owned(),
+    );
+    // The lock is free again before the example is compiled, so that other ones can be compiled at the same time.
+    let cell: &'static OnceLock<Outcome> = COMPILED
+        .lock()
+        .unwrap()
+        .entry(key)
+        .or_insert_with(|| Box::leak(Box::default()));
+    cell.get_or_init(|| {
+        let files = dialect.map_or_else(folder, folder_for);
+        compile_on(machine, job, &files)
+    })
 }

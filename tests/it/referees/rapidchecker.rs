@@ -4,8 +4,8 @@
 //! digits, the first: every form of line that they have, and not every line.
 
 use super::is_there;
-use crate::pipeline::{compile_on, emit_for};
-use crate::shop::{Pairing, compiling, folder};
+use crate::pipeline::emit_for;
+use crate::shop::{Pairing, compiled, compiling};
 use std::collections::BTreeSet;
 use std::fs;
 use std::process::{Command, Stdio};
@@ -87,7 +87,7 @@ fn programs() -> Vec<(String, Vec<Module>)> {
     let mut programs = Vec::new();
     for (name, pairings) in compiling() {
         for Pairing { machine, .. } in pairings.iter().filter(|pairing| pairing.target == target.id()) {
-            let bundle = emit_for(target, &compile_on(*machine, &name, &folder())).unwrap();
+            let bundle = emit_for(target, compiled(*machine, &name)).unwrap();
             let is_module = |(name, _): &&Module| !name.ends_with(".pgf");
             let modules = bundle.files().iter().filter(is_module).cloned().collect();
             programs.push((name.clone(), modules));

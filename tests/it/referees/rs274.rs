@@ -6,7 +6,7 @@ use super::compare::{Deed, End, Tolerance, compare, deeds};
 use super::is_there;
 use crate::pipeline::{Files, compile_on, emit_for};
 use crate::repository::root;
-use crate::shop::{Pairing, compiling, folder_for, has_words_for};
+use crate::shop::{Pairing, compiled_for, compiling, has_words_for};
 use std::collections::BTreeMap;
 use std::fs;
 use std::process::{Command, Stdio};
@@ -113,15 +113,14 @@ fn judge_examples(dialect: &str, words: &[(&str, &str)], within: Tolerance) {
         return;
     }
     let target = registry::backend("gcode").unwrap();
-    let files = folder_for(dialect);
     let mut programs = 0;
     for (name, pairings) in compiling() {
         if !has_words_for(dialect, &name) {
             continue;
         }
         for Pairing { machine, .. } in pairings.iter().filter(|pairing| pairing.target == target.id()) {
-            let outcome = compile_on(*machine, &name, &files);
-            let bundle = emit_for(target, &outcome).unwrap();
+            let outcome = compiled_for(dialect, *machine, &name);
+            let bundle = emit_for(target, outcome).unwrap();
             let translated: Vec<_> = bundle
                 .files()
                 .iter()
