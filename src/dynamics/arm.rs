@@ -6,13 +6,13 @@
 //!
 //! Signs: a torque is what the drive has to give, so it is positive where it turns the axis the way in which the controller counts.
 
-use crate::body::{Body, MILLIMETRES};
 pub use crate::chain::JOINTS;
 use crate::chain::{Chain, Hinge};
 use crate::vector::{Number, Turn, Vector, along, cross, cross_plain, dot_plain, sum, symmetric};
 use glam::{DMat3, DVec3};
 use vcutc_backend_api::ir::Load;
 use vcutc_machine::Model;
+use vcutc_machine::body::{Body, MILLIMETRES};
 use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// The acceleration of free fall, in m/s2: the standard value (ISO 80000-3).

@@ -3,10 +3,10 @@
 //! Each joint has a frame whose origin lies on its axis, and whose axes are those of the root when all joints are at zero: so every
 //! joint is a turn about a constant axis. What the last joint carries is seen from its frame, the frame of the hand.
 
-use crate::body::MILLIMETRES;
 use crate::vector::{Number, Turn, Vector, cross_plain, dot_plain, sum};
 use glam::DVec3;
 use vcutc_geometry::number::Along;
+use vcutc_machine::body::MILLIMETRES;
 use vcutc_machine::kinematics::linkage::Linkage;
 use vcutc_machine::kinematics::opw::Coupling;
 use vcutc_machine::kinematics::pose::Pose;

@@ -3,14 +3,13 @@
 //! | File | What |
 //! | --- | --- |
 //! | `chain` | the joints of an arm, and how they move what they carry |
-//! | [`body`], [`arm`] | masses; the arm as bodies, and the torques of a state |
+//! | [`arm`] | an arm as bodies, and the torques of a state |
 //! | [`drives`], [`figures`], [`verdict`] | torques at places along a program; the most of each axis; those above limits |
 //! | `push`, `springs` | how the work pushes an edge, and how joints yield |
 //! | [`deviation`] | how far cuts are off, everywhere on them; its figures and limits |
 //! | `peaks` | the most of quantities along motions, proven |
 
 pub mod arm;
-pub mod body;
 mod chain;
 pub mod deviation;
 pub mod drives;

@@ -3,7 +3,6 @@
 //! All directions are seen from the hand. They stay the same along a straight cut; on others they are those in the middle of a part of
 //! it, and what they are off by there is bounded.
 
-use crate::body::MILLIMETRES;
 use crate::chain::{Column, JOINTS};
 use crate::springs::Springs;
 use crate::vector::{Number, Vector};
@@ -11,6 +10,7 @@ use glam::{DMat3, DVec3};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::number::{Along, Interval};
 use vcutc_job::forces::{Forces, Parts};
+use vcutc_machine::body::MILLIMETRES;
 
 /// A plane that rises less than this across the work is upright: it has no upper side.
 const UPRIGHT: f64 = 1e-6;

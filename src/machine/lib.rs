@@ -1,6 +1,7 @@
 //! Machines: what axes a machine has and how they carry the blade. The catalogue, sheets of users, and robots described
 //! by URDF all end as a [`Model`].
 
+pub mod body;
 pub mod catalogue;
 pub mod elasticity;
 pub mod facts;

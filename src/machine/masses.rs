@@ -18,6 +18,7 @@
 //! Centres lie in the root with all axes at zero, and inertias are about them, along the axes of the root. Nothing is assumed: a link
 //! that is not there leaves the torques of the arm unknown.
 
+use super::body::{Body, MILLIMETRES};
 use super::ranges::{INERTIA, LENGTH, MASS, TORQUE};
 use glam::{DMat3, DVec3};
 use vcutc_diagnostics::Diagnostic;
@@ -136,6 +137,16 @@ pub struct Link {
     pub inertia: DMat3,
 }
 
+impl From<&Link> for Body {
+    fn from(link: &Link) -> Self {
+        Self {
+            mass: link.mass,
+            centre: link.centre_mm / MILLIMETRES,
+            inertia: link.inertia,
+        }
+    }
+}
+
 /// The torques that the drives of the axes give.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Torques {
@@ -187,11 +198,13 @@ const KINDS: &[(&str, Kind)] = &[
     ("lumped", Kind::Lumped),
 ];
 
-/// By which share of its size an inertia may fail to be that of a body: numbers are printed with some decimals only.
-const PRINTED: f64 = 1e-3;
-
 /// The farthest that a centre may lie from the root, in reaches of the arm.
 const FARTHEST: f64 = 1.5;
+
+/// What the link is called that an axis carries; axes are counted from 1.
+pub(super) fn link_name(axis: usize) -> String {
+    format!("link_{axis}")
+}
 
 impl Masses {
     /// Reads the table, when the sheet has one.
@@ -215,7 +228,7 @@ impl Masses {
     #[must_use]
     pub fn carried(&self) -> Option<[&Link; 6]> {
         let named = |axis: usize| {
-            let name = format!("link_{}", axis + 1);
+            let name = link_name(axis + 1);
             self.links.iter().find(|link| link.name == name)
         };
         let [a, b, c, d, e, f] = core::array::from_fn(named);
@@ -241,7 +254,7 @@ impl Masses {
             );
         }
         let missing: Vec<String> = (1..=6)
-            .map(|axis| format!("link_{axis}"))
+            .map(link_name)
             .filter(|name| self.links.iter().all(|link| link.name != *name))
             .collect();
         if !self.links.is_empty() && !missing.is_empty() {
@@ -306,36 +319,15 @@ impl Link {
 
     /// What keeps its inertia from being that of a body, and what to do about it.
     fn fault(&self, kind: Kind) -> Option<(&'static str, &'static str)> {
-        let size = self.inertia.x_axis.x + self.inertia.y_axis.y + self.inertia.z_axis.z;
         let is_zero = self.inertia == DMat3::ZERO;
         if self.mass == 0.0 && !is_zero && kind == Kind::Bodies {
             return Some(("belongs to no mass", "state its mass, or leave out its inertia"));
         }
-        if is_zero || kind == Kind::Lumped {
-            return None;
-        }
-        // Of a body, the second moments of its mass make a matrix without negative eigenvalues. That includes the triangle
-        // of its moments of inertia.
-        let moments = DMat3::from_diagonal(DVec3::splat(size / 2.0)) - self.inertia;
-        (!has_no_negative(moments, PRINTED * size.abs())).then_some((
+        (kind == Kind::Bodies && !Body::from(self).is_possible()).then_some((
             "is that of no body: each of its moments is at most the sum of the two others",
             "state it about the centre of mass, in kg m2; `kind = \"lumped\"` says that the numbers give torques only",
         ))
     }
-}
-
-/// Whether a symmetric matrix has no eigenvalue below `-slack`, about.
-fn has_no_negative(matrix: DMat3, slack: f64) -> bool {
-    let matrix = matrix + DMat3::from_diagonal(DVec3::splat(slack));
-    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
-    let minors = [
-        x.x * y.y - x.y * x.y,
-        x.x * z.z - x.z * x.z,
-        y.y * z.z - y.z * y.z,
-    ];
-    [x.x, y.y, z.z].iter().all(|entry| *entry >= 0.0)
-        && minors.iter().all(|minor| *minor >= 0.0)
-        && matrix.determinant() >= 0.0
 }
 
 fn inertia(link: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<DMat3> {

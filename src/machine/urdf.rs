@@ -1,8 +1,8 @@
 //! Robots described by URDF, the Unified Robot Description Format of ROS.
 //!
 //! A URDF is a tree of links joined by joints. Of it the chain from the robot's root to its flange is read, which must have
-//! six turning joints; fixed joints in between are folded into them. All else (shapes, masses, transmissions, a second arm
-//! that hangs on another branch) is left alone.
+//! six turning joints; fixed joints in between are folded into them. Of other branches the masses are read that hang on it;
+//! all else (shapes, transmissions, a second arm) is left alone.
 //!
 //! **Ends.** The flange is the link `tool0`, else the link `flange`, as ROS-Industrial names them (REP 199), else the one
 //! leaf of the tree that moves. The root is the link `base` where it is fixed to the root of the tree, because that is the
@@ -15,6 +15,8 @@
 //! [`crate::kinematics::newton`].
 
 mod elements;
+mod inertial;
+mod masses;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -26,6 +28,7 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::SerialArm;
 use crate::kinematics::{Mechanism, recognise};
 use elements::{Kind, MovingJoint, Read};
+use masses::Carried;
 use tree::Tree;
 use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES, Maker};
 use vcutc_diagnostics::source::{FileId, Span};
@@ -65,6 +68,8 @@ fn read(name: &str, file: FileId, text: &str, flange: Flange<'_>) -> Read<Model>
         .try_into()
         .map_err(|joints: Vec<MovingJoint>| vec![tree.wrong_number(flange, &joints)])?;
     let tree_in_root = root_in_tree.inverse();
+    let masses = masses::masses(&tree, &chain.carried, flange, &tree_in_root)?;
+    let torques = masses::torques(&joints);
     let axes = joints.each_ref().map(|joint| joint.axis.moved(&tree_in_root));
     let Some(arm) = SerialArm::new(axes, tree_in_root * chain.end_in_tree) else {
         return Err(vec![tree.too_far(flange)]);
@@ -75,8 +80,8 @@ fn read(name: &str, file: FileId, text: &str, flange: Flange<'_>) -> Read<Model>
         axes: joints.iter().map(axis).collect(),
         mechanism: recognise::closed_form(&arm).unwrap_or(Mechanism::Serial(arm)),
         path: PathLimits::UNKNOWN,
-        masses: None,
-        torques: None,
+        masses,
+        torques,
         elasticity: None,
     })
 }
@@ -120,15 +125,17 @@ pub(super) fn limit_places(file: FileId, text: &str, axes: &[Axis]) -> Vec<Limit
 }
 
 /// A chain of joints, all at zero, from the root of the tree outwards.
-struct Chain {
+struct Chain<'t> {
     joints: Vec<MovingJoint>,
+    /// What each of them carries.
+    carried: Vec<Carried<'t>>,
     end_in_tree: Pose,
 }
 
-impl Chain {
-    fn along(path: &[&elements::Joint<'_>]) -> Read<Self> {
+impl<'t> Chain<'t> {
+    fn along(path: &[&elements::Joint<'t>]) -> Read<Self> {
         let mut faults = Vec::new();
-        let mut joints = Vec::new();
+        let (mut joints, mut carried) = (Vec::new(), Vec::new());
         let mut end_in_tree = Pose::IDENTITY;
         for joint in path {
             match joint.origin() {
@@ -138,14 +145,24 @@ impl Chain {
             match joint.kind {
                 Kind::Fixed => {}
                 Kind::Revolute | Kind::Continuous => match joint.moving(&end_in_tree) {
-                    Ok(moving) => joints.push(moving),
+                    Ok(moving) => {
+                        joints.push(moving);
+                        carried.push(Carried {
+                            link: joint.child.node,
+                            link_in_tree: end_in_tree,
+                        });
+                    }
                     Err(found) => faults.extend(found),
                 },
                 Kind::Prismatic | Kind::Planar | Kind::Floating => faults.push(joint.does_not_turn()),
             }
         }
         if faults.is_empty() {
-            Ok(Self { joints, end_in_tree })
+            Ok(Self {
+                joints,
+                carried,
+                end_in_tree,
+            })
         } else {
             Err(faults)
         }

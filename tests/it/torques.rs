@@ -3,6 +3,7 @@
 use crate::cli::vcutc;
 use crate::pipeline::{Files, all_diagnostics, compile, fixed, told};
 use crate::repository::root;
+use glam::{DVec3, EulerRot};
 use tempfile::TempDir;
 use vcutc::diagnostics::Code;
 use vcutc::driver::Outcome;
@@ -205,4 +206,67 @@ fn a_place_that_relieves_a_drive_is_offered() {
         let outcome = compile(JOB, &files);
         assert_eq!(outcome.compiled.is_none(), is_refused, "{limit}");
     }
+}
+
+/// The arm of the catalogue as a URDF, whose links lie along its root with all axes at zero.
+fn described() -> String {
+    let model = catalogue::find("kuka/kr210_r3100_ultra").unwrap();
+    let masses = model.masses.as_ref().unwrap().carried().unwrap();
+    let limits = model.torques.as_ref().unwrap().limits;
+    let linkage = vcutc::machine::kinematics::linkage::Linkage::from(&model.mechanism);
+    let mut text = String::from("<robot name=\"arm\"><link name=\"base\"/>");
+    let (mut before, mut parent) = (DVec3::ZERO, "base".to_owned());
+    let triple = |v: DVec3| format!("{} {} {}", v.x / 1000.0, v.y / 1000.0, v.z / 1000.0);
+    for (number, (joint, link)) in linkage.tool.iter().zip(masses).enumerate() {
+        let (origin, axis) = (joint.line.point, &model.axes[number]);
+        let [x, y, z] = link.inertia.to_cols_array_2d();
+        text += &format!(
+            "<link name=\"{name}\"><inertial><origin xyz=\"{centre}\"/><mass value=\"{mass}\"/>\
+             <inertia ixx=\"{}\" ixy=\"{}\" ixz=\"{}\" iyy=\"{}\" iyz=\"{}\" izz=\"{}\"/></inertial></link>\
+             <joint name=\"{joint}\" type=\"revolute\"><parent link=\"{parent}\"/><child link=\"{name}\"/>\
+             <origin xyz=\"{from}\"/><axis xyz=\"{axis}\"/>\
+             <limit lower=\"{min}\" upper=\"{max}\" velocity=\"{rate}\" effort=\"{effort}\"/></joint>",
+            x[0],
+            x[1],
+            x[2],
+            y[1],
+            y[2],
+            z[2],
+            name = link.name,
+            centre = triple(link.centre_mm - origin),
+            mass = link.mass,
+            joint = axis.name,
+            from = triple(origin - before),
+            axis = triple(1000.0 * joint.line.direction),
+            min = axis.min,
+            max = axis.max,
+            rate = axis.rate.unwrap(),
+            effort = limits[number],
+        );
+        (before, parent) = (origin, link.name.clone());
+    }
+    let flange = linkage.flange_at_zero;
+    let (yaw, pitch, roll) = flange.rotation.to_euler(EulerRot::ZYX);
+    text + &format!(
+        "<link name=\"tool0\"/><joint name=\"flange\" type=\"fixed\"><parent link=\"{parent}\"/><child link=\"tool0\"/>\
+         <origin xyz=\"{}\" rpy=\"{roll} {pitch} {yaw}\"/></joint></robot>\n",
+        triple(flange.position - before)
+    )
+}
+
+#[test]
+fn a_urdf_with_masses_has_the_torques_of_its_sheet() {
+    let of_sheet = compile(JOB, &small("kuka/kr210_r3100_ultra", LOAD));
+    let of_urdf = compile(JOB, &small("arm.urdf", LOAD).with("arm.urdf", described()));
+    let [sheet, urdf] = [&of_sheet, &of_urdf].map(|outcome| {
+        let compiled = outcome.compiled.as_ref().expect("a program");
+        compiled.dynamics.torques.as_ref().expect("torques")
+    });
+    for (sheet, urdf) in sheet.axes.iter().zip(&urdf.axes) {
+        assert_eq!((&sheet.name, sheet.limit), (&urdf.name, urdf.limit));
+        let apart = (sheet.torque - urdf.torque).abs();
+        assert!(apart < 1e-3, "{}: {} {}", sheet.name, sheet.torque, urdf.torque);
+    }
+    assert_eq!(urdf.axes.len(), 6);
+    assert!(urdf.line().unwrap().contains("indicative: published masses"));
 }

@@ -2,6 +2,7 @@
 
 use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::JointAxis;
+use crate::ranges::TORQUE;
 use core::f64::consts::TAU;
 use glam::{DMat3, DVec3};
 use roxmltree::{Document, Error, Node, ParsingOptions, TextPos};
@@ -66,7 +67,7 @@ pub(super) fn both<A, B>(first: Read<A>, second: Read<B>) -> Read<(A, B)> {
 }
 
 /// All values, or all faults.
-fn all<T>(results: impl Iterator<Item = Read<T>>) -> Read<Vec<T>> {
+pub(super) fn all<T>(results: impl Iterator<Item = Read<T>>) -> Read<Vec<T>> {
     let (mut values, mut faults) = (Vec::new(), Vec::new());
     for result in results {
         match result {
@@ -107,6 +108,13 @@ pub(super) struct MovingJoint {
     pub(super) limits: Limits,
 }
 
+/// A link; what it weighs is read when it turns out to be part of the arm.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Link<'t> {
+    pub(super) name: Spanned<&'t str>,
+    pub(super) element: Element<'t>,
+}
+
 /// What a joint may do.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
@@ -114,6 +122,8 @@ pub(super) struct Limits {
     pub(super) range: (f64, f64),
     /// Highest rate, in rad/s.
     pub(super) rate: Option<f64>,
+    /// What its drive gives, in Nm.
+    pub(super) torque: Option<f64>,
 }
 
 /// The XML of a URDF.
@@ -193,10 +203,13 @@ fn unexpanded(document: &Document<'_>, file: FileId) -> Option<Diagnostic> {
     Some(fault(place, message, "a macro that is not expanded").help(EXPAND))
 }
 
-/// The links of a URDF, by the names that they declare.
-pub(super) fn links<'t>(file: FileId, document: &'t Document<'t>) -> Read<Vec<Spanned<&'t str>>> {
+/// The links of a URDF.
+pub(super) fn links<'t>(file: FileId, document: &'t Document<'t>) -> Read<Vec<Link<'t>>> {
     let robot = robot(file, document)?;
-    all(robot.children("link").map(|link| link.required("name")))
+    all(robot.children("link").map(|element| {
+        let name = element.required("name")?;
+        Ok(Link { name, element })
+    }))
 }
 
 /// The joints of a URDF.
@@ -235,12 +248,12 @@ impl<'t> Element<'t> {
         named.map(move |node| Self { node, ..self })
     }
 
-    fn child(self, name: &'static str) -> Option<Self> {
+    pub(super) fn child(self, name: &'static str) -> Option<Self> {
         self.children(name).next()
     }
 
     /// An element of its own that must be there, such as the parent of a joint.
-    fn required_child(self, name: &'static str) -> Read<Self> {
+    pub(super) fn required_child(self, name: &'static str) -> Read<Self> {
         let missing = || self.lacks(name, format!("`<{name} .../>` is missing"));
         self.child(name).ok_or_else(missing)
     }
@@ -253,7 +266,7 @@ impl<'t> Element<'t> {
     }
 
     /// An attribute that must be there.
-    fn required(self, name: &'static str) -> Read<Spanned<&'t str>> {
+    pub(super) fn required(self, name: &'static str) -> Read<Spanned<&'t str>> {
         let missing = || self.lacks(name, format!("`{name}` is missing"));
         self.optional(name).ok_or_else(missing)
     }
@@ -289,6 +302,28 @@ impl<'t> Element<'t> {
     }
 }
 
+impl<'t> Element<'t> {
+    /// The frame of `what` in that of `outer`, which is that frame itself where there is no `<origin>`.
+    pub(super) fn origin(self, what: &str, outer: &str) -> Read<Pose> {
+        let Some(origin) = self.child("origin") else {
+            return Ok(Pose::IDENTITY);
+        };
+        let (position, angles) = both(origin.three("xyz", DVec3::ZERO), origin.three("rpy", DVec3::ZERO))?;
+        if position.abs().max_element() > FARTHEST {
+            let message = format!("{what} lies more than {FARTHEST} m from {outer}");
+            let fault = fault(origin.place_of("xyz"), message, "too far");
+            return refuse(fault.help("write lengths in metres"));
+        }
+        let [roll, pitch, yaw] = angles.to_array();
+        Ok(Pose {
+            rotation: DMat3::from_rotation_z(yaw)
+                * DMat3::from_rotation_y(pitch)
+                * DMat3::from_rotation_x(roll),
+            position: position * MM,
+        })
+    }
+}
+
 /// Words of the file as they may be quoted: not more than a line of them.
 pub(super) fn shortened(words: &str) -> String {
     const MOST: usize = 60;
@@ -305,7 +340,7 @@ fn number(text: &str) -> Option<f64> {
 }
 
 /// One number of an attribute.
-fn one(written: Spanned<&str>) -> Read<f64> {
+pub(super) fn one(written: Spanned<&str>) -> Read<f64> {
     match number(written.node.trim()) {
         Some(number) => Ok(number),
         None => {
@@ -335,22 +370,7 @@ impl<'t> Joint<'t> {
 
     /// The joint's frame in that of its parent link, at zero.
     pub(super) fn origin(&self) -> Read<Pose> {
-        let Some(origin) = self.element.child("origin") else {
-            return Ok(Pose::IDENTITY);
-        };
-        let (position, angles) = both(origin.three("xyz", DVec3::ZERO), origin.three("rpy", DVec3::ZERO))?;
-        if position.abs().max_element() > FARTHEST {
-            let message = format!("the joint lies more than {FARTHEST} m from the one before it");
-            let fault = fault(origin.place_of("xyz"), message, "too far");
-            return refuse(fault.help("write lengths in metres"));
-        }
-        let [roll, pitch, yaw] = angles.to_array();
-        Ok(Pose {
-            rotation: DMat3::from_rotation_z(yaw)
-                * DMat3::from_rotation_y(pitch)
-                * DMat3::from_rotation_x(roll),
-            position: position * MM,
-        })
+        self.element.origin("the joint", "the one before it")
     }
 
     /// Its numbers as a joint that turns. `joint_in_tree` is its frame.
@@ -410,7 +430,8 @@ impl<'t> Joint<'t> {
             (None, _) => refuse(self.without_limits()),
         };
         let (range, rate) = both(range, limit.map_or(Ok(None), rate))?;
-        Ok(Limits { range, rate })
+        let torque = limit.and_then(torque);
+        Ok(Limits { range, rate, torque })
     }
 
     fn without_limits(&self) -> Diagnostic {
@@ -465,4 +486,10 @@ fn rate(limit: Element<'_>) -> Read<Option<f64>> {
     let message = format!("the joint's highest rate is {rate} rad/s");
     let fault = fault(written.span, message, "above zero is expected");
     refuse(fault.help("write the rate in rad/s, or delete `velocity` if it is not known"))
+}
+
+/// What a drive gives; none where that is not known, which many files write as 0.
+fn torque(limit: Element<'_>) -> Option<f64> {
+    let written = limit.optional("effort")?;
+    number(written.node.trim()).filter(|torque| TORQUE.holds_number(*torque))
 }

@@ -1,6 +1,7 @@
 //! URDF of real robots' dimensions, against chains of nalgebra and published numbers.
 
 mod faults;
+mod masses;
 
 use super::{FileId, Flange, parse};
 use crate::kinematics::recognise::FIT;

@@ -1,7 +1,8 @@
 //! The tree of a URDF: which joint carries which link, where the robot begins and where it ends.
 
 use super::Flange;
-use super::elements::{self, Joint, Kind, MovingJoint, Read, both, fault, refuse, shortened};
+use super::elements::{self, Joint, Kind, Link, MovingJoint, Read, both, fault, refuse, shortened};
+use crate::body::Body;
 use crate::kinematics::pose::Pose;
 use roxmltree::Document;
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,7 +18,7 @@ const CONTROLLERS_ROOT: &str = "base";
 pub(super) struct Tree<'t> {
     /// The start of the file, for faults of the file as a whole.
     start: Span,
-    links: Vec<Spanned<&'t str>>,
+    links: Vec<Link<'t>>,
     joints: Vec<Joint<'t>>,
     /// The joint that carries a link, by the link's name; a place in `joints`.
     carriers: BTreeMap<&'t str, usize>,
@@ -59,6 +60,33 @@ impl<'t> Tree<'t> {
         chain
     }
 
+    fn link(&self, name: &str) -> Option<&Link<'t>> {
+        self.links.iter().find(|link| link.name.node == name)
+    }
+
+    /// The joints whose parent a link is.
+    pub(super) fn joints_on(&self, link: &str) -> impl Iterator<Item = &Joint<'t>> {
+        self.joints.iter().filter(move |joint| joint.parent.node == link)
+    }
+
+    /// What a link weighs, in its frame; none where the file does not say.
+    pub(super) fn body(&self, link: &str) -> Read<Option<Body>> {
+        self.link(link).map_or(Ok(None), Link::body)
+    }
+
+    /// The links that have an `<inertial>`, and those that carry one that has.
+    pub(super) fn with_mass(&self) -> BTreeSet<&'t str> {
+        let mut found = BTreeSet::new();
+        for link in self.links.iter().filter(|link| link.has_mass()) {
+            let mut next = Some(link.name.node);
+            // Who carries one that is known already is known, too.
+            while let Some(name) = next.filter(|name| found.insert(*name)) {
+                next = self.carrier(name).map(|joint| joint.parent.node);
+            }
+        }
+        found
+    }
+
     fn carrier(&self, link: &str) -> Option<&Joint<'t>> {
         self.joints.get(*self.carriers.get(link)?)
     }
@@ -77,6 +105,7 @@ impl<'t> Tree<'t> {
         let mut roots = self
             .links
             .iter()
+            .map(|link| link.name)
             .filter(|link| !self.carriers.contains_key(link.node));
         let first = shortened(roots.next()?.node);
         let second = roots.next()?;
@@ -89,12 +118,7 @@ impl<'t> Tree<'t> {
 
     /// The link that is the flange.
     pub(super) fn flange(&self, wanted: Flange<'_>) -> Read<&'t str> {
-        let link = |name: &str| {
-            self.links
-                .iter()
-                .find(|link| link.node == name)
-                .map(|link| link.node)
-        };
+        let link = |name: &str| self.link(name).map(|link| link.name.node);
         match wanted {
             Flange::Link(name) => link(name).ok_or_else(|| {
                 let message = format!("the file has no link `{}`", shortened(name));
@@ -109,12 +133,13 @@ impl<'t> Tree<'t> {
 
     fn moving_leaf(&self) -> Read<&'t str> {
         let parents: BTreeSet<&str> = self.joints.iter().map(|joint| joint.parent.node).collect();
-        let moves = |link: &&Spanned<&str>| {
+        let moves = |link: &Spanned<&str>| {
             self.chain(link.node)
                 .iter()
                 .any(|joint| joint.kind != Kind::Fixed)
         };
-        let leaves = self.links.iter().filter(|link| !parents.contains(link.node));
+        let names = self.links.iter().map(|link| link.name);
+        let leaves = names.filter(|link| !parents.contains(link.node));
         let mut ends = leaves.filter(moves);
         match (ends.next(), ends.next()) {
             (Some(flange), None) => Ok(flange.node),
@@ -166,15 +191,14 @@ impl<'t> Tree<'t> {
     }
 
     fn place(&self, link: &str) -> Span {
-        let named = self.links.iter().find(|named| named.node == link);
-        named.map_or(self.start, |named| named.span)
+        self.link(link).map_or(self.start, |named| named.name.span)
     }
 }
 
-fn name_faults(links: &[Spanned<&str>], joints: &[Joint<'_>]) -> Vec<Diagnostic> {
-    let mut faults = twice("link", links.iter());
+fn name_faults(links: &[Link<'_>], joints: &[Joint<'_>]) -> Vec<Diagnostic> {
+    let mut faults = twice("link", links.iter().map(|link| &link.name));
     faults.extend(twice("joint", joints.iter().map(|joint| &joint.name)));
-    let declared: BTreeSet<&str> = links.iter().map(|link| link.node).collect();
+    let declared: BTreeSet<&str> = links.iter().map(|link| link.name.node).collect();
     for end in joints.iter().flat_map(|joint| [&joint.parent, &joint.child]) {
         if !declared.contains(end.node) {
             let message = format!("there is no link `{}`", shortened(end.node));

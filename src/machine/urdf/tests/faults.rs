@@ -98,6 +98,30 @@ const FAULTS: &[(&str, &str, &str, &str)] = &[
         "link `link_1` hangs on a loop of joints",
         "link_1",
     ),
+    (
+        "<link name=\"link_3\">",
+        "<link name=\"link_3\"><inertial/>",
+        "`inertial` has no `mass`",
+        "<inertial",
+    ),
+    (
+        "<link name=\"link_3\">",
+        "<link name=\"link_3\"><inertial><mass value=\"-2\"/></inertial>",
+        "`value` of `mass` is -2",
+        "-2",
+    ),
+    (
+        "<link name=\"link_3\">",
+        "<link name=\"link_3\"><inertial><origin xyz=\"0 0 300\"/><mass value=\"2\"/></inertial>",
+        "the centre of mass lies more than 100 m from its link",
+        "0 0 300",
+    ),
+    (
+        "<link name=\"link_3\">",
+        "<link name=\"link_3\"><inertial><mass value=\"2\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\"/></inertial>",
+        "`inertia` has no `iyz`",
+        "<inertia",
+    ),
     ("0 0 0.675", "0 0.675", "`xyz` is not three numbers", "0 0.675"),
     (
         "0 0 0.675",
