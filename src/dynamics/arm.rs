@@ -8,7 +8,8 @@
 
 pub use crate::chain::JOINTS;
 use crate::chain::{Chain, Hinge};
-use crate::vector::{Number, Turn, Vector, along, cross, cross_plain, dot_plain, sum, symmetric};
+use crate::turn::Turn;
+use crate::vector::{Number, Vector, along, cross, cross_plain, dot_plain, sum, symmetric};
 use glam::{DMat3, DVec3};
 use vcutc_backend_api::ir::Load;
 use vcutc_machine::Model;
@@ -138,7 +139,7 @@ impl Arm {
             needs[place - 1].add(&carried);
         }
         self.chain.at_axes(core::array::from_fn(|place| {
-            dot_plain(needs[place].moment, hinges[place].axis)
+            dot_plain(needs[place].moment, hinges[place].axis.direction)
         }))
     }
 
@@ -162,7 +163,7 @@ impl Arm {
                     rise: turn.back_plain(hinge.axis, self.rise),
                 },
             };
-            let own = base.with(hinge.axis, rates[place], accelerations[place]);
+            let own = base.with(hinge.axis.direction, rates[place], accelerations[place]);
             let needs = own.needs(&self.links[place]);
             motion = Some(own);
             needs

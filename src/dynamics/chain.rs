@@ -3,7 +3,8 @@
 //! Each joint has a frame whose origin lies on its axis, and whose axes are those of the root when all joints are at zero: so every
 //! joint is a turn about a constant axis. What the last joint carries is seen from its frame, the frame of the hand.
 
-use crate::vector::{Number, Turn, Vector, cross_plain, dot_plain, sum};
+use crate::turn::{Axis, Turn};
+use crate::vector::{Number, Vector, cross_plain, dot_plain, sum};
 use glam::DVec3;
 use vcutc_geometry::number::Along;
 use vcutc_machine::body::MILLIMETRES;
@@ -30,8 +31,7 @@ pub(crate) struct Chain {
 /// A joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Hinge {
-    /// Of length 1.
-    pub(crate) axis: Vector<f64>,
+    pub(crate) axis: Axis,
     /// Its origin seen from the one before, in m.
     pub(crate) offset: Vector<f64>,
 }
@@ -50,7 +50,17 @@ impl<N: Number> Column<N> {
     /// direction while the hand turns along another.
     #[inline(always)]
     pub(crate) fn of(&self, force: Vector<f64>, moment: Vector<f64>) -> N {
-        dot_plain(self.way, force) + dot_plain(self.turn, moment)
+        self.of_force(force) + self.of_moment(moment)
+    }
+
+    #[inline(always)]
+    pub(crate) fn of_force(&self, force: Vector<f64>) -> N {
+        dot_plain(self.way, force)
+    }
+
+    #[inline(always)]
+    pub(crate) fn of_moment(&self, moment: Vector<f64>) -> N {
+        dot_plain(self.turn, moment)
     }
 }
 
@@ -70,7 +80,7 @@ impl Chain {
             let offset = (origin - before).to_array();
             before = origin;
             Hinge {
-                axis: joint.line.direction.to_array(),
+                axis: Axis::new(joint.line.direction),
                 offset,
             }
         });
@@ -116,13 +126,21 @@ impl Chain {
             turn: zero,
         }; JOINTS];
         for (place, (hinge, turn)) in self.hinges.iter().zip(turns).enumerate() {
-            for column in columns.iter_mut().take(place) {
+            for column in columns.iter_mut().take(place.saturating_sub(1)) {
                 let way = sum(column.way, cross_plain(column.turn, hinge.offset));
                 column.way = turn.back(hinge.axis, way);
                 column.turn = turn.back(hinge.axis, column.turn);
             }
-            columns[place].turn = hinge.axis.map(N::plain);
+            // The axis before is constant there, which takes less work.
+            if let Some(last) = place.checked_sub(1) {
+                let axis = self.hinges[last].axis.direction;
+                columns[last] = Column {
+                    way: turn.back_plain(hinge.axis, cross_plain(axis, hinge.offset)),
+                    turn: turn.back_plain(hinge.axis, axis),
+                };
+            }
         }
+        columns[JOINTS - 1].turn = self.hinges[JOINTS - 1].axis.direction.map(N::plain);
         let at_point = columns.map(|column| Column {
             way: sum(column.way, cross_plain(column.turn, point)),
             turn: column.turn,

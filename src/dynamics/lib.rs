@@ -17,8 +17,10 @@ pub mod figures;
 mod peaks;
 mod push;
 mod springs;
+mod turn;
 mod vector;
 pub mod verdict;
 
 pub use push::Shift;
-pub use vector::{Number, Turn};
+pub use turn::Turn;
+pub use vector::Number;

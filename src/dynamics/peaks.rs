@@ -1,12 +1,13 @@
 //! The most that quantities come to along the motions of a program: proven everywhere on them, and nearly reached.
 //!
 //! A motion is looked at in parts. Of each part every quantity has a bound, which it stays below everywhere on it, and what it comes to
-//! in the middle. Parts whose bounds do not matter are put aside, all others are halved (branch and bound), until no bound is above the
-//! most that was met by more than [`CLOSE`] of it: then the answer exceeds the truth by no more than that. Where a round would have more
-//! than [`MOST_PARTS`] parts, or parts would be shorter than [`SHORTEST`], the bounds that there are stand.
+//! in the middle. Parts whose bounds do not matter are put aside; of the others those with the largest bounds are halved, some at a time
+//! (branch and bound), until no bound is above the most that was met by more than [`CLOSE`] of it: then the answer exceeds the truth by
+//! no more than that. Where [`MOST_LOOKS`] do not suffice, or parts would be shorter than [`SHORTEST`], the bounds that there are stand.
 
 use core::array;
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use vcutc_backend_api::ir::OpId;
 use vcutc_motion::path::Part;
 
@@ -16,8 +17,14 @@ const CLOSE: f64 = 0.005;
 /// A part this short of its motion is not halved again: where a limit is still in doubt there, it counts as broken.
 const SHORTEST: f64 = 1.0 / 65_536.0;
 
-/// Most parts that are looked at in a round: a bound is stated too high rather than searched for without end.
-const MOST_PARTS: usize = 20_000;
+/// Most parts that are halved: a bound is stated too high rather than searched for without end.
+const MOST_LOOKS: usize = 100_000;
+
+/// How many parts are halved at a time for each quantity, at least. Fewer means to look at fewer parts, more keeps all threads at work.
+const AT_A_TIME: usize = 128;
+
+/// Of many parts, this share is halved at a time: each round goes through all of them.
+const SHARE_AT_A_TIME: usize = 16;
 
 /// A quantity on a part of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +41,15 @@ impl Held {
         middle: f64::NEG_INFINITY,
         most: f64::INFINITY,
     };
+
+    /// Without what is not a number: it would pass every comparison.
+    fn known(self) -> Self {
+        if self.middle.is_nan() || self.most.is_nan() {
+            Self::UNKNOWN
+        } else {
+            self
+        }
+    }
 }
 
 /// What is looked for of a quantity.
@@ -85,20 +101,54 @@ pub(crate) fn peaks<const Q: usize>(
             part,
         }; Q],
     };
+    let look = |parts: Vec<(OpId, Part)>| -> Vec<Looked<Q>> {
+        let each = parts.into_par_iter().map(|(op, part)| Looked {
+            op,
+            part,
+            held: bounds(op, part).map_or([Held::UNKNOWN; Q], |held| held.map(Held::known)),
+        });
+        each.collect()
+    };
+    let mut open = Vec::new();
+    let mut looks = 0;
     while !live.is_empty() {
-        let looked_at: Vec<Looked<Q>> = live
-            .par_iter()
-            .map(|&(op, part)| Looked {
-                op,
-                part,
-                held: bounds(op, part).unwrap_or([Held::UNKNOWN; Q]),
-            })
-            .collect();
-        live = search.settle(&looked_at);
+        let found = look(live);
+        found.iter().for_each(|looked| search.meet(looked));
+        open.extend(found);
+        open = search.settle(open);
+        let next = largest(&open, AT_A_TIME.max(open.len() / SHARE_AT_A_TIME));
+        looks += next.len();
+        live = Vec::new();
+        if looks > MOST_LOOKS {
+            break;
+        }
+        for place in next.into_iter().rev() {
+            let looked = open.swap_remove(place);
+            live.extend(looked.part.halves().map(|half| (looked.op, half)));
+        }
     }
+    open.iter().for_each(|looked| search.stand(looked));
     Some(search.peaks)
 }
 
+/// The places of those with the largest bounds: so many of each quantity, in order.
+fn largest<const Q: usize>(open: &[Looked<Q>], count: usize) -> Vec<usize> {
+    let mut chosen = BTreeSet::new();
+    for quantity in 0..Q {
+        let mut places: Vec<usize> = (0..open.len()).collect();
+        let most = |place: &usize| open[*place].held[quantity].most;
+        // Of equal ones the first counts, so that the order is always the same.
+        let order = |a: &usize, b: &usize| most(b).total_cmp(&most(a)).then(a.cmp(b));
+        if count < places.len() {
+            places.select_nth_unstable_by(count, order);
+            places.truncate(count);
+        }
+        chosen.extend(places);
+    }
+    chosen.into_iter().collect()
+}
+
+#[derive(Clone, Copy)]
 struct Looked<const Q: usize> {
     op: OpId,
     part: Part,
@@ -111,25 +161,18 @@ struct Search<'s, const Q: usize> {
 }
 
 impl<const Q: usize> Search<'_, Q> {
-    /// Takes what was looked at into account. Returns what is to be looked at more closely.
-    fn settle(&mut self, parts: &[Looked<Q>]) -> Vec<(OpId, Part)> {
-        for looked in parts {
-            self.meet(looked);
+    /// Puts aside what does not matter. Returns what is to be looked at more closely.
+    fn settle(&mut self, parts: Vec<Looked<Q>>) -> Vec<Looked<Q>> {
+        let (open, settled): (Vec<_>, Vec<_>) = parts.into_iter().partition(|looked| self.is_open(looked));
+        settled.iter().for_each(|looked| self.stand(looked));
+        open
+    }
+
+    /// The bounds of a part count as they are.
+    fn stand(&mut self, looked: &Looked<Q>) {
+        for (peak, held) in self.peaks.iter_mut().zip(looked.held) {
+            peak.most = peak.most.max(held.most);
         }
-        let (open, settled): (Vec<_>, Vec<_>) = parts.iter().partition(|looked| self.is_open(looked));
-        let is_too_much = open.len() > MOST_PARTS;
-        let ends = settled
-            .into_iter()
-            .chain(open.iter().copied().filter(|_| is_too_much));
-        for looked in ends {
-            for (peak, held) in self.peaks.iter_mut().zip(looked.held) {
-                peak.most = peak.most.max(held.most);
-            }
-        }
-        let halves = open.into_iter().filter(|_| !is_too_much);
-        halves
-            .flat_map(|looked| looked.part.halves().map(|half| (looked.op, half)))
-            .collect()
     }
 
     fn meet(&mut self, looked: &Looked<Q>) {

@@ -197,9 +197,22 @@ impl Push {
         columns.map(|column| column.of(direction, moment))
     }
 
+    /// The same at the tip, and at the end of the edge.
+    fn torques_at_ends<N: Number>(
+        &self,
+        columns: &[Column<N>; JOINTS],
+        direction: Vector<f64>,
+    ) -> [[N; JOINTS]; 2] {
+        let arm = DVec3::from_array(self.along_edge) * self.edge;
+        let moment = arm.cross(DVec3::from_array(direction)).to_array();
+        let tip = columns.map(|column| column.of_force(direction));
+        let end = core::array::from_fn(|axis| tip[axis] + columns[axis].of_moment(moment));
+        [tip, end]
+    }
+
     /// How each axis moves the tip and the end of the edge along the normal, in m/rad.
     pub(crate) fn normals<N: Number>(&self, columns: &[Column<N>; JOINTS]) -> [[N; JOINTS]; 2] {
-        [0.0, self.edge].map(|up| self.torques(columns, self.normal, up))
+        self.torques_at_ends(columns, self.normal)
     }
 
     /// What the force as it was measured pushes each axis with, in Nm.
@@ -235,28 +248,30 @@ impl Push {
     /// the whole. The place `s` up the edge then shifts by `tip(s) + t edge(s, m)`, with a share `t` from 0 to 1 and the place `m` of that force,
     /// where `edge` is linear in `s` and in `m`: its extremes are at the ends of the edge.
     pub(crate) fn shifts(&self, columns: &[Column<Along>; JOINTS], springs: &Springs) -> [Interval; 2] {
-        let normals = self.normals(columns);
-        let of = |force: fn(&Force) -> Amount, up: f64| {
-            let each = self.forces().map(|part| Pushing {
-                amount: force(part),
-                torques: self.torques(columns, part.direction, up),
+        let pushes = self
+            .forces()
+            .map(|force| self.torques_at_ends(columns, force.direction));
+        let places = self.normals(columns).map(|normal| {
+            let [tip, end] = [0, 1].map(|end| {
+                let each = pushes.each_ref().map(|torques| &torques[end]);
+                each.map(|torques| Yielded::of(&normal, torques, springs))
             });
-            normals.map(|normal| {
-                let [middle, everywhere] = self.shift(&normal, &each, springs);
-                [middle, everywhere + self.turned(columns, &normal, &each, springs)]
-            })
-        };
-        let tips = of(|force| force.tip, 0.0);
-        let edges = [0.0, self.edge].map(|up| of(|force| force.edge, up));
-        core::array::from_fn(|view| {
-            let place = |place: usize| {
-                let tip = tips[place][view];
-                let edge = edges[0][place][view].hull(edges[1][place][view]);
-                tip.hull(tip + edge)
+            let shift = |amount: fn(&Force) -> Amount, yielded: &[Yielded; 3]| {
+                let amounts = self.forces().map(amount);
+                let turned = self.turned(columns, &normal, &amounts, springs);
+                shift(&amounts, yielded, turned)
             };
-            // In the air nothing pushes.
-            place(0).hull(place(1)).hull(Interval::ZERO)
-        })
+            let by_tip = shift(|force| force.tip, &tip);
+            let by_edge = [&tip, &end].map(|yielded| shift(|force| force.edge, yielded));
+            core::array::from_fn(|view| {
+                let edge: Interval = by_edge[0][view];
+                let tip: Interval = by_tip[view];
+                tip.hull(tip + edge.hull(by_edge[1][view]))
+            })
+        });
+        // In the air nothing pushes.
+        let [tip, end]: [[Interval; 2]; 2] = places;
+        core::array::from_fn(|view| tip[view].hull(end[view]).hull(Interval::ZERO))
     }
 
     /// By how much torques at the axes shift the edge along the normal, at either end, in the middle of a part and everywhere on it.
@@ -280,35 +295,18 @@ impl Push {
         })
     }
 
-    /// What forces shift a place by, whose shifts by each axis are these: in the middle of a part, and everywhere on it.
-    fn shift(&self, normal: &[Along; JOINTS], pushes: &[Pushing; 3], springs: &Springs) -> [Interval; 2] {
-        let mut stated = Along::constant(0.0);
-        let mut off = [Interval::ZERO; 2];
-        for push in pushes {
-            let yielded = Yielded::of(normal, &push.torques, springs);
-            stated = stated + yielded.stated * push.amount.centre;
-            let (any, radius) = (push.amount.any(), Interval::around(0.0, push.amount.off));
-            let each = yielded.off.into_iter().zip(views(yielded.stated));
-            for (off, (softer, yields)) in off.iter_mut().zip(each) {
-                *off = *off + any * softer + radius * yields;
-            }
-        }
-        let [middle, everywhere] = views(stated);
-        [middle + off[0], everywhere + off[1]]
-    }
-
     /// What the forces may add where their directions are off.
     fn turned(
         &self,
         columns: &[Column<Along>; JOINTS],
         normal: &[Along; JOINTS],
-        pushes: &[Pushing; 3],
+        amounts: &[Amount; 3],
         springs: &Springs,
     ) -> Interval {
         if self.turns == 0.0 {
             return Interval::ZERO;
         }
-        let force: f64 = pushes.iter().map(|push| push.amount.any().magnitude()).sum();
+        let force: f64 = amounts.iter().map(|amount| amount.any().magnitude()).sum();
         let each = columns.iter().zip(normal).zip(springs.each());
         let yields = each.map(|((column, normal), spring)| {
             // A force of 1 N anywhere on the edge pushes the axis with no more than this, and no direction is off by more than the turn.
@@ -321,10 +319,21 @@ impl Push {
     }
 }
 
-/// A force and what it pushes each axis with, for each N.
-struct Pushing {
-    amount: Amount,
-    torques: [Along; JOINTS],
+/// What forces shift a place by that yields so for each N of them, and what they add where their directions are off: in the middle of
+/// a part, and everywhere on it.
+fn shift(amounts: &[Amount; 3], yielded: &[Yielded; 3], turned: Interval) -> [Interval; 2] {
+    let mut stated = Along::constant(0.0);
+    let mut off = [Interval::ZERO, turned];
+    for (amount, yielded) in amounts.iter().zip(yielded) {
+        stated = stated + yielded.stated * amount.centre;
+        let (any, radius) = (amount.any(), Interval::around(0.0, amount.off));
+        let each = yielded.off.into_iter().zip(views(yielded.stated));
+        for (off, (softer, yields)) in off.iter_mut().zip(each) {
+            *off = *off + any * softer + radius * yields;
+        }
+    }
+    let [middle, everywhere] = views(stated);
+    [middle + off[0], everywhere + off[1]]
 }
 
 /// By how much torques at the axes shift a place along the normal.

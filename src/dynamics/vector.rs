@@ -1,4 +1,4 @@
-//! Vectors of any kind of number, and how they turn.
+//! Vectors of any kind of number.
 
 use core::ops::{Add, Mul, Neg, Sub};
 use vcutc_geometry::number::{Along, Interval};
@@ -116,63 +116,4 @@ pub(crate) fn symmetric<N: Number>([xx, yy, zz, xy, xz, yz]: [f64; 6], a: Vector
         a[0] * xy + a[1] * yy + a[2] * yz,
         a[0] * xz + a[1] * yz + a[2] * zz,
     ]
-}
-
-/// How far a joint has turned: the sine of its angle, and one less its cosine.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turn<N> {
-    pub sine: N,
-    pub versine: N,
-}
-
-impl Turn<f64> {
-    /// By an angle, in rad.
-    #[must_use]
-    pub fn by(angle: f64) -> Self {
-        let (sine, cosine) = libm::sincos(angle);
-        Self {
-            sine,
-            versine: 1.0 - cosine,
-        }
-    }
-}
-
-impl Turn<Along> {
-    /// By an angle along a part of a motion.
-    #[must_use]
-    pub fn along(angle: Along) -> Self {
-        let (sine, cosine) = angle.sin_cos();
-        Self {
-            sine,
-            versine: (-cosine).plus(1.0),
-        }
-    }
-}
-
-impl<N: Number> Turn<N> {
-    /// A vector after the turn about a plain axis of length 1 (Rodrigues).
-    #[inline(always)]
-    pub(crate) fn out(self, axis: Vector<f64>, a: Vector<N>) -> Vector<N> {
-        // With the axis second, the cross product is the other way round.
-        let square = cross_plain(a, axis);
-        let twice = cross_plain(square, axis);
-        sum(a, sum(scaled(twice, self.versine), scaled(square, -self.sine)))
-    }
-
-    /// A plain vector before the turn.
-    #[inline(always)]
-    pub(crate) fn back_plain(self, axis: Vector<f64>, a: Vector<f64>) -> Vector<N> {
-        let square = cross_plain(a, axis);
-        let twice = cross_plain(square, axis);
-        let turned = sum(along(twice, self.versine), along(square, self.sine));
-        core::array::from_fn(|part| turned[part].plus(a[part]))
-    }
-
-    /// A vector before the turn.
-    #[inline(always)]
-    pub(crate) fn back(self, axis: Vector<f64>, a: Vector<N>) -> Vector<N> {
-        let square = cross_plain(a, axis);
-        let twice = cross_plain(square, axis);
-        sum(a, sum(scaled(twice, self.versine), scaled(square, self.sine)))
-    }
 }

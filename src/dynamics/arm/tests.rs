@@ -377,7 +377,7 @@ proptest! {
         let around = |value: f64| Interval { low: value - 1e-3, high: value + 1e-3 };
         let turns = joints.map(|joint| {
             let (sine, cosine) = around(joint).sin_cos();
-            Turn { sine, versine: Interval::exactly(1.0) - cosine }
+            Turn { sine, cosine }
         });
         let enclosed = arm.torques(&State { turns, rates: rates.map(around), accelerations: accelerations.map(around) });
         let moved = |values: [f64; 6]| values.map(|value| value + by);

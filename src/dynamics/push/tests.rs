@@ -193,11 +193,14 @@ fn forces_and_springs_within_their_spread_move_it_within_what_is_published() {
         });
         let columns = chain.columns(&turns, hand.position.to_array());
         let normals = push.normals(&columns);
-        let pushes = push.forces().map(|force| Pushing {
-            amount: force.edge,
-            torques: push.torques(&columns, force.direction, 0.5 * push.edge),
+        let springs = identified();
+        let [tip, end] = normals.map(|normal| {
+            let yielded = push.forces().map(|force| {
+                let torques = push.torques(&columns, force.direction, 0.5 * push.edge);
+                Yielded::of(&normal, &torques, &springs)
+            });
+            shift(&push.forces().map(|force| force.edge), &yielded, Interval::ZERO)[1]
         });
-        let [tip, end] = normals.map(|normal| push.shift(&normal, &pushes, &identified())[1]);
         (1e6 * tip.hull(end).low, 1e6 * tip.hull(end).high)
     };
     // The published bounds are of boxes of forces, which hold more than forces whose parts are each within their spread.
