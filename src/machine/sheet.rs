@@ -10,9 +10,9 @@ mod types;
 
 use super::LimitPlaces;
 use super::Model;
-use super::elasticity::{self, Elasticity};
+use super::elasticity::Elasticity;
 use super::facts::{self, Facts, FkCheck};
-use super::masses::{self, Masses, Torques};
+use super::masses::{Masses, Torques};
 use super::path_limits::{self, PathLimits};
 use super::ranges;
 use crate::kinematics::Mechanism;
@@ -99,9 +99,6 @@ const FIELDS: &[FieldSpec] = &[
     optional("payload_source"),
     optional("confidence"),
     optional(path_limits::KEY),
-    optional(masses::KEY),
-    optional(masses::TORQUE_KEY),
-    optional(elasticity::KEY),
 ];
 
 /// How messages speak of sheets.
@@ -141,12 +138,13 @@ fn read(root: Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Sheet> {
     facts.remarks.extend(body.remarks);
     let path = path_limits::read(root, &mut facts.sources, &mut facts.remarks, faults);
     let mechanism = body.mechanism?;
-    let masses = Masses::read(root, faults);
+    let arm = (kind == MachineKind::Robot).then_some(root);
+    let masses = arm.and_then(|root| Masses::read(root, faults));
     if let (Some(masses), Some(arm)) = (&masses, mechanism.ortho_parallel()) {
         masses.check(root, arm.length(), faults);
     }
-    let torques = Torques::read(root, faults);
-    let elasticity = Elasticity::read(root, faults);
+    let torques = arm.and_then(|root| Torques::read(root, faults));
+    let elasticity = arm.and_then(|root| Elasticity::read(root, faults));
     let missed = |check: &FkCheck| check.missed(&mechanism, &body.axes);
     faults.extend(facts.fk_checks.iter().filter_map(missed));
     Some(Sheet {

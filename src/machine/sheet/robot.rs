@@ -3,9 +3,11 @@
 //! Angles are the controller's own. Lengths follow Brandstötter, Angerer, Hofbaur 2014 as in [`Opw`].
 
 use super::types::{Body, Form};
+use crate::elasticity;
 use crate::facts::Sources;
 use crate::kinematics::Mechanism;
 use crate::kinematics::opw::{Coupling, Opw};
+use crate::masses;
 use crate::ranges::{ANGLE, ARM_LENGTH, LENGTH, TORQUE, TURNING_ACCELERATION, TURNING_JERK, TURNING_RATE};
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
 use vcutc_diagnostics::Diagnostic;
@@ -18,6 +20,9 @@ pub(super) const FORM: Form = Form {
         block("opw", "[opw]").required(),
         block("limits", "[limits]").required(),
         optional("coupling"),
+        optional(masses::KEY),
+        optional(masses::TORQUE_KEY),
+        optional(elasticity::KEY),
     ],
     read,
 };

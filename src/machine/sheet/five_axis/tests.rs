@@ -208,6 +208,17 @@ fn every_axis_has_a_table_with_its_range() {
     );
 }
 
+/// Nothing uses them there, so that stating them would promise too much.
+#[test]
+fn masses_torques_and_stiffness_are_of_arms() {
+    for heading in ["dynamics", "torque", "elasticity"] {
+        let with = format!("\n[{heading}]\nsource = \"a scale\"\n[");
+        let (place, message) = fault("generic/head_head_ac_spindle", "\n[", &with);
+        assert_eq!(place, heading);
+        assert!(message.contains(&format!("`{heading}`")), "{message}");
+    }
+}
+
 #[test]
 fn the_sheet_of_the_manual_is_a_machine() {
     let manual = include_str!("../../../../docs/machines_five_axis.md");
