@@ -1,7 +1,7 @@
 //! What the axes of an arm carry: the masses of the links between them, and of all that is fixed to those.
 //!
-//! Beyond the flange nothing counts, because jobs state what the flange carries. Nothing is assumed either: where the links between two
-//! axes have no mass, or one hangs on a joint that moves by itself, the masses of the arm are not known.
+//! Beyond the flange nothing counts, because jobs state what the flange carries. Nothing is assumed either: where no link between
+//! two axes has an `<inertial>`, or one hangs on a joint that moves by itself, the masses of the arm are not known.
 
 use super::elements::{Kind, MovingJoint, Read, all};
 use super::tree::Tree;
@@ -75,7 +75,7 @@ impl<'t> Search<'_, 't> {
         while let Some(Carried { link, link_in_tree }) = open.pop() {
             match self.tree.body(link) {
                 Ok(Some(body)) => {
-                    has_own |= body.mass > 0.0 && self.way.contains(link);
+                    has_own |= self.way.contains(link);
                     bodies.push(body.moved(&link_in_tree));
                 }
                 Ok(None) => {}

@@ -75,7 +75,8 @@ fn torques(figures: &TorqueFigures) -> Html {
         Column::Numbers("of its limit"),
         Column::Words("at"),
     ];
-    let newton_metres = |torque: f64| Html::text(&format!("{:.1} Nm", torque + 0.0));
+    // Adding nothing takes the sign from a zero.
+    let newton_metres = |torque: f64| Html::text(&format!("{:.1} Nm", (torque * 10.0).round() / 10.0 + 0.0));
     let rows = figures.axes.iter().map(|axis| {
         vec![
             Html::text(&axis.name),

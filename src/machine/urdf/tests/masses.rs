@@ -192,8 +192,9 @@ fn nothing_is_assumed() {
     let light = kuka(cable).replacen(BODY, "", 1);
     assert!(read(&with(&light, "cable", BODY)).masses.is_none());
     assert!(read(&with(&kuka(cable), "cable", BODY)).masses.is_some());
+    // A mass of zero is stated.
     let weightless = kuka(&[]).replacen("mass value=\"2\"", "mass value=\"0\"", 1);
-    assert!(read(&weightless).masses.is_none());
+    assert!(read(&weightless).masses.is_some());
     // Frames without mass are not looked at.
     let camera: &[Row] = &[(
         "camera",
