@@ -1,7 +1,7 @@
 //! What is said to be proven was computed: every machine of the catalogue carries out a job, and what the page of the report, the
 //! warnings and the JSON list say of it is compared with the text of its sheet.
 
-use crate::pipeline::{Files, compile, told};
+use crate::pipeline::{Files, compile, rendered};
 use crate::repository::{read, root};
 use std::collections::BTreeSet;
 use vcutc::diagnostics::Code;
@@ -109,7 +109,7 @@ fn job_of(name: &str) -> String {
 }
 
 fn compiled(outcome: &Outcome) -> &Compiled {
-    let messages = told(&outcome.diagnostics, outcome);
+    let messages = rendered(&outcome.diagnostics, outcome);
     outcome.compiled.as_ref().unwrap_or_else(|| panic!("{messages}"))
 }
 
@@ -329,7 +329,7 @@ fn an_axis_without_a_rate_is_named() {
         "{}",
         said.not_checked
     );
-    let messages = told(&outcome.diagnostics, &outcome);
+    let messages = rendered(&outcome.diagnostics, &outcome);
     assert!(
         messages.contains("warning[VC0517]: the speed limit of B is not known"),
         "{messages}"

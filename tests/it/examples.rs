@@ -1,7 +1,7 @@
 //! The examples that people start from.
 
 use crate::krl_text;
-use crate::pipeline::{all_diagnostics, compile, compile_on, emit, emit_for, fixed, numbers, told};
+use crate::pipeline::{all_diagnostics, compile, compile_on, emit, emit_for, fixed, numbers, rendered};
 #[cfg(feature = "gcode")]
 use crate::shop::{DIALECTS, NOT_IN, compiled_for, has_words_for};
 use crate::shop::{FAILING, NOT_ON, Pairing, compiled, compiling, folder, jobs};
@@ -22,7 +22,7 @@ fn examples_say_what_they_are_and_what_they_show() {
 fn examples_compile_and_say_what_was_planned() {
     for (name, _) in compiling() {
         let outcome = compile(&name, &folder());
-        let messages = told(&all_diagnostics(&outcome), &outcome);
+        let messages = rendered(&all_diagnostics(&outcome), &outcome);
         assert_eq!(messages, "", "{name}");
         krl_text::check(&outcome, &emit(&outcome).unwrap());
     }
@@ -35,11 +35,15 @@ fn examples_compile_for_every_machine_and_target() {
     for (name, pairings) in compiling() {
         for Pairing { machine, target } in pairings {
             let outcome = compiled(machine, &name);
-            assert_eq!(told(&outcome.diagnostics, outcome), "", "{name} on {machine:?}");
+            assert_eq!(
+                rendered(&outcome.diagnostics, outcome),
+                "",
+                "{name} on {machine:?}"
+            );
             for backend in registry::backends() {
                 let refused = emit_for(backend, outcome).err().unwrap_or_default();
                 if backend.id() == target {
-                    assert_eq!(told(&refused, outcome), "", "{name} on {machine:?}");
+                    assert_eq!(rendered(&refused, outcome), "", "{name} on {machine:?}");
                     programs += 1;
                 } else {
                     assert_eq!(
@@ -74,8 +78,16 @@ fn examples_compile_for_every_dialect_of_g_code() {
                     continue;
                 }
                 let refused = emit_for(target, outcome).err().unwrap_or_default();
-                assert_eq!(told(&outcome.diagnostics, outcome), "", "{name} on {machine:?}");
-                assert_eq!(told(&refused, outcome), "", "{name} on {machine:?} for {dialect}");
+                assert_eq!(
+                    rendered(&outcome.diagnostics, outcome),
+                    "",
+                    "{name} on {machine:?}"
+                );
+                assert_eq!(
+                    rendered(&refused, outcome),
+                    "",
+                    "{name} on {machine:?} for {dialect}"
+                );
                 programs += 1;
             }
         }
@@ -115,7 +127,7 @@ fn each_fix_of_the_example_out_of_reach_makes_it_compile() {
     for fix in fixes {
         let mended = fixed(&folder(), &outcome, fix);
         let after = compile("out_of_reach.vcut", &mended);
-        assert_eq!(told(&all_diagnostics(&after), &after), "", "{}", fix.title);
+        assert_eq!(rendered(&all_diagnostics(&after), &after), "", "{}", fix.title);
         krl_text::check(&after, &emit(&after).unwrap());
     }
 }

@@ -1,6 +1,6 @@
 //! A job on every arrangement of five-axis machines: those that hold its postures carry it out, the others say what they lack.
 
-use crate::pipeline::{Files, compile, compile_on, numbers, told};
+use crate::pipeline::{Files, compile, compile_on, numbers, rendered};
 use crate::repository::{read, root};
 use glam::{DMat3, DVec3};
 use vcutc::diagnostics::Code;
@@ -245,7 +245,7 @@ fn a_turn_too_near_the_work_says_how_far_is_enough() {
     };
     let refused = with("6.1 mm");
     assert_eq!(numbers(&refused.diagnostics), ["VC0528"]);
-    let messages = told(&refused.diagnostics, &refused);
+    let messages = rendered(&refused.diagnostics, &refused);
     assert!(
         messages.contains("let the blade turn with `extension = 8.6 mm`"),
         "{messages}"

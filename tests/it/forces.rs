@@ -1,6 +1,6 @@
 //! How far the forces of a blade push its cuts off: against an oracle that knows the kinematics of the arm alone.
 
-use crate::pipeline::{Files, all_diagnostics, compile, emit, fixed, told};
+use crate::pipeline::{Files, all_diagnostics, compile, emit, fixed, rendered};
 use crate::repository::root;
 use glam::DVec3;
 use proptest::prelude::*;
@@ -65,7 +65,7 @@ fn compiled(files: &Files) -> Outcome {
     assert!(
         outcome.compiled.is_some(),
         "{}",
-        told(&all_diagnostics(&outcome), &outcome)
+        rendered(&all_diagnostics(&outcome), &outcome)
     );
     outcome
 }
@@ -349,7 +349,7 @@ fn a_limit_that_is_passed_is_an_error_with_one_that_is_kept() {
     assert!(
         mended.compiled.is_some(),
         "{}",
-        told(&all_diagnostics(&mended), &mended)
+        rendered(&all_diagnostics(&mended), &mended)
     );
 }
 

@@ -1,6 +1,6 @@
 //! Jobs on five-axis machines, all the way to a program in every dialect of G-code.
 
-use crate::pipeline::{Files, compile, numbers, told};
+use crate::pipeline::{Files, compile, numbers, rendered};
 use crate::repository::read;
 use vcutc::diagnostics::Diagnostic;
 use vcutc::driver::{self, EmitFailure, Outcome};
@@ -46,7 +46,7 @@ fn a_head_that_swings_and_rakes_gets_a_program_in_every_dialect() {
     for (dialect, codes) in DIALECTS {
         let block = format!("{HOME}\n gcode {{\n dialect = {dialect}\n {codes}\n }}");
         let outcome = outcome("generic/head_head_ba", "reorient = 40 deg/s", &block);
-        let bundle = emitted(&outcome).unwrap_or_else(|found| panic!("{}", told(&found, &outcome)));
+        let bundle = emitted(&outcome).unwrap_or_else(|found| panic!("{}", rendered(&found, &outcome)));
         assert_eq!(bundle.files().len(), 1);
     }
 }

@@ -1,6 +1,6 @@
 //! Refusals at once, and help that works: what is offered for a job is made in its text, and the text compiled again.
 
-use crate::pipeline::{Files, compile, fixed, numbers, told};
+use crate::pipeline::{Files, compile, fixed, numbers, rendered};
 use vcutc::cancellation::Wanted;
 use vcutc::diagnostics::Diagnostic;
 use vcutc::diagnostics::source::SourceMap;
@@ -184,7 +184,7 @@ fn what_is_offered_for_drawn_jobs_works_on_their_machine() {
                     after.compiled.is_some(),
                     "job {index}: {}\n{text}\n{}",
                     fix.title,
-                    told(&after.diagnostics, &after)
+                    rendered(&after.diagnostics, &after)
                 );
             }
         }
@@ -208,14 +208,14 @@ fn what_the_target_of_the_machine_refuses_is_refused_by_a_check() {
     assert_eq!(numbers(&outcome.diagnostics), ["VC0606"]);
     assert!(outcome.compiled.is_none());
     let [fix] = &outcome.diagnostics[0].fixes[..] else {
-        panic!("{}", told(&outcome.diagnostics, &outcome));
+        panic!("{}", rendered(&outcome.diagnostics, &outcome));
     };
     let after = compile(JOB, &fixed(&files, &outcome, fix));
     assert!(
         after.compiled.is_some(),
         "{}: {}",
         fix.title,
-        told(&after.diagnostics, &after)
+        rendered(&after.diagnostics, &after)
     );
 }
 
@@ -250,7 +250,7 @@ fn many_moves_of_all_axes_are_warned_of() {
         numbers(&outcome.diagnostics),
         ["VC0527"],
         "{}",
-        told(&outcome.diagnostics, &outcome)
+        rendered(&outcome.diagnostics, &outcome)
     );
     let compiled = outcome.compiled.as_ref().expect("it is a warning");
     let changes = compiled.program.reached().unwrap().report.changes.len();

@@ -2,7 +2,7 @@
 //!
 //! No test here has a clock: one that took too long would hang the suite, and that shows.
 
-use crate::pipeline::{Files, all_diagnostics, compile, emit, numbers, told};
+use crate::pipeline::{Files, all_diagnostics, compile, emit, numbers, rendered};
 use crate::repository::{files, read};
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -15,7 +15,7 @@ const JOB: &str = "job.vcut";
 fn survive(files: &Files) -> Vec<&'static str> {
     let outcome = compile(JOB, files);
     let diagnostics = all_diagnostics(&outcome);
-    let messages = told(&diagnostics, &outcome);
+    let messages = rendered(&diagnostics, &outcome);
     assert_eq!(messages.is_empty(), diagnostics.is_empty());
     let has_program = outcome.compiled.is_some() && emit(&outcome).is_ok();
     assert_ne!(has_program, has_errors(&diagnostics), "{messages}");

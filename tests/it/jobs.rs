@@ -7,7 +7,7 @@
 
 use crate::cli::vcutc;
 use crate::krl_text;
-use crate::pipeline::{Files, compile, compile_on, emit, emit_for, told};
+use crate::pipeline::{Files, compile, compile_on, emit, emit_for, rendered};
 use crate::repository::root;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -34,7 +34,7 @@ fn folders() -> Vec<PathBuf> {
 /// Compiles the job of a folder, which must be without errors.
 fn compiled(folder: &Path) -> Outcome {
     let outcome = compile(JOB, &Files::of(folder));
-    let messages = told(&outcome.diagnostics, &outcome);
+    let messages = rendered(&outcome.diagnostics, &outcome);
     assert!(outcome.compiled.is_some(), "{}\n{messages}", folder.display());
     outcome
 }

@@ -1,6 +1,6 @@
 //! `avoid = swing`: Vs with narrower flanks beside a step, from the job to programs of all targets and back.
 
-use crate::pipeline::{Files, compile_on, emit_for, fixed, numbers, told};
+use crate::pipeline::{Files, compile_on, emit_for, fixed, numbers, rendered};
 use crate::rect::is_same;
 use crate::repository::root;
 use vcutc::driver::{self, Outcome};
@@ -33,7 +33,7 @@ fn compiled(text: String, machine: &str) -> Outcome {
 
 /// What stays on the part in mm2, its largest height in mm, and how many Vs have narrower flanks.
 fn stays(outcome: &Outcome) -> (f64, f64, usize) {
-    let messages = told(&outcome.diagnostics, outcome);
+    let messages = rendered(&outcome.diagnostics, outcome);
     let report = &outcome
         .compiled
         .as_ref()
@@ -142,7 +142,7 @@ fn narrower_flanks_are_offered_where_they_keep_a_body_out() {
 }
 
 fn offers_narrower_flanks(text: &str, outcome: &Outcome) {
-    let messages = told(&outcome.diagnostics, outcome);
+    let messages = rendered(&outcome.diagnostics, outcome);
     let mut fixes = outcome
         .diagnostics
         .iter()

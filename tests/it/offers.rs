@@ -1,7 +1,7 @@
 //! Values that are offered are near the largest or least that works: found again by compiling what lies beside them.
 
 use crate::help::patiently;
-use crate::pipeline::{Files, compile, numbers, told};
+use crate::pipeline::{Files, compile, numbers, rendered};
 use vcutc::cancellation::Wanted;
 use vcutc::diagnostics::Diagnostic;
 use vcutc::driver::Outcome;
@@ -37,7 +37,7 @@ fn only(outcome: &Outcome, code: &str) -> Diagnostic {
         numbers(&outcome.diagnostics),
         [code],
         "{}",
-        told(&outcome.diagnostics, outcome)
+        rendered(&outcome.diagnostics, outcome)
     );
     outcome.diagnostics[0].clone()
 }
@@ -122,7 +122,7 @@ fn too_many_cuts_are_put_down_to_what_is_small() {
     ] {
         let outcome = compiled(&with(from, to));
         let refused = only(&outcome, "VC0303");
-        let said = told(&outcome.diagnostics, &outcome);
+        let said = rendered(&outcome.diagnostics, &outcome);
         assert!(
             refused.fixes.iter().any(|fix| fix.title.contains(name)),
             "{name}: {said}"
@@ -138,7 +138,7 @@ fn values_are_left_to_the_compiler_one_by_one_first() {
     let text = with("swing = 35 deg", "swing = 35 deg layer = 100 mm");
     let outcome = compiled(&text);
     let refused = only(&outcome, "VC0403");
-    let said = told(&outcome.diagnostics, &outcome);
+    let said = rendered(&outcome.diagnostics, &outcome);
     assert!(
         refused
             .fixes

@@ -3,7 +3,7 @@
 //!
 //! `UPDATE_DOCS=1 cargo test --test it optimum_table` writes it anew.
 
-use crate::pipeline::{Files, compile, told};
+use crate::pipeline::{Files, compile, rendered};
 use crate::published::{ARC, LEAD_DEG};
 use crate::repository::{read, root};
 use vcutc::driver::Outcome;
@@ -43,7 +43,7 @@ impl Row {
     fn of(name: &'static str, problem: &Problem) -> Self {
         let model = solve(problem).unwrap();
         let outcome = planned(&model);
-        assert_eq!(told(&outcome.diagnostics, &outcome), "", "{name}");
+        assert_eq!(rendered(&outcome.diagnostics, &outcome), "", "{name}");
         Self { name, model, outcome }
     }
 

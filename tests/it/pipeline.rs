@@ -90,7 +90,7 @@ pub(crate) fn all_diagnostics(outcome: &Outcome) -> Vec<Diagnostic> {
 }
 
 /// Diagnostics as people see them.
-pub(crate) fn told(diagnostics: &[Diagnostic], outcome: &Outcome) -> String {
+pub(crate) fn rendered(diagnostics: &[Diagnostic], outcome: &Outcome) -> String {
     render(diagnostics, &outcome.sources, ColorChoice::Plain)
 }
 

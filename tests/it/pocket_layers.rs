@@ -3,7 +3,7 @@
 
 use crate::drawn::{Corner, Form, Sheet, regular};
 use crate::krl_text;
-use crate::pipeline::{Files, compile, emit, told};
+use crate::pipeline::{Files, compile, emit, rendered};
 use crate::repository::{read, root};
 use crate::seen_from_above::{Boundary, Spot, distance, ways};
 use core::f64::consts::{PI, TAU};
@@ -103,14 +103,14 @@ fn assert_cleared(outcome: &Outcome, boundary: &Boundary, off: f64, what: &str) 
     assert!(
         !has_errors(&outcome.diagnostics),
         "{what}: {}",
-        told(&outcome.diagnostics, outcome)
+        rendered(&outcome.diagnostics, outcome)
     );
     let others = |code| code != Code::FieldBroken;
     let mut codes = outcome.diagnostics.iter().map(|found| found.code);
     assert!(
         !codes.any(others),
         "{what}: {}",
-        told(&outcome.diagnostics, outcome)
+        rendered(&outcome.diagnostics, outcome)
     );
     krl_text::check(outcome, &emit(outcome).unwrap());
     let program = outcome.compiled.as_ref().unwrap().program.verified().program();
@@ -466,7 +466,7 @@ fn drawings_of_other_programs_are_cleared() {
             assert!(
                 !has_errors(&outcome.diagnostics),
                 "{name}: {}",
-                told(&outcome.diagnostics, &outcome)
+                rendered(&outcome.diagnostics, &outcome)
             );
             let program = outcome.compiled.as_ref().unwrap().program.verified().program();
             for (_, at) in ways(program) {
@@ -492,7 +492,7 @@ fn drawings_that_are_refused_are_mended_by_what_is_offered() {
     sheet.line("SEAT", [120.0, 20.0], [120.0, 90.0]);
     let seat = |more: &str| format!("dxf \"plate.dxf\" {{ layer = \"SEAT\" {more} }}");
     let outcome = compiled(&job(&seat(""), "auto"), &sheet.text());
-    let text = told(&outcome.diagnostics, &outcome);
+    let text = rendered(&outcome.diagnostics, &outcome);
     assert_eq!(outcome.diagnostics[0].code, Code::RegionTangled);
     assert!(text.contains("`tolerance = 0.301 mm`"), "{text}");
     let mut walls = sheet.sides("SEAT");
@@ -511,7 +511,7 @@ fn drawings_that_are_refused_are_mended_by_what_is_offered() {
     sheet.polyline("SEAT", Form::Light, &slot);
     let narrow = job(&seat(""), "auto");
     let outcome = compiled(&narrow, &sheet.text());
-    let text = told(&outcome.diagnostics, &outcome);
+    let text = rendered(&outcome.diagnostics, &outcome);
     assert_eq!(outcome.diagnostics[0].code, Code::PocketTooNarrow);
     assert!(text.contains("a radius of at most 5.49 mm"), "{text}");
     let slim = |radius: f64| {

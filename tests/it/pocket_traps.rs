@@ -2,7 +2,7 @@
 //! against walls that the tests work out from their own numbers.
 
 use crate::drawn::{Corner, Form, Sheet};
-use crate::pipeline::told;
+use crate::pipeline::rendered;
 use crate::seen_from_above::{Boundary, Spot, distance, ways, ways_of};
 use crate::trap::{
     CHOSEN, DEPTH, FLOOR, KEEP, PATTERNS, RADIUS, Trap, WIDTH, assert_cleared, clear, codes, compiled, fault,
@@ -348,14 +348,14 @@ fn a_ring_as_wide_as_its_tool_has_no_room_to_go_down() {
     for pattern in PATTERNS {
         let outcome = ring(2.0 * KEEP).compiled(pattern);
         assert_eq!(codes(&outcome), [Code::PocketTooNarrow], "{pattern}");
-        let text = told(&outcome.diagnostics, &outcome);
+        let text = rendered(&outcome.diagnostics, &outcome);
         assert!(
             text.contains("no room to go down") && text.contains("use a narrower tool"),
             "{text}"
         );
         let outcome = ring(2.0 * KEEP - 1e-3).compiled(pattern);
         assert_eq!(codes(&outcome), [Code::PocketTooNarrow], "{pattern}");
-        let text = told(&outcome.diagnostics, &outcome);
+        let text = rendered(&outcome.diagnostics, &outcome);
         assert!(
             text.contains("use a tool with a radius of at most 4.99 mm"),
             "{text}"
@@ -380,7 +380,7 @@ fn ground_without_walls_is_cleared_in_rows() {
         let outcome = trap.compiled(pattern);
         assert_eq!(codes(&outcome), [Code::PocketTooNarrow], "{pattern}");
         let [fix] = outcome.diagnostics[0].fixes.as_slice() else {
-            panic!("{}", told(&outcome.diagnostics, &outcome))
+            panic!("{}", rendered(&outcome.diagnostics, &outcome))
         };
         assert_eq!(fix.edits[0].replacement, "zigzag");
     }
@@ -407,7 +407,7 @@ fn islands_that_are_drawn_twice_count_once() {
     assert!(
         !has_errors(&twice.diagnostics),
         "{}",
-        told(&twice.diagnostics, &twice)
+        rendered(&twice.diagnostics, &twice)
     );
     assert_eq!(program(&once), program(&twice));
     // From another corner, the other way round.
@@ -420,7 +420,7 @@ fn islands_that_are_drawn_twice_count_once() {
     assert!(
         !has_errors(&twice.diagnostics),
         "{}",
-        told(&twice.diagnostics, &twice)
+        rendered(&twice.diagnostics, &twice)
     );
     // What is no island is named, wherever it stands among others.
     for (islands, named) in [
@@ -465,7 +465,7 @@ fn pockets_that_overlap_are_both_cleared() {
         assert!(
             !has_errors(&outcome.diagnostics),
             "{}",
-            told(&outcome.diagnostics, &outcome)
+            rendered(&outcome.diagnostics, &outcome)
         );
         let program = outcome.compiled.as_ref().unwrap().program.verified().program();
         for (number, (corners, floor)) in [(one, low), (other, high)].into_iter().enumerate() {
@@ -493,7 +493,7 @@ fn a_hole_is_drawn_as_a_region_of_its_own() {
     assert!(
         !has_errors(&outcome.diagnostics),
         "{}",
-        told(&outcome.diagnostics, &outcome)
+        rendered(&outcome.diagnostics, &outcome)
     );
     let program = outcome.compiled.as_ref().unwrap().program.verified().program();
     let away = |(_, at): &(u32, vcutc_backend_api::geometry::Point3)| distance([at.x, at.y], [60.0, 50.0]);
@@ -534,7 +534,7 @@ fn mirrored_and_turned_regions_have_mirrored_and_turned_passes() {
         assert!(
             !has_errors(&outcome.diagnostics),
             "{}",
-            told(&outcome.diagnostics, &outcome)
+            rendered(&outcome.diagnostics, &outcome)
         );
         let ways = ways(outcome.compiled.as_ref().unwrap().program.verified().program());
         let flat = ways.into_iter().filter(|(_, at)| (at.z - FLOOR).abs() < 1e-3);

@@ -4,7 +4,7 @@
 //! that with B in place of every A nothing is wrong any more, `// still wrong: A -> B` that the same code comes again.
 //! Its snapshot shows it together with what people get to see.
 
-use crate::pipeline::{Files, all_diagnostics, compile, fixed, numbers, told};
+use crate::pipeline::{Files, all_diagnostics, compile, fixed, numbers, rendered};
 use crate::repository::expected_codes;
 use std::fs;
 use std::path::Path;
@@ -81,7 +81,7 @@ fn jobs_that_cannot_be_cut_are_explained() {
         let case = Case::read(path);
         let (outcome, diagnostics) = case.run();
         insta::with_settings!({ omit_expression => true, prepend_module_to_snapshot => false }, {
-            insta::assert_snapshot!(format!("{}\n{}", case.text, told(&diagnostics, &outcome)));
+            insta::assert_snapshot!(format!("{}\n{}", case.text, rendered(&diagnostics, &outcome)));
         });
         fixes_mend(path, &case, &outcome, &diagnostics);
         let codes = numbers(&of_interest(&case, diagnostics));
@@ -109,7 +109,7 @@ fn fixes_mend(path: &Path, case: &Case, outcome: &Outcome, diagnostics: &[Diagno
                 "{}: {}\n{}",
                 path.display(),
                 fix.title,
-                told(&left, &after)
+                rendered(&left, &after)
             );
         }
     }
@@ -121,7 +121,7 @@ fn what_the_help_says_works() {
         let case = Case::read(path);
         for claim in case.claims("// mended by: ") {
             let (outcome, diagnostics) = case.changed(claim).run();
-            let messages = told(&of_interest(&case, diagnostics), &outcome);
+            let messages = rendered(&of_interest(&case, diagnostics), &outcome);
             assert_eq!(messages, "", "{} with {claim:?}", path.display());
         }
         for claim in case.claims("// still wrong: ") {

@@ -4,7 +4,7 @@
 //! inwards; the compiler centres them, so that cuts at the sides need no more edge than others, which takes one column
 //! more on orthogonal lattices here.
 
-use crate::pipeline::{Files, compile, told};
+use crate::pipeline::{Files, compile, rendered};
 use vcutc::driver::Outcome;
 use vcutc::geometry::curve::Point2;
 use vcutc::simulation::surface::{Surface, Vee};
@@ -79,7 +79,7 @@ fn block(profile: &str, parameters: &Parameters) -> Outcome {
         }}"
     );
     let outcome = compile("block.vcut", &Files::default().with("block.vcut", text));
-    assert_eq!(told(&outcome.diagnostics, &outcome), "");
+    assert_eq!(rendered(&outcome.diagnostics, &outcome), "");
     outcome
 }
 
@@ -242,7 +242,7 @@ fn open_block(more: &str) -> Outcome {
         }}"
     );
     let outcome = compile("block.vcut", &Files::default().with("block.vcut", text));
-    assert_eq!(told(&outcome.diagnostics, &outcome), "");
+    assert_eq!(rendered(&outcome.diagnostics, &outcome), "");
     outcome
 }
 
@@ -284,7 +284,7 @@ fn a_discarded_layer_leaves_what_the_paper_says() {
         "block.vcut",
         &Files::default().with("block.vcut", text.to_owned()),
     );
-    assert_eq!(told(&outcome.diagnostics, &outcome), "");
+    assert_eq!(rendered(&outcome.diagnostics, &outcome), "");
     let left = outcome.compiled.as_ref().unwrap().report.scallop.height.to_mm();
     assert!((left - 16.70).abs() < 5e-3, "{left}");
 }

@@ -1,7 +1,7 @@
 //! Whole jobs on their machines: the best way to stand against trying all, the same result on any number of threads, and a
 //! program that changes its branch.
 
-use crate::pipeline::{Files, compile, emit, told};
+use crate::pipeline::{Files, compile, emit, rendered};
 use crate::repository::root;
 use vcutc::diagnostics::source::SourceMap;
 use vcutc::driver::Outcome;
@@ -73,7 +73,7 @@ fn program(job: &CheckedJob) -> VerifiedProgram {
 }
 
 fn solved(outcome: &Outcome) -> &Reached {
-    let messages = told(&outcome.diagnostics, outcome);
+    let messages = rendered(&outcome.diagnostics, outcome);
     let compiled = outcome.compiled.as_ref().unwrap_or_else(|| panic!("{messages}"));
     compiled.program.reached().unwrap()
 }

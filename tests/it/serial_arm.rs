@@ -1,6 +1,6 @@
 //! Jobs on an arm without a closed form: a UR10e from its URDF through the whole compiler.
 
-use crate::pipeline::{Files, compile, told};
+use crate::pipeline::{Files, compile, rendered};
 use vcutc::diagnostics::{Code, fix};
 use vcutc::driver::Outcome;
 use vcutc::driver::checks::Standing;
@@ -70,7 +70,7 @@ fn urdf() -> String {
 }
 
 fn reached(outcome: &Outcome) -> &Reached {
-    let messages = told(&outcome.diagnostics, outcome);
+    let messages = rendered(&outcome.diagnostics, outcome);
     let compiled = outcome.compiled.as_ref().unwrap_or_else(|| panic!("{messages}"));
     compiled.program.reached().unwrap()
 }
@@ -140,7 +140,7 @@ fn work_beyond_the_arm_is_refused() {
     assert!(
         codes.contains(&Code::OutOfReach),
         "{}",
-        told(&outcome.diagnostics, &outcome)
+        rendered(&outcome.diagnostics, &outcome)
     );
 }
 
@@ -149,7 +149,7 @@ fn work_beyond_the_arm_is_refused() {
 fn work_far_beyond_the_arm_is_brought_near_it() {
     let files = small(4000, 30);
     let outcome = compile(JOB, &files);
-    let messages = told(&outcome.diagnostics, &outcome);
+    let messages = rendered(&outcome.diagnostics, &outcome);
     let offered = outcome
         .diagnostics
         .iter()
@@ -163,6 +163,6 @@ fn work_far_beyond_the_arm_is_brought_near_it() {
     assert!(
         mended.compiled.is_some(),
         "{}",
-        told(&mended.diagnostics, &mended)
+        rendered(&mended.diagnostics, &mended)
     );
 }

@@ -1,7 +1,7 @@
 //! Torques of the axes of a robot: in the summary, as CSV, and above the limits of drives.
 
 use crate::cli::vcutc;
-use crate::pipeline::{Files, all_diagnostics, compile, fixed, told};
+use crate::pipeline::{Files, all_diagnostics, compile, fixed, rendered};
 use crate::repository::root;
 use glam::{DVec3, EulerRot};
 use tempfile::TempDir;
@@ -176,11 +176,11 @@ fn a_place_that_relieves_a_drive_is_offered() {
     let outcome = compile(JOB, &files);
     assert!(outcome.compiled.is_none());
     let [told_of] = outcome.diagnostics.as_slice() else {
-        panic!("{}", told(&outcome.diagnostics, &outcome));
+        panic!("{}", rendered(&outcome.diagnostics, &outcome));
     };
     assert_eq!(told_of.code, Code::TorqueAboveLimit);
     let [fix] = told_of.fixes.as_slice() else {
-        panic!("{}", told(&outcome.diagnostics, &outcome));
+        panic!("{}", rendered(&outcome.diagnostics, &outcome));
     };
     let moved = compile(JOB, &fixed(&files, &outcome, fix));
     let figures = moved

@@ -1,7 +1,7 @@
 //! Regions that are drawn for a tool of 5 mm in a stock of 20 mm, and what is wrong with programs that clear them.
 
 use crate::drawn::{Corner, Form, Sheet};
-use crate::pipeline::{Files, compile, told};
+use crate::pipeline::{Files, compile, rendered};
 use crate::seen_from_above::{Boundary, Spot, distance, ways};
 use vcutc::diagnostics::{Code, has_errors};
 use vcutc::driver::Outcome;
@@ -127,7 +127,7 @@ impl Trap {
 /// What is wrong with a program: it enters a wall, leaves the region or leaves core, by samples of its ways.
 pub(crate) fn fault(outcome: &Outcome, boundary: &Boundary) -> Option<String> {
     if has_errors(&outcome.diagnostics) {
-        return Some(told(&outcome.diagnostics, outcome));
+        return Some(rendered(&outcome.diagnostics, outcome));
     }
     let ways = ways(outcome.compiled.as_ref()?.program.verified().program());
     for (_, at) in &ways {

@@ -4,7 +4,7 @@
 //! the codes that are expected, each block is some lines of the program, with `-` in front of those that were taken out and
 //! `+` in front of those that were put in.
 
-use crate::pipeline::{Files, compile, krl, numbers, told};
+use crate::pipeline::{Files, compile, krl, numbers, rendered};
 use crate::repository::{expected_codes, root};
 use std::collections::BTreeSet;
 use std::fs;
@@ -80,7 +80,7 @@ fn changed_programs_are_explained() {
     insta::glob!("../verify", "*.diff", |path| {
         let case = fs::read_to_string(path).unwrap();
         let (verdict, outcome) = bench.verify(&changed(bench.files(), &case));
-        let messages = told(&verdict.diagnostics, &outcome);
+        let messages = rendered(&verdict.diagnostics, &outcome);
         insta::with_settings!({ omit_expression => true, prepend_module_to_snapshot => false }, {
             insta::assert_snapshot!(format!("{case}\n{messages}{}", verdict.lines.join("\n")));
         });
@@ -108,7 +108,7 @@ fn lowered_cuts_take_the_body_of_the_blade_into_the_stock() {
         file.text = file.text.replace(",Z 8.000,A", ",Z 7.500,A");
     }
     let (verdict, outcome) = bench.verify(&lowered);
-    let messages = told(&verdict.diagnostics, &outcome);
+    let messages = rendered(&verdict.diagnostics, &outcome);
     let told = "error[VC0709]: the body of `sabre` enters the stock by 0.4";
     assert!(messages.contains(told), "{messages}");
     assert!(!messages.contains("enters the part"), "{messages}");
@@ -185,7 +185,7 @@ fn layout_and_comments_are_free() {
     }
     assert_ne!(files, bench.files());
     let (other, outcome) = bench.verify(&files);
-    assert_eq!(told(&other.diagnostics, &outcome), "");
+    assert_eq!(rendered(&other.diagnostics, &outcome), "");
     assert!(other.lines[1].contains("layout or comments"), "{:?}", other.lines);
 }
 
@@ -311,7 +311,7 @@ fn a_program_that_is_not_what_it_was_made_from_is_never_handed_on() {
     assert_eq!(numbers(&diagnostics), ["VC0901"]);
     assert_eq!(taken.files(), []);
     insta::with_settings!({ omit_expression => true }, {
-        insta::assert_snapshot!(told(&diagnostics, &bench.outcome));
+        insta::assert_snapshot!(rendered(&diagnostics, &bench.outcome));
     });
 }
 
