@@ -114,3 +114,78 @@ rough vcut {{
         step = 1.24 * layer,
     )
 }
+
+/// What blocks before a robot are cut for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Block {
+    /// Cuts of 1 m before a large arm.
+    OfReach,
+    /// Cuts of 0.6 m by a blade whose forces are stated, before an arm whose stiffness is known.
+    OfForces,
+}
+
+/// A block of 500 mm by 140 mm before a robot, cut in layers and steps that give about so many cuts.
+#[must_use]
+pub fn block(cuts: u32, block: Block) -> String {
+    // The width by steps of nine tenths of a layer, the height to remove by layers.
+    let layer = (500.0 * 120.0 / 0.9 / f64::from(cuts)).sqrt();
+    let (long, blade, robot) = match block {
+        Block::OfReach => (
+            1000,
+            "cutting_length = 30 mm",
+            r#"robot "kuka/kr210_r3100_ultra" {
+  base       = frame(x = 1500 mm, y = -500 mm, z = 900 mm, a = 0 deg, b = 0 deg, c = 0 deg)"#,
+        ),
+        Block::OfForces => (
+            600,
+            r#"cutting_length = 60 mm
+  forces {
+    drag = 1.1 N/mm, axial = 0.4 N/mm, side = 0.3 N/mm, spread = 20 %
+    measured { feed = 200 mm/s, rake = 80 deg, swing = 25 deg }
+    source = "made up for this benchmark"
+  }"#,
+            r#"robot "kuka/kr210_r2700_prime" {
+  base       = frame(x = 1300 mm, y = -300 mm, z = 900 mm, a = 0 deg, b = 0 deg, c = 0 deg)
+  load       = load(mass = 14.5 kg, x = 0 mm, y = 0 mm, z = 140 mm)"#,
+        ),
+    };
+    format!(
+        r#"job "bench_block_{cuts}"
+
+stock {{ size = (500 mm, {long} mm, 140 mm) }}
+
+profile {{
+  start (0 mm, 20 mm)
+  line to (500 mm, 20 mm)
+}}
+
+blade dagger {{
+  {blade}
+  half_apex      = 7.13 deg
+  thickness      = 1 mm
+  edges          = double
+}}
+
+rough vcut {{
+  blade     = dagger
+  lattice   = orthogonal
+  rake      = 80 deg
+  swing     = 25 deg
+  layer     = {layer:.3} mm
+  step      = {step:.3} mm
+  residual  = mixed
+  order     = point
+  sequence  = rows
+  feed      {{ cut = 200 mm/s, travel = 300 mm/s, reorient = 60 deg/s }}
+  clearance = 20 mm
+}}
+
+machine cell = {robot}
+  tool       = frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg)
+  home       = joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)
+  ultrasonic = output(12)
+}}
+"#,
+        step = 0.9 * layer,
+    )
+}

@@ -10,6 +10,7 @@ use vcutc::motion::rigs::Rigs;
 use vcutc::motion::solve::{Changes, LEAST_CLEARANCE, Reached, solve};
 use vcutc::simulation::prove::UsedEdge;
 use vcutc_backend_api::verify::VerifiedProgram;
+use vcutc_benches::jobs::{self, Block};
 use vcutc_benches::stages;
 
 /// Numbers of cuts, about.
@@ -30,7 +31,7 @@ pub(crate) fn table() {
 }
 
 fn row(size: u32) {
-    let (sources, job) = stages::check(&text(size));
+    let (sources, job) = stages::check(&jobs::block(size, Block::OfForces));
     let plan = stages::plan(&job);
     let program = stages::lower(&plan, &sources);
     let edges = stages::contour(&plan, &program).edges;
@@ -75,56 +76,4 @@ fn deviations(job: &CheckedJob, reached: &Reached, edges: &[UsedEdge]) -> Deviat
         gravity: None,
     };
     DeviationFigures::of(known, asked).expect("the deviation is known")
-}
-
-/// A block of 500 x 600 x 140 mm before an arm whose stiffness is known, cut in layers and steps that give about so many cuts.
-fn text(cuts: u32) -> String {
-    // The width by steps of nine tenths of a layer, the height to remove by layers.
-    let layer = (500.0 * 120.0 / 0.9 / f64::from(cuts)).sqrt();
-    format!(
-        r#"job "bench_dynamics_{cuts}"
-
-stock {{ size = (500 mm, 600 mm, 140 mm) }}
-
-profile {{
-  start (0 mm, 20 mm)
-  line to (500 mm, 20 mm)
-}}
-
-blade dagger {{
-  cutting_length = 60 mm
-  half_apex      = 7.13 deg
-  thickness      = 1 mm
-  edges          = double
-  forces {{
-    drag = 1.1 N/mm, axial = 0.4 N/mm, side = 0.3 N/mm, spread = 20 %
-    measured {{ feed = 200 mm/s, rake = 80 deg, swing = 25 deg }}
-    source = "made up for this benchmark"
-  }}
-}}
-
-rough vcut {{
-  blade     = dagger
-  lattice   = orthogonal
-  rake      = 80 deg
-  swing     = 25 deg
-  layer     = {layer:.3} mm
-  step      = {step:.3} mm
-  residual  = mixed
-  order     = point
-  sequence  = rows
-  feed      {{ cut = 200 mm/s, travel = 300 mm/s, reorient = 60 deg/s }}
-  clearance = 20 mm
-}}
-
-machine cell = robot "kuka/kr210_r2700_prime" {{
-  tool       = frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg)
-  base       = frame(x = 1300 mm, y = -300 mm, z = 900 mm, a = 0 deg, b = 0 deg, c = 0 deg)
-  home       = joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)
-  load       = load(mass = 14.5 kg, x = 0 mm, y = 0 mm, z = 140 mm)
-  ultrasonic = output(12)
-}}
-"#,
-        step = 0.9 * layer,
-    )
 }
