@@ -9,6 +9,7 @@
 use super::joints::{HEADING, place};
 use std::io::{self, Write};
 use vcutc_backend_api::ir::Op;
+use vcutc_diagnostics::number::rounded;
 use vcutc_driver::dynamics::forces;
 use vcutc_dynamics::deviation::{Deviations, Known};
 use vcutc_dynamics::drives::{Drives, Torques};
@@ -96,8 +97,6 @@ fn pushed(
         let columns = 6 + model.axes.len();
         return write!(out, "{}", ",".repeat(columns));
     };
-    // Adding zero turns a negative zero into zero.
-    let rounded = |value: f64, by: f64| (value * by).round() / by + 0.0;
     write!(out, ",{:.3}", there.edge.to_mm())?;
     for part in there.force.to_array().into_iter().chain(there.torques) {
         write!(out, ",{:.3}", rounded(part, 1e3))?;
@@ -113,8 +112,7 @@ fn row(op: &Op, sample: &Sample, torques: &Torques, model: &Model, out: &mut dyn
     let parts = torques.weight.iter().zip(&torques.motion);
     for (axis, (weight, motion)) in parts.enumerate().take(model.axes.len()) {
         let all = torques.of(axis);
-        // Adding zero turns a negative zero into zero.
-        let [weight, motion, sum] = [*weight, *motion, all].map(|torque| (torque * 1e3).round() / 1e3 + 0.0);
+        let [weight, motion, sum] = [*weight, *motion, all].map(|torque| rounded(torque, 1e3));
         write!(out, ",{weight:.3},{motion:.3},{sum:.3},")?;
         let limit = model
             .torques

@@ -7,6 +7,7 @@
 
 use std::io::{self, Write};
 use vcutc_backend_api::ir::{Axis, AxisKind, Op, Site};
+use vcutc_diagnostics::number::rounded;
 use vcutc_job::CheckedJob;
 use vcutc_motion::rigs::Rigs;
 use vcutc_motion::solve::Reached;
@@ -58,9 +59,7 @@ fn row(op: &Op, sample: &Sample, axes: &[Axis], out: &mut dyn Write) -> io::Resu
             AxisKind::Rotary => value.to_degrees(),
             AxisKind::Linear => value,
         };
-        // Adding zero turns a negative zero into zero.
-        let rounded = (shown * 1e4).round() / 1e4 + 0.0;
-        write!(out, ",{rounded:.4}")?;
+        write!(out, ",{:.4}", rounded(shown, 1e4))?;
     }
     writeln!(out)
 }

@@ -12,6 +12,13 @@ pub fn show(value: f64) -> String {
     }
 }
 
+/// A number rounded to the nearest of so many steps to one. What rounds to zero has no sign.
+#[must_use]
+pub fn rounded(value: f64, steps: f64) -> f64 {
+    // Adding nothing takes the sign from a zero.
+    (value * steps).round() / steps + 0.0
+}
+
 /// A number to six digits, without trailing zeros.
 #[must_use]
 pub fn number(value: f64) -> String {

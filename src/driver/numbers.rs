@@ -7,6 +7,7 @@ pub mod baseline;
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
+use vcutc_diagnostics::number::rounded;
 use vcutc_job::PlannedJob;
 use vcutc_simulation::report::Report;
 
@@ -71,9 +72,7 @@ fn not_negative<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Er
 }
 
 fn thousandths(value: f64) -> f64 {
-    let rounded = (value * 1000.0).round() / 1000.0;
-    // Never -0.
-    rounded + 0.0
+    rounded(value, 1000.0)
 }
 
 /// A figure that a repository can hold its programs to. Less is better for all of them.

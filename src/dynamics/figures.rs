@@ -4,7 +4,7 @@ use crate::arm::JOINTS;
 use crate::drives::{Drives, Most, Unknown};
 use serde::{Serialize, Serializer};
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_diagnostics::number::show;
+use vcutc_diagnostics::number::{rounded, show};
 use vcutc_machine::Model;
 use vcutc_machine::kinematics::opw::Coupling;
 use vcutc_machine::masses::{Backing, Covered};
@@ -30,13 +30,13 @@ pub struct TorqueFigures {
 pub struct AxisTorque {
     pub name: String,
     /// As the controller counts.
-    #[serde(serialize_with = "rounded")]
+    #[serde(serialize_with = "thousandths")]
     pub torque: f64,
     /// What of it holds the arm up.
-    #[serde(serialize_with = "rounded")]
+    #[serde(serialize_with = "thousandths")]
     pub weight: f64,
     /// What of it moves the arm.
-    #[serde(serialize_with = "rounded")]
+    #[serde(serialize_with = "thousandths")]
     pub motion: f64,
     /// What its drive gives, when known.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -45,9 +45,8 @@ pub struct AxisTorque {
 }
 
 /// To a thousandth of a newton metre: what is less is noise of the arithmetic.
-fn rounded<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-    // Adding nothing takes the sign from a zero.
-    serializer.serialize_f64((value * 1e3).round() / 1e3 + 0.0)
+fn thousandths<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64(rounded(*value, 1e3))
 }
 
 pub(crate) fn word<S: Serializer>(backing: &Backing, serializer: S) -> Result<S::Ok, S::Error> {
@@ -177,7 +176,7 @@ impl TorqueFigures {
 
 /// A torque without decimals.
 pub(crate) fn whole(torque: f64) -> String {
-    show(torque.round() + 0.0)
+    show(torque.round())
 }
 
 /// What adds to the torques of an arm besides its links.

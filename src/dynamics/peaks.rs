@@ -148,7 +148,6 @@ fn largest<const Q: usize>(open: &[Looked<Q>], count: usize) -> Vec<usize> {
     chosen.into_iter().collect()
 }
 
-#[derive(Clone, Copy)]
 struct Looked<const Q: usize> {
     op: OpId,
     part: Part,

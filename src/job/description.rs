@@ -4,7 +4,7 @@
 use super::{Auto, Setup, Sourced};
 use serde::Serialize;
 use vcutc_backend_api::units::{Angle, Length, Speed};
-use vcutc_diagnostics::number::show;
+use vcutc_diagnostics::number::{rounded, show};
 use vcutc_diagnostics::source::Span;
 
 /// A parameter as it is in the program.
@@ -61,8 +61,7 @@ pub fn degrees(angle: Angle) -> Measured {
 /// A number with its unit, rounded to thousandths.
 #[must_use]
 pub fn number(value: f64, unit: Option<&'static str>) -> Measured {
-    // Adding nothing takes the sign from a zero.
-    (Value::Number((value * 1e3).round() / 1e3 + 0.0), unit)
+    (Value::Number(rounded(value, 1e3)), unit)
 }
 
 /// A word as a figure.

@@ -7,6 +7,7 @@ use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, Maker};
 use vcutc_backend_api::motion::Branch;
+use vcutc_diagnostics::number;
 use vcutc_machine::Model;
 use vcutc_machine::kinematics::configuration::{Border, borders, branch_words, kuka_status, kuka_turn};
 use vcutc_machine::kinematics::{Joints, Mechanism};
@@ -154,8 +155,8 @@ fn pose_text(pose: &Frame) -> String {
 
 fn pose_in_json(pose: &Frame) -> Value {
     let angles = pose.orientation.to_zyx();
-    let place = [pose.origin.x, pose.origin.y, pose.origin.z].map(rounded);
-    let angles = [angles.a, angles.b, angles.c].map(|angle| rounded(angle.to_deg()));
+    let place = [pose.origin.x, pose.origin.y, pose.origin.z].map(clean);
+    let angles = [angles.a, angles.b, angles.c].map(|angle| clean(angle.to_deg()));
     json!({ "xyz_mm": place, "abc_deg": angles, "quat_wxyz": pose.orientation.quaternion() })
 }
 
@@ -285,10 +286,9 @@ fn with_unit(axis: &Axis, value: f64) -> String {
     format!("{} {unit}", fixed(axis_unit(axis).of(value), 4))
 }
 
-/// A number free of what computing has left in its last digits. What rounds to zero has no sign.
-fn rounded(value: f64) -> f64 {
-    const STEPS: f64 = 1e9;
-    (value * STEPS).round() / STEPS + 0.0
+/// A number free of what computing has left in its last digits.
+fn clean(value: f64) -> f64 {
+    number::rounded(value, 1e9)
 }
 
 /// A number with up to so many decimals. What rounds to zero has no sign.

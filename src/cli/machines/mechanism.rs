@@ -4,6 +4,7 @@ use super::DEGREES;
 use super::text::row;
 use serde_json::{Value, json};
 use vcutc_backend_api::geometry::Frame;
+use vcutc_diagnostics::number::rounded;
 use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::five_axis::{Arrangement, Direction, FiveAxis, Rotary, SpindleSense};
 use vcutc_machine::kinematics::mounted::Mounted;
@@ -100,8 +101,8 @@ fn serial_text(arm: &SerialArm) -> String {
     for axis in arm.axes() {
         text += &format!(
             "    through {} mm about {}\n",
-            row(&rounded(axis.point.to_array())),
-            row(&rounded(axis.direction.to_array()))
+            row(&all_rounded(axis.point.to_array())),
+            row(&all_rounded(axis.direction.to_array()))
         );
     }
     text + &format!("    flange at zero  {}\n", pose_text(arm.flange_at_zero()))
@@ -123,14 +124,13 @@ fn serial_in_json(arm: &SerialArm) -> Value {
 
 fn pose_text(pose: &Pose) -> String {
     let [w, x, y, z] = Frame::from(*pose).orientation.quaternion();
-    let (position, quaternion) = (rounded(pose.position.to_array()), rounded([w, x, y, z]));
+    let (position, quaternion) = (all_rounded(pose.position.to_array()), all_rounded([w, x, y, z]));
     format!("{} mm, quaternion {}", row(&position), row(&quaternion))
 }
 
 /// To nine decimals, more than descriptions have: what lies beyond is rounding of their right angles.
-fn rounded<const N: usize>(numbers: [f64; N]) -> [f64; N] {
-    // Adding 0 makes a positive zero of a negative one.
-    numbers.map(|number| (number * 1e9).round() / 1e9 + 0.0)
+fn all_rounded<const N: usize>(numbers: [f64; N]) -> [f64; N] {
+    numbers.map(|number| rounded(number, 1e9))
 }
 
 fn pose_in_json(pose: &Pose) -> Value {

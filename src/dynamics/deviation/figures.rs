@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OpId, OperationId};
 use vcutc_backend_api::units::Length;
-use vcutc_diagnostics::number::{number, show};
+use vcutc_diagnostics::number::{number, rounded, show};
 use vcutc_geometry::number::Interval;
 use vcutc_job::Gravity;
 use vcutc_job::forces::Forces;
@@ -117,7 +117,7 @@ pub struct Asked<'a> {
 }
 
 pub(super) fn hundredths<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_f64((value * 100.0).round() / 100.0 + 0.0)
+    serializer.serialize_f64(rounded(*value, 100.0))
 }
 
 fn tenths_of_um<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {

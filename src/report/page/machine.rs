@@ -4,7 +4,7 @@ use super::figure::{Zoom, framed};
 use super::{Section, Subject};
 use crate::html::{Column, Html, near, table, terms};
 use crate::pictures;
-use vcutc_diagnostics::number::show;
+use vcutc_diagnostics::number::{rounded, show};
 use vcutc_dynamics::deviation::figures::{DeviationFigures, ShiftFigure, millimetres};
 use vcutc_dynamics::figures::TorqueFigures;
 use vcutc_motion::summary::{self as reach_summary, AxisFigure, ReachFigures, SingularFigure, margin_words};
@@ -75,8 +75,7 @@ fn torques(figures: &TorqueFigures) -> Html {
         Column::Numbers("of its limit"),
         Column::Words("at"),
     ];
-    // Adding nothing takes the sign from a zero.
-    let newton_metres = |torque: f64| Html::text(&format!("{:.1} Nm", (torque * 10.0).round() / 10.0 + 0.0));
+    let newton_metres = |torque: f64| Html::text(&format!("{:.1} Nm", rounded(torque, 10.0)));
     let rows = figures.axes.iter().map(|axis| {
         vec![
             Html::text(&axis.name),
