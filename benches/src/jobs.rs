@@ -120,6 +120,8 @@ rough vcut {{
 pub enum Block {
     /// Cuts of 1 m before a large arm.
     OfReach,
+    /// Cuts of 0.6 m before an arm whose masses and load are known.
+    OfWeight,
     /// Cuts of 0.6 m by a blade whose forces are stated, before an arm whose stiffness is known.
     OfForces,
 }
@@ -135,6 +137,13 @@ pub fn block(cuts: u32, block: Block) -> String {
             "cutting_length = 30 mm",
             r#"robot "kuka/kr210_r3100_ultra" {
   base       = frame(x = 1500 mm, y = -500 mm, z = 900 mm, a = 0 deg, b = 0 deg, c = 0 deg)"#,
+        ),
+        Block::OfWeight => (
+            600,
+            "cutting_length = 60 mm",
+            r#"robot "kuka/kr210_r3100_ultra" {
+  base       = frame(x = 1500 mm, y = -300 mm, z = 900 mm, a = 0 deg, b = 0 deg, c = 0 deg)
+  load       = load(mass = 14.5 kg, x = 0 mm, y = 0 mm, z = 140 mm)"#,
         ),
         Block::OfForces => (
             600,

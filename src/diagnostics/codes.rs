@@ -229,7 +229,7 @@ codes! {
     /// The same by a stiffness that is not that of the machine.
     DeviationIndicative = "VC0534", Warning, "cut probably pushed off by more than its limit";
     /// A limit on deviations that nothing can check.
-    DeviationUnknown = "VC0535", Error, "limit on deviation that cannot be checked";
+    LimitNotChecked = "VC0535", Error, "limit on deviation or torque that cannot be checked";
     /// Cuts that differ from how the forces of their blade were measured.
     ForcesElsewhere = "VC0536", Warning, "forces measured under other conditions";
 

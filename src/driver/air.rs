@@ -95,7 +95,7 @@ fn air_cut(
     let program = lifted.reached()?;
     let mut air = told(job, &compiled, program);
     // Torques above limits are reported for the cuts: an air cut goes the same ways, higher up.
-    dynamics::add_torques(job, &mut air);
+    dynamics::add_torques_in_air(job, &mut air);
     Ok(air)
 }
 

@@ -12,8 +12,9 @@ pub use words::CheckFigure;
 
 use vcutc_backend_api::ir::Axis;
 use vcutc_backend_api::units::Area;
+use vcutc_dynamics::arms::Unknown;
 use vcutc_dynamics::deviation;
-use vcutc_dynamics::drives::Unknown;
+use vcutc_dynamics::figures::{Standing as OfTorques, TorqueFigures};
 use vcutc_job::{CheckedJob, Machine};
 use vcutc_machine::Model;
 use vcutc_machine::kinematics::Mechanism;
@@ -52,7 +53,7 @@ pub enum Check {
     ElbowAngle,
     /// The edge stays out of the work while the blade turns beside it.
     Turns,
-    /// No axis needs more torque than its drive gives.
+    /// At programmed speeds no axis needs more torque than its drive gives.
     Torques,
     /// How far the forces of the blade push cuts off is bounded, and no more than the limit where one is set.
     Deviation,
@@ -100,6 +101,10 @@ pub enum Reason {
     NoForces,
     /// Places along the program are looked at, not what lies between them.
     PlacesOnly,
+    /// The numbers that it takes are not all those of the machine.
+    Indicative,
+    /// Without a home it is not known where the first motion starts.
+    NoHome,
 }
 
 /// A check, and what came of it.
@@ -238,14 +243,21 @@ impl Checks {
 
     /// The same with that of the torques of a machine.
     #[must_use]
-    pub fn with_torques(&self, known: Result<(), Unknown>) -> Self {
-        let reason = match known {
-            Ok(()) => Reason::PlacesOnly,
-            Err(Unknown::Masses) => Reason::NotStated,
-            Err(Unknown::Load) => Reason::NoLoad,
+    pub fn with_torques(&self, known: Result<&TorqueFigures, Unknown>) -> Self {
+        let reason = match known.map(TorqueFigures::standing) {
+            Ok(OfTorques::Proven) => None,
+            Ok(OfTorques::InPlaces) => Some(Reason::PlacesOnly),
+            Ok(OfTorques::WithoutStart) => Some(Reason::NoHome),
+            Ok(OfTorques::Indicative) => Some(Reason::Indicative),
+            Ok(OfTorques::WithoutForces) => Some(Reason::NoForces),
+            Err(Unknown::Masses) => Some(Reason::NotStated),
+            Err(Unknown::Load) => Some(Reason::NoLoad),
         };
-        let of_torques = core::iter::once(not_made(Check::Torques, reason));
-        Self(self.0.iter().cloned().chain(of_torques).collect())
+        let of_torques = match reason {
+            Some(reason) => not_made(Check::Torques, reason),
+            None => made(Check::Torques),
+        };
+        Self(self.0.iter().cloned().chain([of_torques]).collect())
     }
 
     /// The same with that of the deviations by the forces of its blades.

@@ -6,15 +6,18 @@ use std::collections::BTreeMap;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Diagnostic, Severity};
+use vcutc_dynamics::arms::{Arms, Unknown};
+use vcutc_dynamics::cuts::{Cuts, Known};
 use vcutc_dynamics::deviation::figures::{Asked, DeviationFigures};
-use vcutc_dynamics::deviation::{self, Known, verdict};
-use vcutc_dynamics::figures::TorqueFigures;
-use vcutc_dynamics::verdict::{above_limit, is_within_limits, relief};
+use vcutc_dynamics::deviation::{self, verdict};
+use vcutc_dynamics::figures::{Pushing, TorqueFigures};
+use vcutc_dynamics::verdict::{above_limit, is_within_limits, not_checked, relief};
 use vcutc_job::forces::Forces;
 use vcutc_job::{CheckedJob, Machine};
 use vcutc_motion::rigs::Rigs;
 use vcutc_motion::solve::Reached;
 use vcutc_remedy::base_nearer;
+use vcutc_simulation::prove::UsedEdge;
 
 /// How far the base is moved towards the arm where a drive is too weak, in mm.
 const NEARER: [f64; 8] = [50.0, 100.0, 150.0, 200.0, 300.0, 400.0, 500.0, 700.0];
@@ -28,22 +31,88 @@ pub struct Dynamics {
     pub deviation: Option<DeviationFigures>,
 }
 
-/// Computes the torques of a program, and adds them to what is known of it.
-pub(crate) fn add_torques(job: &CheckedJob, compiled: &mut Compiled) {
+/// What was found of the torques and the deviations of a program, or why they are not known.
+struct Found {
+    torques: Result<TorqueFigures, Unknown>,
+    deviation: Result<DeviationFigures, deviation::Unknown>,
+}
+
+/// The torques of a program, and how far forces push its cuts off.
+fn found(job: &CheckedJob, machine: &Machine, reached: &Reached, edges: &[UsedEdge]) -> Found {
+    let program = reached.program.program();
+    let Some(cell) = &program.cell else {
+        return Found {
+            torques: Err(Unknown::Masses),
+            deviation: Err(deviation::Unknown::ClosedForm),
+        };
+    };
+    let rigs = Rigs::of(&machine.model, cell, program);
+    let known = Known {
+        model: &machine.model,
+        reached: &reached.program,
+        rigs: &rigs,
+        edges,
+    };
+    let forces = forces(job);
+    let cuts = (!forces.is_empty()).then(|| Cuts::of(known, &forces));
+    let arms = Arms::of(&machine.model, cell);
+    let allowed = machine.torque_limit.map(|limit| limit.value);
+    let torques = arms.as_ref().map_err(|why| *why);
+    let pushing = match &cuts {
+        Some(Some(cuts)) => Pushing::By(cuts),
+        Some(None) | None => Pushing::NotKnown,
+    };
+    Found {
+        torques: torques.and_then(|arms| TorqueFigures::of(known, arms, pushing, allowed)),
+        deviation: match &cuts {
+            None => Err(deviation::Unknown::Forces),
+            Some(None) => Err(deviation::Unknown::ClosedForm),
+            Some(Some(cuts)) => {
+                let limits = job.operations.iter();
+                let limits: Vec<_> = limits
+                    .map(|operation| operation.deviation_limit().map(|limit| limit.value))
+                    .collect();
+                let asked = Asked {
+                    forces: &forces,
+                    limits: &limits,
+                    gravity: machine.gravity.map(|gravity| gravity.value),
+                };
+                DeviationFigures::of(cuts, arms.as_ref().ok(), asked)
+            }
+        },
+    }
+}
+
+/// Adds the torques of an air cut to what is known of it: no forces push its blades.
+pub(crate) fn add_torques_in_air(job: &CheckedJob, compiled: &mut Compiled) {
     let Some((machine, reached)) = carried(job, compiled) else {
         return;
     };
-    let figures = TorqueFigures::of(&machine.model, &reached.program);
-    let known = figures.as_ref().map(|_| ()).map_err(|why| *why);
+    let program = reached.program.program();
+    let torques = program.cell.as_ref().ok_or(Unknown::Masses).and_then(|cell| {
+        let rigs = Rigs::of(&machine.model, cell, program);
+        let known = Known {
+            model: &machine.model,
+            reached: &reached.program,
+            rigs: &rigs,
+            edges: &[],
+        };
+        let allowed = machine.torque_limit.map(|limit| limit.value);
+        TorqueFigures::of(known, &Arms::of(&machine.model, cell)?, Pushing::Nothing, allowed)
+    });
+    add_torques(torques, compiled);
+}
+
+fn add_torques(figures: Result<TorqueFigures, Unknown>, compiled: &mut Compiled) {
+    compiled.checks = compiled.checks.with_torques(figures.as_ref().map_err(|why| *why));
     let line = figures.as_ref().ok().and_then(TorqueFigures::line);
-    compiled.checks = compiled.checks.with_torques(known);
     compiled.summary.extend(line.map(|line| row("torques", &line)));
     compiled.dynamics.torques = figures.ok();
 }
 
-/// Computes how far forces push the cuts of a program off, and adds that to what is known of it. Returns the limits that nothing can
-/// check.
-pub(crate) fn add_deviations(job: &CheckedJob, compiled: &mut Compiled) -> Vec<Diagnostic> {
+/// Computes the torques of a program and how far forces push its cuts off, and adds them to what is known of it. Returns the limits
+/// that nothing can check.
+pub(crate) fn add(job: &CheckedJob, compiled: &mut Compiled) -> Vec<Diagnostic> {
     let Some((machine, reached)) = carried(job, compiled) else {
         let limited = job.operations.iter();
         let limits = limited.filter_map(|operation| {
@@ -52,51 +121,26 @@ pub(crate) fn add_deviations(job: &CheckedJob, compiled: &mut Compiled) -> Vec<D
         });
         return limits.collect();
     };
-    let figures = deviations(job, machine, reached, compiled);
-    let unchecked = unchecked(job, machine, &figures);
-    let known = figures.as_ref().map_err(|why| *why).and_then(|figures| {
+    let Found { torques, deviation } = found(job, machine, reached, &compiled.report.edges);
+    let of_torques = not_checked(&torques, machine);
+    let unchecked = unchecked(job, machine, &deviation).into_iter().chain(of_torques);
+    add_torques(torques, compiled);
+    let known = deviation.as_ref().map_err(|why| *why).and_then(|figures| {
         if figures.operations.len() == job.operations.len() {
             Ok(())
         } else {
             Err(deviation::Unknown::Forces)
         }
     });
-    let lines = figures
+    let lines = deviation
         .as_ref()
         .map_or_else(|_| Vec::new(), DeviationFigures::lines);
     compiled.checks = compiled.checks.with_deviation(known);
     compiled
         .summary
         .extend(lines.iter().map(|(name, text)| row(name, text)));
-    compiled.dynamics.deviation = figures.ok();
-    unchecked
-}
-
-fn deviations(
-    job: &CheckedJob,
-    machine: &Machine,
-    reached: &Reached,
-    compiled: &Compiled,
-) -> Result<DeviationFigures, deviation::Unknown> {
-    let program = reached.program.program();
-    let cell = program.cell.as_ref().ok_or(deviation::Unknown::ClosedForm)?;
-    let rigs = Rigs::of(&machine.model, cell, program);
-    let known = Known {
-        model: &machine.model,
-        reached: &reached.program,
-        rigs: &rigs,
-        edges: &compiled.report.edges,
-    };
-    let limits = job.operations.iter();
-    let limits: Vec<_> = limits
-        .map(|operation| operation.deviation_limit().map(|limit| limit.value))
-        .collect();
-    let asked = Asked {
-        forces: &forces(job),
-        limits: &limits,
-        gravity: machine.gravity.map(|gravity| gravity.value),
-    };
-    DeviationFigures::of(known, asked)
+    compiled.dynamics.deviation = deviation.ok();
+    unchecked.collect()
 }
 
 /// The forces of the blades of a job that state some, by their names.
@@ -194,7 +238,9 @@ fn relieving(job: &CheckedJob, wanted: &Wanted) -> Option<(vcutc_remedy::Change,
         let change = base_nearer(job, by)?;
         let (_, there) = compile_checked(&change.job, wanted)?;
         let (machine, reached) = carried(&change.job, &there)?;
-        let figures = TorqueFigures::of(&machine.model, &reached.program).ok()?;
+        let figures = found(&change.job, machine, reached, &there.report.edges)
+            .torques
+            .ok()?;
         is_within_limits(&figures).then_some((change, figures))
     })
 }

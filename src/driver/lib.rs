@@ -340,8 +340,7 @@ fn plan_and_prove(
     let Some(job) = &outcome.job else { return };
     let ended = match routes::ended(made, job, &outcome.sources, run, progress) {
         Ended::Compiled(mut made) => {
-            dynamics::add_torques(job, &mut made.compiled);
-            let mut found = dynamics::add_deviations(job, &mut made.compiled);
+            let mut found = dynamics::add(job, &mut made.compiled);
             found.extend(dynamics::verdicts(job, &made.compiled, &outcome.sources, run));
             let mut objections = target::objections(job, &made.compiled, request);
             let (errors, warnings): (Vec<_>, Vec<_>) = found

@@ -12,6 +12,7 @@ use crate::turn::Turn;
 use crate::vector::{Number, Vector, along, cross, cross_plain, dot_plain, sum, symmetric};
 use glam::{DMat3, DVec3};
 use vcutc_backend_api::ir::Load;
+use vcutc_geometry::number::Along;
 use vcutc_machine::Model;
 use vcutc_machine::body::{Body, MILLIMETRES};
 use vcutc_machine::kinematics::{Joints, Mechanism};
@@ -91,10 +92,25 @@ impl Arm {
         })
     }
 
+    /// The same arm where nothing weighs.
+    #[must_use]
+    pub fn weightless(&self) -> Self {
+        Self {
+            rise: [0.0; 3],
+            ..self.clone()
+        }
+    }
+
     /// By how much each joint has turned at these axis values, in rad.
     #[must_use]
     pub fn turns(&self, joints: &Joints) -> [Turn<f64>; JOINTS] {
         self.chain.turns(joints)
+    }
+
+    /// The same along a part of a motion.
+    #[must_use]
+    pub fn turns_along(&self, axes: [Along; JOINTS]) -> [Turn<Along>; JOINTS] {
+        self.chain.turns_along(axes)
     }
 
     /// What hangs on each axis: its torques at rest, in Nm.
@@ -104,19 +120,42 @@ impl Arm {
     }
 
     /// The same, where its joints have turned so.
+    ///
+    /// What hangs on a joint is the moment about its axis of the mass that it carries, at the centre of that. So a mass times its centre
+    /// goes back along the chain, and the way up goes along it: three numbers each, where torques of motion take six and nine.
     #[must_use]
+    #[inline]
     pub fn weight_after<N: Number>(&self, turns: &[Turn<N>; JOINTS]) -> [N; JOINTS] {
+        let hinges = &self.chain.hinges;
         let mut rise: Option<Vector<N>> = None;
-        let needs = core::array::from_fn(|place| {
-            let (axis, turn) = (self.chain.hinges[place].axis, turns[place]);
+        let rises: [Vector<N>; JOINTS] = core::array::from_fn(|place| {
+            let (axis, turn) = (hinges[place].axis, turns[place]);
             let here = match rise {
                 Some(before) => turn.back(axis, before),
                 None => turn.back_plain(axis, self.rise),
             };
             rise = Some(here);
-            self.links[place].hanging(here)
+            here
         });
-        self.carried(turns, needs)
+        let last = JOINTS - 1;
+        let (mut mass, mut carried) = (0.0, self.links[last].moment.map(N::plain));
+        let mut weights = [N::zero(); JOINTS];
+        for place in (0..JOINTS).rev() {
+            if place < last {
+                let (hinge, turn) = (&hinges[place + 1], turns[place + 1]);
+                let beyond = if place + 1 == last {
+                    turn.out_plain(hinge.axis, self.links[last].moment)
+                } else {
+                    turn.out(hinge.axis, carried)
+                };
+                let own = self.links[place].moment;
+                carried =
+                    core::array::from_fn(|part| beyond[part].plus(own[part] + mass * hinge.offset[part]));
+            }
+            mass += self.links[place].mass;
+            weights[place] = hinges[place].axis.moment_of(rises[place], carried);
+        }
+        self.chain.at_axes(weights)
     }
 
     /// What the drives have to give at the controller's axes, in Nm.

@@ -4,25 +4,16 @@
 //! motion, so the torques of starting and stopping are not among them. On arcs the control slows down as the way bends, by how much
 //! only it knows: there, as in moves of all axes, the weight alone is counted.
 
-use crate::arm::{Arm, JOINTS, State};
+use crate::arm::{JOINTS, State};
+use crate::arms::Arms;
 use core::convert::Infallible;
-use vcutc_backend_api::ir::{Cell, OpId, Program, Registered, ToolId};
+use vcutc_backend_api::ir::{OpId, Program};
 use vcutc_backend_api::motion::ReachableProgram;
-use vcutc_backend_api::segments::Path;
-use vcutc_machine::Model;
 use vcutc_machine::kinematics::Joints;
 use vcutc_motion::moves::paths;
+use vcutc_motion::parts::even_time;
 use vcutc_motion::rigs::Rigs;
 use vcutc_motion::trajectory::{Motion, Sample, Spacing, motions};
-
-/// Why torques are not known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unknown {
-    /// The machine is not an arm, or its description has no masses.
-    Masses,
-    /// The job does not state what the flange carries, or by a number of the controller only.
-    Load,
-}
 
 /// The torques of all axes in a place, in Nm, as the controller counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,6 +22,8 @@ pub struct Torques {
     pub weight: [f64; JOINTS],
     /// What it needs besides, to move as it does.
     pub motion: [f64; JOINTS],
+    /// What it needs against the forces of the blade, where these count.
+    pub cutting: [f64; JOINTS],
 }
 
 impl Torques {
@@ -38,7 +31,7 @@ impl Torques {
     #[must_use]
     pub fn of(&self, axis: usize) -> f64 {
         let part = |torques: &[f64; JOINTS]| torques.get(axis).copied().unwrap_or_default();
-        part(&self.weight) + part(&self.motion)
+        part(&self.weight) + part(&self.motion) + part(&self.cutting)
     }
 }
 
@@ -47,64 +40,50 @@ impl Torques {
 pub struct Most {
     pub op: OpId,
     pub torques: Torques,
+    /// It needs nowhere more than this, either way; where only places are looked at, in none of them.
+    pub most: f64,
 }
 
-/// The arm of a program with each of its blades.
+/// A program on an arm of known weight.
 #[derive(Debug)]
 pub struct Drives<'m> {
-    rigs: Rigs<'m>,
-    /// With each blade, in the order of their numbers.
-    arms: Vec<Arm>,
+    rigs: &'m Rigs<'m>,
+    arms: &'m Arms,
     /// How long each op takes in s that goes straight; none of others, whose course in time is not known.
     durations: Vec<Option<f64>>,
 }
 
 impl<'m> Drives<'m> {
-    /// Of a program on a machine.
-    ///
-    /// # Errors
-    /// Why its torques are not known.
-    pub fn of(model: &'m Model, cell: &Cell, program: &Program) -> Result<Self, Unknown> {
-        let arms = cell.tools.iter().map(|(_, tool)| match tool.load {
-            Some(Registered::Value(load)) => Arm::of(model, Some(load)).ok_or(Unknown::Masses),
-            Some(Registered::Number(_)) | None => match Arm::of(model, None) {
-                Some(_) => Err(Unknown::Load),
-                None => Err(Unknown::Masses),
-            },
-        });
-        let durations = paths(program).into_iter().map(|path| match path {
-            Path::Linear(line) if line.via.is_none() => {
-                Some(line.duration().to_s()).filter(|time| *time > 0.0)
-            }
-            Path::Linear(_) | Path::Still | Path::Home | Path::Change | Path::Axes(_) => None,
-        });
-        Ok(Self {
-            rigs: Rigs::of(model, cell, program),
-            arms: arms.collect::<Result<_, _>>()?,
-            durations: durations.collect(),
-        })
+    #[must_use]
+    pub fn of(rigs: &'m Rigs<'m>, arms: &'m Arms, program: &Program) -> Self {
+        let durations = paths(program).iter().map(even_time).collect();
+        Self {
+            rigs,
+            arms,
+            durations,
+        }
     }
 
-    /// The most that each axis needs; none of a program that moves nothing.
+    /// The most that each axis needs in places along the way; none of a program that moves nothing.
     #[must_use]
-    pub fn most(&self, reached: &ReachableProgram) -> Option<[Most; JOINTS]> {
+    pub(crate) fn most_in_places(&self, reached: &ReachableProgram) -> Option<[Most; JOINTS]> {
         let mut most: Option<[Most; JOINTS]> = None;
         let of_motion = |motion: Motion| {
             let places = self.places(&motion).into_iter();
             places
                 .map(|(sample, torques)| {
-                    [Most {
+                    core::array::from_fn(|axis| Most {
                         op: sample.op,
                         torques,
-                    }; JOINTS]
+                        most: torques.of(axis).abs(),
+                    })
                 })
                 .reduce(larger)
         };
-        let kept: Result<(), Infallible> =
-            motions(reached, &self.rigs, &Spacing::APART, of_motion, |found| {
-                most = most.into_iter().chain(found).reduce(larger);
-                Ok(())
-            });
+        let kept: Result<(), Infallible> = motions(reached, self.rigs, &Spacing::APART, of_motion, |found| {
+            most = most.into_iter().chain(found).reduce(larger);
+            Ok(())
+        });
         let Ok(()) = kept;
         most
     }
@@ -120,7 +99,7 @@ impl<'m> Drives<'m> {
         mut take: impl FnMut(&Sample, &Torques) -> Result<(), E>,
     ) -> Result<(), E> {
         let places = |motion: Motion| self.places(&motion);
-        motions(reached, &self.rigs, spacing, places, |places| {
+        motions(reached, self.rigs, spacing, places, |places| {
             places
                 .iter()
                 .try_for_each(|(sample, torques)| take(sample, torques))
@@ -131,7 +110,7 @@ impl<'m> Drives<'m> {
         let Some(op) = motion.samples.first().map(|sample| sample.op) else {
             return Vec::new();
         };
-        let Some(arm) = self.arm(self.rigs.tool_during(op)) else {
+        let Some(arm) = self.arms.with(self.rigs.tool_during(op)) else {
             return Vec::new();
         };
         let time = self.durations.get(op.0 as usize).copied().flatten();
@@ -151,20 +130,27 @@ impl<'m> Drives<'m> {
             let motion = moving.map_or([0.0; JOINTS], |all| {
                 core::array::from_fn(|axis| all[axis] - weight[axis])
             });
-            (*sample, Torques { weight, motion })
+            let cutting = [0.0; JOINTS];
+            (
+                *sample,
+                Torques {
+                    weight,
+                    motion,
+                    cutting,
+                },
+            )
         };
         motion.samples.iter().enumerate().map(place).collect()
-    }
-
-    fn arm(&self, tool: ToolId) -> Option<&Arm> {
-        self.arms.get(usize::from(tool.0)).or_else(|| self.arms.first())
     }
 }
 
 fn larger(one: [Most; JOINTS], other: [Most; JOINTS]) -> [Most; JOINTS] {
     core::array::from_fn(|axis| {
-        let is_larger = other[axis].torques.of(axis).abs() > one[axis].torques.of(axis).abs();
-        if is_larger { other[axis] } else { one[axis] }
+        if other[axis].most > one[axis].most {
+            other[axis]
+        } else {
+            one[axis]
+        }
     })
 }
 

@@ -1,14 +1,17 @@
 //! The torques of a program for people and for programs.
 
-use crate::arm::JOINTS;
-use crate::drives::{Drives, Most, Unknown};
+use crate::arms::{Arms, Unknown};
+use crate::cuts::{Known, Others};
+use crate::drives::{Drives, Most};
+use crate::everywhere::Demand;
+pub use crate::everywhere::Pushing;
 use serde::{Serialize, Serializer};
-use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_diagnostics::number::{rounded, show};
 use vcutc_machine::Model;
 use vcutc_machine::kinematics::opw::Coupling;
 use vcutc_machine::masses::{Backing, Covered};
 use vcutc_motion::describe::site_words;
+use vcutc_motion::parts::Motions;
 use vcutc_motion::summary::PlaceFigure;
 
 /// What a program asks of the drives of an arm.
@@ -23,13 +26,44 @@ pub struct TorqueFigures {
     pub limits: Option<Backing>,
     /// What adds to the torques and is not in the numbers.
     pub without: Vec<&'static str>,
+    pub looked_at: LookedAt,
+    pub cutting: Cutting,
+    /// The share of its limit that an axis may use, when the job states one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub allowed: Option<f64>,
+}
+
+/// Where torques are looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LookedAt {
+    /// All along the program: nowhere is more needed.
+    Everywhere,
+    /// The same but for its first motion, whose start is not known without a home.
+    AfterStart,
+    /// In places along it.
+    Places,
+}
+
+/// Whether the forces of blades are in the torques.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Cutting {
+    /// Of all cuts.
+    Counted,
+    /// Of the cuts by blades that state theirs.
+    InPart,
+    NotKnown,
 }
 
 /// The most that an axis needs, in Nm.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AxisTorque {
     pub name: String,
-    /// As the controller counts.
+    /// It needs nowhere more, either way; where places are looked at, in none of them.
+    #[serde(serialize_with = "thousandths")]
+    pub most: f64,
+    /// What it needs where that was found, as the controller counts.
     #[serde(serialize_with = "thousandths")]
     pub torque: f64,
     /// What of it holds the arm up.
@@ -38,6 +72,9 @@ pub struct AxisTorque {
     /// What of it moves the arm.
     #[serde(serialize_with = "thousandths")]
     pub motion: f64,
+    /// What of it works against the forces of the blade.
+    #[serde(serialize_with = "thousandths")]
+    pub cutting: f64,
     /// What its drive gives, when known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<f64>,
@@ -61,7 +98,25 @@ impl AxisTorque {
     /// The share of its limit that it uses, when that is known.
     #[must_use]
     pub fn share(&self) -> Option<f64> {
-        self.limit.map(|limit| self.torque.abs() / limit)
+        self.limit.map(|limit| self.most / limit)
+    }
+}
+
+impl AxisTorque {
+    /// `weight 3270 Nm, motion 12 Nm, cutting 5 Nm`: its parts where it needs the most, positive along the whole.
+    #[must_use]
+    pub fn parts(&self) -> String {
+        let along = self.torque.signum();
+        let cutting = if self.cutting == 0.0 {
+            String::new()
+        } else {
+            format!(", cutting {} Nm", whole(along * self.cutting))
+        };
+        format!(
+            "weight {} Nm, motion {} Nm{cutting}",
+            whole(along * self.weight),
+            whole(along * self.motion),
+        )
     }
 }
 
@@ -74,42 +129,71 @@ pub enum Reliance {
     Indicative,
 }
 
+/// What is proven of torques.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// At programmed speeds no axis needs more anywhere.
+    Proven,
+    /// Only places are looked at.
+    InPlaces,
+    /// Where the first motion starts is not known.
+    WithoutStart,
+    /// The numbers are not all those of the machine.
+    Indicative,
+    /// Not all forces of the blades are known.
+    WithoutForces,
+}
+
 impl TorqueFigures {
-    /// Of a program on a machine.
+    /// Of a program on these arms, whose blades are pushed so. `allowed` is the share of its limit that an axis
+    /// may use.
     ///
     /// # Errors
     /// Why its torques are not known.
-    pub fn of(model: &Model, reached: &ReachableProgram) -> Result<Self, Unknown> {
-        let program = reached.program();
+    pub fn of(
+        known: Known<'_>,
+        arms: &Arms,
+        pushing: Pushing<'_>,
+        allowed: Option<f64>,
+    ) -> Result<Self, Unknown> {
+        let Known { model, reached, .. } = known;
         let masses = model.masses.as_ref().ok_or(Unknown::Masses)?;
-        let cell = program.cell.as_ref().ok_or(Unknown::Masses)?;
-        let drives = Drives::of(model, cell, program)?;
-        let most = drives.most(reached).into_iter().flatten();
         let limits = model.torques.as_ref();
-        let axes = model.axes.iter().zip(most).enumerate().take(JOINTS);
-        let figure = |(axis, (named, most)): (usize, (&vcutc_backend_api::ir::Axis, Most))| {
-            let part = |torques: &[f64; JOINTS]| torques.get(axis).copied().unwrap_or_default();
-            let words = program
-                .ops
-                .get(most.op.0 as usize)
-                .map_or_else(String::new, |op| site_words(program, op.site));
-            AxisTorque {
-                name: named.name.clone(),
-                torque: most.torques.of(axis),
-                weight: part(&most.torques.weight),
-                motion: part(&most.torques.motion),
-                limit: limits.and_then(|torques| torques.limits.get(axis).copied()),
-                at: PlaceFigure { op: most.op.0, words },
-            }
+        let demand = Demand {
+            motions: Motions::of(reached, known.rigs),
+            rigs: known.rigs,
+            weightless: arms.weightless(),
+            arms,
+            pushing,
         };
+        let (looked_at, most) =
+            match demand.most(limits.map(|torques| torques.limits), allowed.unwrap_or(1.0)) {
+                Some(most) => (along(known), Some(most)),
+                None => {
+                    let drives = Drives::of(known.rigs, arms, reached.program());
+                    (LookedAt::Places, drives.most_in_places(reached))
+                }
+            };
+        let most = most.into_iter().flatten().enumerate();
+        let axes = most.filter_map(|(axis, most)| figure(known, axis, &most));
         Ok(Self {
-            axes: axes.map(figure).collect(),
+            axes: axes.collect(),
             masses: masses.backing,
             limits: limits.map(|torques| torques.backing),
             without: missing(model)
                 .filter(|part| !masses.covered.contains(part))
                 .map(Covered::word)
                 .collect(),
+            looked_at,
+            cutting: match (looked_at, pushing) {
+                (_, Pushing::Nothing) => Cutting::Counted,
+                (LookedAt::Places, _) | (_, Pushing::NotKnown) => Cutting::NotKnown,
+                (_, Pushing::By(cuts)) => match cuts.others() {
+                    Others::None => Cutting::Counted,
+                    Others::Some => Cutting::InPart,
+                },
+            },
+            allowed,
         })
     }
 
@@ -124,12 +208,24 @@ impl TorqueFigures {
         }
     }
 
+    /// What is proven of them.
+    #[must_use]
+    pub fn standing(&self) -> Standing {
+        match (self.looked_at, self.reliance(), self.cutting) {
+            (LookedAt::Places, _, _) => Standing::InPlaces,
+            (_, Reliance::Indicative, _) => Standing::Indicative,
+            (_, Reliance::Sound, Cutting::InPart | Cutting::NotKnown) => Standing::WithoutForces,
+            (LookedAt::AfterStart, Reliance::Sound, Cutting::Counted) => Standing::WithoutStart,
+            (LookedAt::Everywhere, Reliance::Sound, Cutting::Counted) => Standing::Proven,
+        }
+    }
+
     /// The axis that comes nearest to its limit; where no limit is known, the one that needs the most.
     #[must_use]
     pub fn nearest(&self) -> Option<&AxisTorque> {
         let known = self.axes.iter().filter_map(|axis| Some((axis, axis.share()?)));
         let nearest = known.max_by(|(_, a), (_, b)| a.total_cmp(b));
-        let needs = |axis: &&AxisTorque| axis.torque.abs();
+        let needs = |axis: &&AxisTorque| axis.most;
         nearest
             .map(|(axis, _)| axis)
             .or_else(|| self.axes.iter().max_by(|a, b| needs(a).total_cmp(&needs(b))))
@@ -140,20 +236,36 @@ impl TorqueFigures {
     pub fn line(&self) -> Option<String> {
         let nearest = self.nearest()?;
         let needs = match (nearest.limit, nearest.share()) {
-            (Some(limit), Some(share)) => format!("{:.0} % of {} Nm", share * 100.0, show(limit)),
-            (_, _) => format!("{} Nm", whole(nearest.torque.abs())),
+            (Some(limit), Some(share)) => format!("{} % of {} Nm", percent(share), show(limit)),
+            (_, _) => format!("{} Nm", whole(nearest.most)),
         };
         let mut text = format!(
-            "{} needs {needs} at {} (weight {} Nm, motion {} Nm); at programmed speeds, without cutting forces",
+            "{} needs at most {needs} at {} ({}); at programmed speeds{}",
             nearest.name,
             nearest.at.words,
-            whole(nearest.weight),
-            whole(nearest.motion),
+            nearest.parts(),
+            self.apart(),
         );
         if self.reliance() == Reliance::Indicative {
             text += &format!("; indicative: {}", self.backing());
         }
         Some(text)
+    }
+
+    /// What is not in the numbers because of where they are looked at, and of what is known of forces.
+    #[must_use]
+    pub fn apart(&self) -> String {
+        let places = match self.looked_at {
+            LookedAt::Everywhere => "",
+            LookedAt::AfterStart => ", without the first motion, whose start is not known",
+            LookedAt::Places => ", in places up to 25 mm apart",
+        };
+        let forces = match self.cutting {
+            Cutting::Counted => "",
+            Cutting::InPart => ", with the cutting forces that are stated",
+            Cutting::NotKnown => ", without cutting forces",
+        };
+        format!("{places}{forces}")
     }
 
     /// `published masses, without motors, balance and friction`.
@@ -172,6 +284,41 @@ impl TorqueFigures {
         }
         text
     }
+}
+
+/// Where the bounds of a program hold.
+fn along(known: Known<'_>) -> LookedAt {
+    let home = known.reached.program().cell.as_ref().and_then(|cell| cell.home);
+    match home {
+        Some(_) => LookedAt::Everywhere,
+        None => LookedAt::AfterStart,
+    }
+}
+
+/// What an axis of a machine needs at most.
+fn figure(known: Known<'_>, axis: usize, most: &Most) -> Option<AxisTorque> {
+    let (model, program) = (known.model, known.reached.program());
+    let words = program.op(most.op).map(|op| site_words(program, op.site));
+    let limits = model.torques.as_ref();
+    Some(AxisTorque {
+        name: model.axes.get(axis)?.name.clone(),
+        most: most.most,
+        torque: most.torques.of(axis),
+        weight: *most.torques.weight.get(axis)?,
+        motion: *most.torques.motion.get(axis)?,
+        cutting: *most.torques.cutting.get(axis)?,
+        limit: limits.and_then(|torques| torques.limits.get(axis).copied()),
+        at: PlaceFigure {
+            op: most.op.0,
+            words: words.unwrap_or_default(),
+        },
+    })
+}
+
+/// A share as a percentage: whole, and upward, so that a limit that is passed shows.
+#[must_use]
+pub fn percent(share: f64) -> String {
+    show((share * 100.0 - 1e-9).ceil())
 }
 
 /// A torque without decimals.

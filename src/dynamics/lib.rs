@@ -4,15 +4,21 @@
 //! | --- | --- |
 //! | `chain` | the joints of an arm, and how they move what they carry |
 //! | [`arm`] | an arm as bodies, and the torques of a state |
-//! | [`drives`], [`figures`], [`verdict`] | torques at places along a program; the most of each axis; those above limits |
+//! | [`arms`], [`drives`] | the arm of a program with each of its blades, and its torques at places |
+//! | [`cuts`], [`condition`] | cuts by blades whose forces are known, and how they are made |
+//! | `everywhere`, [`figures`], [`verdict`] | the most torque that each axis needs, anywhere; its figures; those above limits |
 //! | `push`, `springs` | how the work pushes an edge, and how joints yield |
 //! | [`deviation`] | how far cuts are off, everywhere on them; its figures and limits |
 //! | `peaks` | the most of quantities along motions, proven |
 
 pub mod arm;
+pub mod arms;
 mod chain;
+pub mod condition;
+pub mod cuts;
 pub mod deviation;
 pub mod drives;
+mod everywhere;
 pub mod figures;
 mod peaks;
 mod push;

@@ -1,7 +1,7 @@
 //! The most that quantities come to along the motions of a program: proven everywhere on them, and nearly reached.
 //!
 //! A motion is looked at in parts. Of each part every quantity has a bound, which it stays below everywhere on it, and what it comes to
-//! in the middle. Parts whose bounds do not matter are put aside; of the others those with the largest bounds are halved, some at a time
+//! somewhere on it. Parts whose bounds do not matter are put aside; of the others those with the largest bounds are halved, some at a time
 //! (branch and bound), until no bound is above the most that was met by more than [`CLOSE`] of it: then the answer exceeds the truth by
 //! no more than that. Where [`MOST_LOOKS`] do not suffice, or parts would be shorter than [`SHORTEST`], the bounds that there are stand.
 
@@ -29,8 +29,8 @@ const SHARE_AT_A_TIME: usize = 16;
 /// A quantity on a part of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Held {
-    /// What it comes to in the middle.
-    pub(crate) middle: f64,
+    /// What it comes to somewhere on it.
+    pub(crate) met: f64,
     /// It is nowhere greater.
     pub(crate) most: f64,
 }
@@ -38,13 +38,13 @@ pub(crate) struct Held {
 impl Held {
     /// A part of which nothing is known.
     const UNKNOWN: Self = Self {
-        middle: f64::NEG_INFINITY,
+        met: f64::NEG_INFINITY,
         most: f64::INFINITY,
     };
 
     /// Without what is not a number: it would pass every comparison.
     fn known(self) -> Self {
-        if self.middle.is_nan() || self.most.is_nan() {
+        if self.met.is_nan() || self.most.is_nan() {
             Self::UNKNOWN
         } else {
             self
@@ -176,8 +176,8 @@ impl<const Q: usize> Search<'_, Q> {
 
     fn meet(&mut self, looked: &Looked<Q>) {
         for (peak, held) in self.peaks.iter_mut().zip(looked.held) {
-            if held.middle > peak.met {
-                (peak.met, peak.op, peak.part) = (held.middle, looked.op, looked.part);
+            if held.met > peak.met {
+                (peak.met, peak.op, peak.part) = (held.met, looked.op, looked.part);
             }
         }
     }

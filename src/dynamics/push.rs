@@ -274,6 +274,36 @@ impl Push {
         core::array::from_fn(|view| tip[view].hull(end[view]).hull(Interval::ZERO))
     }
 
+    /// What pushes the axes, in Nm, while no more of the edge than its length is in the material: where `view` looks on a part of a cut.
+    /// As in [`Push::shifts`], the forces may be anything within their spread, at any stretch of the edge.
+    pub(crate) fn on_axes(
+        &self,
+        columns: &[Column<Along>; JOINTS],
+        view: fn(Along) -> Interval,
+    ) -> [Interval; JOINTS] {
+        let ends = self
+            .forces()
+            .map(|force| self.torques_at_ends(columns, force.direction));
+        let sum = |amount: fn(&Force) -> Amount, end: usize, axis: usize| {
+            let each = self.forces().into_iter().zip(&ends);
+            let pushed = each.map(|(force, ends)| amount(force).any() * view(ends[end][axis]));
+            pushed.fold(Interval::ZERO, |sum, next| sum + next)
+        };
+        core::array::from_fn(|axis| {
+            let tip = sum(|force| force.tip, 0, axis);
+            let [near, far] = [0, 1].map(|end| sum(|force| force.edge, end, axis));
+            let edge = near.hull(far);
+            // In the air nothing pushes.
+            Interval::ZERO.hull(tip).hull(edge).hull(tip + edge)
+        })
+    }
+
+    /// By how much more the axes may be pushed where the directions of the forces are off, in Nm.
+    pub(crate) fn turned_on_axes(&self, columns: &[Column<Along>; JOINTS]) -> [Interval; JOINTS] {
+        let largest: f64 = self.forces().into_iter().map(Force::most).sum();
+        columns.map(|column| Interval::around(0.0, largest * self.turns * column.largest(self.edge)))
+    }
+
     /// By how much torques at the axes shift the edge along the normal, at either end, in the middle of a part and everywhere on it.
     pub(crate) fn shifts_by(
         &self,

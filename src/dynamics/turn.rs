@@ -1,6 +1,6 @@
 //! How joints turn what they carry.
 
-use crate::vector::{Number, Vector, along, cross_plain, scaled, sum};
+use crate::vector::{Number, Vector, along, cross, cross_plain, dot_plain, scaled, sum};
 use glam::DVec3;
 use vcutc_geometry::number::Along;
 
@@ -50,6 +50,22 @@ impl Axis {
             lies,
         }
     }
+
+    /// The moment about the axis, through the origin, of a force at a place.
+    #[inline(always)]
+    pub(crate) fn moment_of<N: Number>(self, force: Vector<N>, place: Vector<N>) -> N {
+        let [[x, y, z], [fx, fy, fz]] = [place, force];
+        let (sense, moment) = match self.lies {
+            Lies::AlongX(sense) => (sense, y * fz - z * fy),
+            Lies::AlongY(sense) => (sense, z * fx - x * fz),
+            Lies::AlongZ(sense) => (sense, x * fy - y * fx),
+            Lies::Askew => (Sense::With, dot_plain(cross(place, force), self.direction)),
+        };
+        match sense {
+            Sense::With => moment,
+            Sense::Against => -moment,
+        }
+    }
 }
 
 /// How far a joint has turned.
@@ -82,6 +98,12 @@ impl<N: Number> Turn<N> {
     #[inline(always)]
     pub(crate) fn out(self, axis: Axis, a: Vector<N>) -> Vector<N> {
         self.reversed().back(axis, a)
+    }
+
+    /// A plain vector after the turn.
+    #[inline(always)]
+    pub(crate) fn out_plain(self, axis: Axis, a: Vector<f64>) -> Vector<N> {
+        self.reversed().back_plain(axis, a)
     }
 
     fn reversed(self) -> Self {

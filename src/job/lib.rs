@@ -152,6 +152,8 @@ pub struct Machine {
     pub ready: Sourced<Ready>,
     /// Whether its control takes out how far its arm sags under its own weight; none where the job does not state it.
     pub gravity: Option<Sourced<Gravity>>,
+    /// The share of its drive's torque that an axis may use; all of it where the job does not state it.
+    pub torque_limit: Option<Sourced<f64>>,
     /// Options for targets: one for each nested block such as `krl { ... }`.
     pub targets: Vec<TargetOptions>,
 }

@@ -80,6 +80,7 @@ fn machine(machine: &mut Machine, place: Span) {
     optional(&mut machine.spindle, place);
     machine.ready.forget_place(place);
     optional(&mut machine.gravity, place);
+    optional(&mut machine.torque_limit, place);
     for target in &mut machine.targets {
         options(target, place);
     }

@@ -88,6 +88,7 @@ mod worst;
 
 pub use arm_way::{ArmWay, Part};
 pub use axis_moves::{AxesBreach, AxesViolation, Block, are_axes_refuted, prove_axes};
+pub use chain::evenly;
 pub use joint::{Through, prove_through};
 pub use refuted::{Refuted, refuted};
 pub use types::{Breach, Clearance, Course, Proof, Singularity, Violation};

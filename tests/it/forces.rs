@@ -7,7 +7,8 @@ use proptest::prelude::*;
 use vcutc::diagnostics::{Code, Severity};
 use vcutc::driver::Outcome;
 use vcutc::driver::dynamics::forces;
-use vcutc::dynamics::deviation::{Deviations, Known};
+use vcutc::dynamics::cuts::{Cuts, Known};
+use vcutc::dynamics::deviation::Deviations;
 use vcutc::machine::kinematics::Joints;
 use vcutc::motion::rig::Rig;
 use vcutc::motion::rigs::Rigs;
@@ -237,7 +238,8 @@ fn a_place_of_a_cut_has_the_shift_of_forces_as_stated() {
         rigs: &rigs,
         edges: &compiled.report.edges,
     };
-    let deviations = Deviations::of(known, &forces(checked)).unwrap();
+    let cuts_of = Cuts::of(known, &forces(checked)).unwrap();
+    let deviations = Deviations::of(&cuts_of, None).unwrap();
     let rig = Rig::of(machine);
     let mut seen = 0;
     for Place {
@@ -247,7 +249,8 @@ fn a_place_of_a_cut_has_the_shift_of_forces_as_stated() {
         joints,
     } in cuts(&outcome)
     {
-        let there = deviations.in_place(op, done, &joints).unwrap();
+        let there = cuts_of.in_place(op, done, &joints).unwrap();
+        let off = deviations.in_place(op, done, &joints).unwrap();
         let stated = |up: f64| {
             let drawn = Drawn {
                 parts: [0.0; 3],
@@ -260,12 +263,12 @@ fn a_place_of_a_cut_has_the_shift_of_forces_as_stated() {
         };
         let tolerance = 1e-8;
         assert!(
-            (there.shift.tip - stated(0.0)).abs() < tolerance,
+            (off.tip - stated(0.0)).abs() < tolerance,
             "{there:?} {}",
             stated(0.0)
         );
         assert!(
-            (there.shift.end - stated(1.0)).abs() < tolerance,
+            (off.end - stated(1.0)).abs() < tolerance,
             "{there:?} {}",
             stated(1.0)
         );
@@ -362,6 +365,6 @@ fn a_limit_without_a_machine_is_not_silently_kept() {
         outcome
             .diagnostics
             .iter()
-            .any(|diagnostic| diagnostic.code == Code::DeviationUnknown)
+            .any(|diagnostic| diagnostic.code == Code::LimitNotChecked)
     );
 }

@@ -101,6 +101,8 @@ impl Reason {
             Self::PlacesOnly => {
                 "the compiler looks at places along the program, not at what lies between them"
             }
+            Self::NoHome => "the job states no home, so where the first motion starts is not known",
+            Self::Indicative => "the compiler does not know all numbers of this machine",
             Self::NoReader => "this target's programs are not read back",
         }
     }

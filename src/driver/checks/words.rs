@@ -66,6 +66,9 @@ impl Checks {
         if self.is_made(&Check::AxisLimits) {
             parts.push(self.of_motions());
         }
+        if self.is_made(&Check::Torques) {
+            parts.push("at programmed speeds no axis needs more torque than its drive gives".to_owned());
+        }
         if self.is_made(&Check::Deviation) {
             parts.push(
                 "the forces of its blades push no flank off by more than the stated deviation".to_owned(),
@@ -257,6 +260,8 @@ impl Reason {
             Self::NoPlaceForIt => "no_place_for_it",
             Self::NotMeasured => "not_measured",
             Self::NoBody => "no_body",
+            Self::Indicative => "indicative",
+            Self::NoHome => "no_home",
             Self::AirCut => "air_cut",
             Self::NoReader => "no_reader",
             Self::SectionsOnly => "sections_only",
@@ -275,6 +280,8 @@ impl Reason {
             Self::NoPlaceForIt => "descriptions of machines cannot state its range",
             Self::NotMeasured => "not measured for an arm without a closed-form solution",
             Self::NoBody => "their shapes are not known",
+            Self::NoHome => "the job states no home, so where the first motion starts is not known",
+            Self::Indicative => "the masses and limits are not all those of this machine",
             Self::AirCut => "an air cut is compared with nothing but the top of the stock",
             Self::NoReader => "the target has no reader",
             Self::SectionsOnly => "sections are looked at, 10 mm apart or 200 of them",

@@ -1,12 +1,15 @@
 //! The deviations of a program for people and for programs.
 
-use super::{Condition, Deviations, Extreme, Known, LargestForce, Unknown};
+use super::{Deviations, Extreme, Unknown};
+use crate::arms::Arms;
+use crate::condition::{Condition, hundredths};
+use crate::cuts::{Cuts, Known, LargestForce};
 use crate::figures::word;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OpId, OperationId};
 use vcutc_backend_api::units::Length;
-use vcutc_diagnostics::number::{number, rounded, show};
+use vcutc_diagnostics::number::{number, show};
 use vcutc_geometry::number::Interval;
 use vcutc_job::Gravity;
 use vcutc_job::forces::Forces;
@@ -116,22 +119,19 @@ pub struct Asked<'a> {
     pub gravity: Option<Gravity>,
 }
 
-pub(super) fn hundredths<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_f64(rounded(*value, 100.0))
-}
-
 fn tenths_of_um<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_f64((value * 1e4).ceil() / 1e4 + 0.0)
 }
 
 impl DeviationFigures {
-    /// Of a program.
+    /// Of cuts by an arm that weighs so, where that is known.
     ///
     /// # Errors
     /// Why its deviations are not known.
-    pub fn of<'p>(known: Known<'p>, asked: Asked<'p>) -> Result<Self, Unknown> {
-        let deviations = Deviations::of(known, asked.forces)?;
-        let largest = deviations.largest_force().ok_or(Unknown::Forces)?;
+    pub fn of(cuts: &Cuts<'_>, arms: Option<&Arms>, asked: Asked<'_>) -> Result<Self, Unknown> {
+        let known = *cuts.known();
+        let largest = cuts.largest_force().ok_or(Unknown::Forces)?;
+        let deviations = Deviations::of(cuts, arms).ok_or(Unknown::Elasticity)?;
         let backing = known
             .model
             .elasticity
@@ -160,8 +160,8 @@ impl DeviationFigures {
             operations: operations.filter_map(operation).collect(),
             stiffness: backing,
             gravity,
-            elsewhere: deviations
-                .elsewhere(asked.forces)
+            elsewhere: cuts
+                .elsewhere()
                 .into_iter()
                 .map(|(blade, op, cut)| Elsewhere {
                     blade,

@@ -1,7 +1,8 @@
 //! Deviations above limits, and forces that were measured otherwise, in words.
 
+use super::Unknown;
 use super::figures::{DeviationFigures, Elsewhere, OperationDeviation, ShiftFigure, millimetres};
-use super::{Condition, Unknown};
+use crate::condition::Condition;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::{number, show};
 use vcutc_diagnostics::source::Span;
@@ -88,7 +89,7 @@ pub fn without_machine(limit: Sourced<Length>, head: Span) -> Diagnostic {
 
 fn unchecked(limit: Sourced<Length>, head: Span, why: &str) -> Diagnostic {
     Diagnostic::new(
-        Code::DeviationUnknown,
+        Code::LimitNotChecked,
         format!("`deviation` cannot be checked: {why}"),
         limit.span.unwrap_or(head),
         "a limit that nothing checks",

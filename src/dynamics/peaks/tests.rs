@@ -18,7 +18,7 @@ const WHOLE: [Whole; 2] = [
 fn held(function: impl Fn(f64) -> f64, steepest: f64, part: Part) -> Held {
     let middle = function(part.middle);
     Held {
-        middle,
+        met: middle,
         most: middle + steepest * part.half,
     }
 }
@@ -73,10 +73,7 @@ fn a_limit_that_is_just_kept_is_settled() {
 #[test]
 fn parts_that_are_too_long_to_say_are_halved() {
     let bounds = |_: OpId, part: Part| {
-        let flat = Held {
-            middle: 2.0,
-            most: 2.0,
-        };
+        let flat = Held { met: 2.0, most: 2.0 };
         (part.half < 0.01).then_some([flat])
     };
     let [peak] = peaks(&WHOLE, &[ANY], bounds).unwrap();

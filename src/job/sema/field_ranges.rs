@@ -47,6 +47,8 @@ pub const FORCE: Range = Range::closed(Dimension::FORCE, 0.0, 1e5);
 pub const EDGE_FORCE: Range = Range::closed(Dimension::EDGE_FORCE, 0.0, 1e4);
 /// By which share of itself a measured value may be off, either way.
 pub const SPREAD: Range = Range::new(Dimension::PURE, Bound::Included(0.0), Bound::Excluded(1.0));
+/// Shares that a limit leaves of something.
+pub const SHARE: Range = Range::new(Dimension::PURE, Bound::Excluded(0.0), Bound::Included(1.0));
 /// Swings of a blade, upright ones too.
 pub const SWING_OR_UPRIGHT: Range = Range::new(Dimension::ANGLE, Bound::Included(0.0), Bound::Excluded(90.0));
 /// Factors by which forces grow.

@@ -2,8 +2,8 @@
 
 use super::arguments::{Parameter, calls};
 use super::eval::Scope;
-use super::field_ranges::{MASS, SIGNAL, WAIT};
-use super::fields::{BlockSpec, Fields, Inner, Place, Takes, block, value};
+use super::field_ranges::{MASS, SHARE, SIGNAL, WAIT};
+use super::fields::{BlockSpec, Fields, Inner, Place, Takes, block, limit, value};
 use super::frame::{self, FRAME, coordinate, table_number};
 use super::heads::Head;
 use super::home::{self, JOINTS};
@@ -12,6 +12,7 @@ use super::options;
 use super::read::{Reader, default, sourced, words_of};
 use super::report::Checked;
 use super::session::{Described, Session};
+use super::setup::inner_place;
 use super::tools;
 use crate::{Gravity, Machine, Sourced};
 use vcutc_backend_api::geometry::Point3;
@@ -51,11 +52,18 @@ pub(crate) const SPEC: BlockSpec = BlockSpec {
         value("spindle", "output(13)").takes(Takes::Calls(OUTPUTS)),
         value("ready", "after(0.5 s)").takes(Takes::Calls(READY)),
         value("gravity", "compensated").takes(Takes::Words(|| words_of(GRAVITY))),
+        block("limits", "{ torque <= 80 % }").takes(Takes::Fields(&LIMITS)),
     ],
     inner: Inner::Machine {
         named: tools::TOOL,
         spec: &tools::SPEC,
     },
+};
+
+const LIMITS: BlockSpec = BlockSpec {
+    title: "`limits` of a machine",
+    fields: &[limit("torque", "80 %").within(SHARE)],
+    inner: Inner::Refused,
 };
 
 /// The values of a load.
@@ -92,6 +100,7 @@ pub(crate) fn check(
         }
         (Err(reported), _) | (_, &Err(reported)) => Err(reported),
     };
+    let torque_limit = torque_limit(fields.block("limits"), scope, session);
     let mut reader = Reader::new(scope, &mut session.reports);
     let base = required_frame(&fields, "base", &mut reader);
     let home = match (fields.value("home"), &model) {
@@ -126,8 +135,21 @@ pub(crate) fn check(
         spindle: spindle?,
         ready: ready?.unwrap_or(default(Ready::After(SETTLED))),
         gravity: gravity?,
+        torque_limit: torque_limit?,
         targets: targets?,
     })
+}
+
+fn torque_limit(
+    block: Checked<Option<&Block>>,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<Option<Sourced<f64>>> {
+    let Some(block) = block? else {
+        return Ok(None);
+    };
+    let fields = Fields::sort(&LIMITS, inner_place(block), &block.entries, session);
+    Reader::new(scope, &mut session.reports).optional(&fields, "torque")
 }
 
 fn one_output(generator: &Sourced<u32>, drive: &Sourced<u32>, head: Span) -> Diagnostic {

@@ -96,7 +96,7 @@ fn cross_product(k: DVec3) -> DMat3 {
 }
 
 /// The axes on a span on which each moves evenly from one value to another.
-pub(super) fn evenly(from: &Joints, to: &Joints, middle: f64, half: f64) -> [Along; MOST_AXES] {
+pub fn evenly(from: &Joints, to: &Joints, middle: f64, half: f64) -> [Along; MOST_AXES] {
     core::array::from_fn(|i| {
         let way = to[i] - from[i];
         Along::line(from[i] + way * middle, way * half)

@@ -6,7 +6,7 @@ use crate::html::{Column, Html, near, table, terms};
 use crate::pictures;
 use vcutc_diagnostics::number::{rounded, show};
 use vcutc_dynamics::deviation::figures::{DeviationFigures, ShiftFigure, millimetres};
-use vcutc_dynamics::figures::TorqueFigures;
+use vcutc_dynamics::figures::{TorqueFigures, percent};
 use vcutc_motion::summary::{self as reach_summary, AxisFigure, ReachFigures, SingularFigure, margin_words};
 use vcutc_picture::Prefix;
 
@@ -69,9 +69,10 @@ fn axes(figures: &ReachFigures) -> Html {
 fn torques(figures: &TorqueFigures) -> Html {
     let columns = [
         Column::Words("Axis"),
-        Column::Numbers("largest torque"),
+        Column::Numbers("at most"),
         Column::Numbers("weight"),
         Column::Numbers("motion"),
+        Column::Numbers("cutting"),
         Column::Numbers("of its limit"),
         Column::Words("at"),
     ];
@@ -79,12 +80,13 @@ fn torques(figures: &TorqueFigures) -> Html {
     let rows = figures.axes.iter().map(|axis| {
         vec![
             Html::text(&axis.name),
-            newton_metres(axis.torque),
+            newton_metres(axis.most),
             newton_metres(axis.weight),
             newton_metres(axis.motion),
+            newton_metres(axis.cutting),
             match (axis.share(), axis.limit) {
                 (Some(share), Some(limit)) => {
-                    by_room(1.0 - share)(&format!("{:.0} % of {} Nm", share * 100.0, show(limit)))
+                    by_room(1.0 - share)(&format!("{} % of {} Nm", percent(share), show(limit)))
                 }
                 (_, _) => Html::text("unknown"),
             },
@@ -92,7 +94,8 @@ fn torques(figures: &TorqueFigures) -> Html {
         ]
     });
     let caption = format!(
-        "Torques at programmed speeds, without cutting forces ({})",
+        "Torques at programmed speeds{} ({})",
+        figures.apart(),
         figures.backing()
     );
     table(&caption, &columns, rows)

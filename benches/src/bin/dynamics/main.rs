@@ -1,12 +1,14 @@
-//! What forces take: torques beside a peer, and bounds of the deviation of whole jobs beside the proof of their reach.
+//! What forces take: torques beside a peer, and bounds of the torques and of the deviation of whole jobs beside the proof of their reach.
 //!
 //! `cargo run --release --bin dynamics` prints the rows of the tables in `docs/benchmarks.md`.
 
-mod deviation;
+mod bounds;
 mod torques;
 
 fn main() {
     torques::table();
     println!();
-    deviation::table();
+    bounds::torques();
+    println!();
+    bounds::deviation();
 }

@@ -1,0 +1,320 @@
+//! The cuts of a program by blades whose forces are known: what pushes the blade, and how the axes move it.
+
+use crate::chain::{Chain, Column, JOINTS};
+use crate::condition::Condition;
+use crate::peaks::Whole;
+use crate::push::{Posture, Push};
+use glam::{DMat3, DVec3};
+use std::collections::BTreeMap;
+use vcutc_backend_api::ir::{Action, Blade, Op, OpId, OperationId, Program, Site, ToolId};
+use vcutc_backend_api::motion::ReachableProgram;
+use vcutc_backend_api::segments::{LinearSegment, Segment};
+use vcutc_backend_api::units::{Angle, Force, Length};
+use vcutc_geometry::number::Along;
+use vcutc_job::forces::{Forces, Parts};
+use vcutc_machine::Model;
+use vcutc_machine::kinematics::Joints;
+use vcutc_machine::kinematics::pose::Pose;
+use vcutc_motion::parts::{Motions, Moving};
+use vcutc_motion::path::Part;
+use vcutc_motion::rigs::Rigs;
+use vcutc_simulation::prove::UsedEdge;
+
+/// A program and what carries it out.
+#[derive(Clone, Copy)]
+pub struct Known<'p> {
+    pub model: &'p Model,
+    pub reached: &'p ReachableProgram,
+    pub rigs: &'p Rigs<'p>,
+    /// How much edge cuts use, in the program's order.
+    pub edges: &'p [UsedEdge],
+}
+
+/// The cuts of a program by blades whose forces are known.
+pub struct Cuts<'p> {
+    known: Known<'p>,
+    chain: Chain,
+    /// The tip of each tool in the hand, in m.
+    tips: Vec<[f64; 3]>,
+    cuts: BTreeMap<OpId, Cut<'p>>,
+    others: Others,
+}
+
+/// Whether a program has cuts by blades whose forces are not known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Others {
+    Some,
+    None,
+}
+
+/// A cut by a blade that is cut.
+pub(crate) struct Cut<'p> {
+    condition: Condition,
+    operation: OperationId,
+    pub(crate) tool: ToolId,
+    moving: Moving<'p>,
+    line: OnLine,
+    forces: &'p Forces,
+    /// What pushes it in the middle of its way, and everywhere where neither way nor blade turns.
+    push: Push,
+}
+
+impl Cut<'_> {
+    /// The controller's axes on a part of it.
+    pub(crate) fn axes_on(&self, part: Part) -> Option<[Along; JOINTS]> {
+        self.moving.axes_on(part)
+    }
+}
+
+/// The largest force on a blade.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LargestForce {
+    pub op: OpId,
+    pub force: Force,
+    pub parts: Parts<Force>,
+    pub edge: Length,
+}
+
+/// What happens in a place of a cut, with forces as they are stated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InPlace {
+    pub edge: Length,
+    /// On the blade, in the work, in N.
+    pub force: DVec3,
+    /// What it takes of the axes, in Nm.
+    pub torques: [f64; JOINTS],
+}
+
+impl<'p> Cuts<'p> {
+    /// Of a program whose blades have these forces, by their names. None of a machine that is not an arm with a closed form.
+    #[must_use]
+    pub fn of(known: Known<'p>, forces: &BTreeMap<&'p str, &'p Forces>) -> Option<Self> {
+        let program = known.reached.program();
+        let chain = Chain::of(&known.model.mechanism)?;
+        let tools = program.cell.iter().flat_map(|cell| cell.tools.iter());
+        let hands: Vec<Pose> = tools
+            .map(|(tool, _)| chain.in_hand(known.rigs.with(tool).flange_in_blade.inverse()))
+            .collect();
+        let motions = Motions::of(known.reached, known.rigs);
+        let (mut cuts, mut others) = (BTreeMap::new(), Others::None);
+        for segment in program.segments() {
+            let Some((operation, line)) = cutting(&segment) else {
+                continue;
+            };
+            let tool = segment.before.tool;
+            let blade = program.blade(tool);
+            let forces = blade.and_then(|blade| forces.get(blade.name.as_str()));
+            let straight = blade.and_then(Blade::straight);
+            let (Some(forces), Some(blade), Some(hand)) = (forces, straight, hands.get(usize::from(tool.0)))
+            else {
+                others = Others::Some;
+                continue;
+            };
+            // Where it is not measured, all of the edge may be in the material.
+            let edge = used(known.edges, segment.id)
+                .map_or(blade.cutting_length, |used| used.min(blade.cutting_length));
+            let on_line = OnLine {
+                line,
+                half_apex: blade.half_apex,
+                edge,
+                blade_in_hand: hand.rotation,
+            };
+            if line.limited_by().is_none() {
+                continue; // Leads nowhere.
+            }
+            let moving = motions.moving(segment.id)?;
+            let Some(posture) = on_line.posture(program, WHOLE) else {
+                others = Others::Some;
+                continue;
+            };
+            let cut = Cut {
+                condition: Condition::in_cut(&posture, &line),
+                operation,
+                tool,
+                moving,
+                line: on_line,
+                forces,
+                push: Push::new(forces, &posture),
+            };
+            cuts.insert(segment.id, cut);
+        }
+        Some(Self {
+            tips: hands.iter().map(|hand| hand.position.to_array()).collect(),
+            known,
+            chain,
+            cuts,
+            others,
+        })
+    }
+
+    pub(crate) const fn known(&self) -> &Known<'p> {
+        &self.known
+    }
+
+    pub(crate) const fn others(&self) -> Others {
+        self.others
+    }
+
+    /// A cut; none where an op does not cut, or with a blade of unknown forces.
+    pub(crate) fn get(&self, op: OpId) -> Option<&Cut<'p>> {
+        self.cuts.get(&op)
+    }
+
+    /// All of them.
+    pub(crate) fn wholes(&self) -> impl Iterator<Item = Whole> {
+        self.cuts.iter().map(|(op, cut)| Whole {
+            op: *op,
+            parts: cut.moving.parts,
+        })
+    }
+
+    /// Those of an operation.
+    pub(crate) fn wholes_of(&self, operation: OperationId) -> impl Iterator<Item = Whole> {
+        self.wholes()
+            .filter(move |whole| self.get(whole.op).is_some_and(|cut| cut.operation == operation))
+    }
+
+    /// The cut with the largest force.
+    #[must_use]
+    pub fn largest_force(&self) -> Option<LargestForce> {
+        let each = self.cuts.iter().map(|(op, cut)| {
+            let parts = cut.push.largest();
+            (*op, cut.line.edge, parts, cut.push.largest_size())
+        });
+        let (op, edge, parts, force) = each.reduce(|best, next| if next.3 > best.3 { next } else { best })?;
+        Some(LargestForce {
+            op,
+            force: Force::n(force),
+            parts: Parts {
+                drag: Force::n(parts.drag),
+                axial: Force::n(parts.axial),
+                side: Force::n(parts.side),
+            },
+            edge,
+        })
+    }
+
+    /// Of each blade the cut that differs most from how its forces were measured, where that matters.
+    pub(crate) fn elsewhere(&self) -> Vec<(String, OpId, Condition)> {
+        let program = self.known.reached.program();
+        let mut farthest: BTreeMap<&str, (f64, OpId, Condition)> = BTreeMap::new();
+        for (op, cut) in &self.cuts {
+            let measured = Condition::of(&cut.forces.measured);
+            let (Some(blade), Some(off)) = (program.blade(cut.tool), cut.condition.off(measured)) else {
+                continue;
+            };
+            let name = blade.name.as_str();
+            if farthest.get(name).is_none_or(|(most, ..)| off > *most) {
+                farthest.insert(name, (off, *op, cut.condition));
+            }
+        }
+        farthest
+            .into_iter()
+            .map(|(name, (_, op, condition))| (name.to_owned(), op, condition))
+            .collect()
+    }
+
+    /// What happens where so much of an op is done and the axes have these values; none where it does not cut.
+    #[must_use]
+    pub fn in_place(&self, op: OpId, done: f64, joints: &Joints) -> Option<InPlace> {
+        let cut = self.get(op)?;
+        let push = self.push_at(cut, done)?;
+        let blade_in_work = self.known.rigs.with(cut.tool).blade_in_work(joints);
+        let hand_in_work = blade_in_work.rotation * cut.line.blade_in_hand.transpose();
+        let torques = push.stated_torques(&self.columns_at(cut.tool, joints));
+        Some(InPlace {
+            edge: cut.line.edge,
+            force: hand_in_work * push.stated(),
+            torques: torques.map(|torque| -torque),
+        })
+    }
+
+    /// How the axes move the tip of a tool.
+    pub(crate) fn columns_at(&self, tool: ToolId, joints: &Joints) -> [Column<f64>; JOINTS] {
+        self.chain.columns(&self.chain.turns(joints), self.tip(tool))
+    }
+
+    /// The same along a part of a motion.
+    pub(crate) fn columns_on(&self, tool: ToolId, axes: [Along; JOINTS]) -> [Column<Along>; JOINTS] {
+        self.chain.columns(&self.chain.turns_along(axes), self.tip(tool))
+    }
+
+    /// What pushes the blade where so much of a cut is done.
+    pub(crate) fn push_at(&self, cut: &Cut<'_>, done: f64) -> Option<Push> {
+        let here = Part {
+            middle: done,
+            half: 0.0,
+        };
+        self.push_on(cut, here)
+    }
+
+    /// What pushes the blade on a part of a cut.
+    pub(crate) fn push_on(&self, cut: &Cut<'_>, part: Part) -> Option<Push> {
+        if cut.line.turns() == Angle::ZERO {
+            return Some(cut.push);
+        }
+        let posture = cut.line.posture(self.known.reached.program(), part)?;
+        Some(Push::new(cut.forces, &posture))
+    }
+
+    fn tip(&self, tool: ToolId) -> [f64; 3] {
+        self.tips.get(usize::from(tool.0)).copied().unwrap_or_default()
+    }
+}
+
+/// The whole of a motion.
+const WHOLE: Part = Part {
+    middle: 0.5,
+    half: 0.5,
+};
+
+/// A cut along a line or an arc.
+#[derive(Clone, Copy, Debug)]
+struct OnLine {
+    line: LinearSegment,
+    half_apex: Angle,
+    /// How much edge is in the material at most.
+    edge: Length,
+    blade_in_hand: DMat3,
+}
+
+impl OnLine {
+    /// How far the blade and the way of its tip turn.
+    fn turns(&self) -> Angle {
+        let sweep = self.line.arc().map_or(Angle::ZERO, |arc| arc.sweep());
+        self.line.turn + sweep
+    }
+
+    /// How the blade is held in the middle of a part; none where its tip stands still.
+    fn posture(&self, program: &Program, part: Part) -> Option<Posture> {
+        let frame = |done: f64| self.line.frame_at(program, done).map(Pose::from);
+        let [before, after] =
+            [part.middle - NEAR, part.middle + NEAR].map(|done| frame(done.clamp(0.0, 1.0)));
+        Some(Posture {
+            blade_in_work: frame(part.middle)?.rotation,
+            blade_in_hand: self.blade_in_hand,
+            way: (after?.position - before?.position).try_normalize()?,
+            turns: self.turns() * part.half,
+            half_apex: self.half_apex,
+            edge: self.edge,
+        })
+    }
+}
+
+/// How far from a place its neighbours are that say which way the tip goes, in parts of the motion.
+const NEAR: f64 = 1e-4;
+
+/// The operation and the way of an op that cuts with an edge.
+fn cutting(segment: &Segment<'_>) -> Option<(OperationId, LinearSegment)> {
+    let Op { action, site, .. } = segment.op;
+    let (Action::Cut { .. } | Action::Follow { .. }, Site::Cut { operation, .. }) = (action, site) else {
+        return None;
+    };
+    Some((*operation, segment.line()?))
+}
+
+/// How much edge an op uses, where that is measured.
+fn used(edges: &[UsedEdge], op: OpId) -> Option<Length> {
+    let place = edges.binary_search_by_key(&op, |used| used.op).ok()?;
+    Some(edges.get(place)?.length)
+}
