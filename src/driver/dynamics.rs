@@ -39,13 +39,49 @@ struct Found {
 
 /// The torques of a program, and how far forces push its cuts off.
 fn found(job: &CheckedJob, machine: &Machine, reached: &Reached, edges: &[UsedEdge]) -> Found {
-    let program = reached.program.program();
-    let Some(cell) = &program.cell else {
-        return Found {
-            torques: Err(Unknown::Masses),
-            deviation: Err(deviation::Unknown::ClosedForm),
-        };
+    let nothing = Found {
+        torques: Err(Unknown::Masses),
+        deviation: Err(deviation::Unknown::ClosedForm),
     };
+    let found = carrying(machine, reached, edges, |known, arms| {
+        let forces = forces(job);
+        let cuts = (!forces.is_empty()).then(|| Cuts::of(known, &forces));
+        let pushing = match &cuts {
+            Some(Some(cuts)) => Pushing::By(cuts),
+            Some(None) | None => Pushing::NotKnown,
+        };
+        Found {
+            torques: torques(machine, known, arms, pushing),
+            deviation: match &cuts {
+                None => Err(deviation::Unknown::Forces),
+                Some(None) => Err(deviation::Unknown::ClosedForm),
+                Some(Some(cuts)) => {
+                    let limits = job.operations.iter();
+                    let limits: Vec<_> = limits
+                        .map(|operation| operation.deviation_limit().map(|limit| limit.value))
+                        .collect();
+                    let asked = Asked {
+                        forces: &forces,
+                        limits: &limits,
+                        gravity: machine.gravity.map(|gravity| gravity.value),
+                    };
+                    DeviationFigures::of(cuts, arms.ok(), asked)
+                }
+            },
+        }
+    });
+    found.unwrap_or(nothing)
+}
+
+/// What comes of a program and of the arm with each of its blades; none of a program without a cell.
+fn carrying<T>(
+    machine: &Machine,
+    reached: &Reached,
+    edges: &[UsedEdge],
+    work: impl FnOnce(Known<'_>, Result<&Arms, Unknown>) -> T,
+) -> Option<T> {
+    let program = reached.program.program();
+    let cell = program.cell.as_ref()?;
     let rigs = Rigs::of(&machine.model, cell, program);
     let known = Known {
         model: &machine.model,
@@ -53,34 +89,18 @@ fn found(job: &CheckedJob, machine: &Machine, reached: &Reached, edges: &[UsedEd
         rigs: &rigs,
         edges,
     };
-    let forces = forces(job);
-    let cuts = (!forces.is_empty()).then(|| Cuts::of(known, &forces));
     let arms = Arms::of(&machine.model, cell);
+    Some(work(known, arms.as_ref().map_err(|why| *why)))
+}
+
+fn torques(
+    machine: &Machine,
+    known: Known<'_>,
+    arms: Result<&Arms, Unknown>,
+    pushing: Pushing<'_>,
+) -> Result<TorqueFigures, Unknown> {
     let allowed = machine.torque_limit.map(|limit| limit.value);
-    let torques = arms.as_ref().map_err(|why| *why);
-    let pushing = match &cuts {
-        Some(Some(cuts)) => Pushing::By(cuts),
-        Some(None) | None => Pushing::NotKnown,
-    };
-    Found {
-        torques: torques.and_then(|arms| TorqueFigures::of(known, arms, pushing, allowed)),
-        deviation: match &cuts {
-            None => Err(deviation::Unknown::Forces),
-            Some(None) => Err(deviation::Unknown::ClosedForm),
-            Some(Some(cuts)) => {
-                let limits = job.operations.iter();
-                let limits: Vec<_> = limits
-                    .map(|operation| operation.deviation_limit().map(|limit| limit.value))
-                    .collect();
-                let asked = Asked {
-                    forces: &forces,
-                    limits: &limits,
-                    gravity: machine.gravity.map(|gravity| gravity.value),
-                };
-                DeviationFigures::of(cuts, arms.as_ref().ok(), asked)
-            }
-        },
-    }
+    TorqueFigures::of(known, arms?, pushing, allowed)
 }
 
 /// Adds the torques of an air cut to what is known of it: no forces push its blades.
@@ -88,19 +108,10 @@ pub(crate) fn add_torques_in_air(job: &CheckedJob, compiled: &mut Compiled) {
     let Some((machine, reached)) = carried(job, compiled) else {
         return;
     };
-    let program = reached.program.program();
-    let torques = program.cell.as_ref().ok_or(Unknown::Masses).and_then(|cell| {
-        let rigs = Rigs::of(&machine.model, cell, program);
-        let known = Known {
-            model: &machine.model,
-            reached: &reached.program,
-            rigs: &rigs,
-            edges: &[],
-        };
-        let allowed = machine.torque_limit.map(|limit| limit.value);
-        TorqueFigures::of(known, &Arms::of(&machine.model, cell)?, Pushing::Nothing, allowed)
+    let figures = carrying(machine, reached, &[], |known, arms| {
+        torques(machine, known, arms, Pushing::Nothing)
     });
-    add_torques(torques, compiled);
+    add_torques(figures.unwrap_or(Err(Unknown::Masses)), compiled);
 }
 
 fn add_torques(figures: Result<TorqueFigures, Unknown>, compiled: &mut Compiled) {

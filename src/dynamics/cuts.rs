@@ -47,7 +47,7 @@ pub(crate) enum Others {
     None,
 }
 
-/// A cut by a blade that is cut.
+/// A cut by a blade whose forces are known.
 pub(crate) struct Cut<'p> {
     condition: Condition,
     operation: OperationId,

@@ -47,13 +47,13 @@ pub enum Pushing<'p> {
 
 /// Torques of all axes on a part, in Nm: whatever they may be.
 #[derive(Clone, Copy)]
-struct Parts {
+struct Enclosed {
     weight: [Interval; JOINTS],
     motion: [Interval; JOINTS],
     cutting: [Interval; JOINTS],
 }
 
-impl Parts {
+impl Enclosed {
     fn of(&self, axis: usize) -> Interval {
         self.weight[axis] + self.motion[axis] + self.cutting[axis]
     }
@@ -80,9 +80,9 @@ const AT_PLACES: [fn(Along) -> Interval; PLACES] = [Along::begin, Along::middle,
 
 /// Torques on a part of a motion.
 struct OnPart {
-    everywhere: Parts,
+    everywhere: Enclosed,
     /// At its beginning, in the middle and at its end.
-    places: [Parts; PLACES],
+    places: [Enclosed; PLACES],
 }
 
 impl OnPart {
@@ -183,7 +183,7 @@ impl Demand<'_> {
             None => [Interval::ZERO; JOINTS],
             Some(speed) => self.weightless.with(tool)?.torques(&state(&turns, axes, speed)),
         };
-        let parts = |view: fn(Along) -> Interval, cutting| Parts {
+        let parts = |view: fn(Along) -> Interval, cutting| Enclosed {
             weight: weight.map(view),
             motion,
             cutting,
@@ -197,11 +197,13 @@ impl Demand<'_> {
         };
         let columns = cuts.columns_on(cut.tool, axes);
         let push = cuts.push_on(cut, part)?;
-        let against = |view| push.on_axes(&columns, view).map(|pushed| -pushed);
-        let (most, turned) = (against(Along::value), push.turned_on_axes(&columns));
+        let turned = push.turned_on_axes(&columns);
+        let [begin, middle, end] = AT_PLACES;
+        let pushed = push.on_axes(&columns, [Along::value, begin, middle, end]);
+        let [most, places @ ..] = pushed.map(|view| view.map(|torque| -torque));
         Some(OnPart {
             everywhere: parts(Along::value, array::from_fn(|axis| most[axis] + turned[axis])),
-            places: AT_PLACES.map(|view| parts(view, against(view))),
+            places: array::from_fn(|place| parts(AT_PLACES[place], places[place])),
         })
     }
 

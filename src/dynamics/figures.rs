@@ -315,10 +315,13 @@ fn figure(known: Known<'_>, axis: usize, most: &Most) -> Option<AxisTorque> {
     })
 }
 
+/// By how much a whole percentage may be rounded in the arithmetic.
+const ROUNDING: f64 = 1e-9;
+
 /// A share as a percentage: whole, and upward, so that a limit that is passed shows.
 #[must_use]
 pub fn percent(share: f64) -> String {
-    show((share * 100.0 - 1e-9).ceil())
+    show((share * 100.0 - ROUNDING).ceil())
 }
 
 /// A torque without decimals.

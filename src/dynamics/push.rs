@@ -274,27 +274,29 @@ impl Push {
         core::array::from_fn(|view| tip[view].hull(end[view]).hull(Interval::ZERO))
     }
 
-    /// What pushes the axes, in Nm, while no more of the edge than its length is in the material: where `view` looks on a part of a cut.
-    /// As in [`Push::shifts`], the forces may be anything within their spread, at any stretch of the edge.
-    pub(crate) fn on_axes(
+    /// What pushes the axes, in Nm, while no more of the edge than its length is in the material: where each of `views` looks on a part
+    /// of a cut. As in [`Push::shifts`], the forces may be anything within their spread, at any stretch of the edge.
+    pub(crate) fn on_axes<const V: usize>(
         &self,
         columns: &[Column<Along>; JOINTS],
-        view: fn(Along) -> Interval,
-    ) -> [Interval; JOINTS] {
+        views: [fn(Along) -> Interval; V],
+    ) -> [[Interval; JOINTS]; V] {
         let ends = self
             .forces()
             .map(|force| self.torques_at_ends(columns, force.direction));
-        let sum = |amount: fn(&Force) -> Amount, end: usize, axis: usize| {
-            let each = self.forces().into_iter().zip(&ends);
-            let pushed = each.map(|(force, ends)| amount(force).any() * view(ends[end][axis]));
-            pushed.fold(Interval::ZERO, |sum, next| sum + next)
-        };
-        core::array::from_fn(|axis| {
-            let tip = sum(|force| force.tip, 0, axis);
-            let [near, far] = [0, 1].map(|end| sum(|force| force.edge, end, axis));
-            let edge = near.hull(far);
-            // In the air nothing pushes.
-            Interval::ZERO.hull(tip).hull(edge).hull(tip + edge)
+        views.map(|view| {
+            let sum = |amount: fn(&Force) -> Amount, end: usize, axis: usize| {
+                let each = self.forces().into_iter().zip(&ends);
+                let pushed = each.map(|(force, ends)| amount(force).any() * view(ends[end][axis]));
+                pushed.fold(Interval::ZERO, |sum, next| sum + next)
+            };
+            core::array::from_fn(|axis| {
+                let tip = sum(|force| force.tip, 0, axis);
+                let [near, far] = [0, 1].map(|end| sum(|force| force.edge, end, axis));
+                let edge = near.hull(far);
+                // In the air nothing pushes.
+                Interval::ZERO.hull(tip).hull(edge).hull(tip + edge)
+            })
         })
     }
 

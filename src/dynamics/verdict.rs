@@ -37,7 +37,11 @@ pub fn above_limit(figures: &TorqueFigures, machine: &Machine) -> Option<Diagnos
         Some(span) => {
             let drive = format!("the drive of {} gives {} Nm", nearest.name, show(limit));
             let diagnostic = Diagnostic::new(code, message, span, "the share that it may use");
-            kept(figures, span, diagnostic.and(machine.model_span, drive))
+            kept(
+                nearest.most / limit,
+                span,
+                diagnostic.and(machine.model_span, drive),
+            )
         }
     };
     let others = figures.axes.iter().filter(|axis| is_above(figures, axis)).count() - 1;
@@ -48,10 +52,8 @@ pub fn above_limit(figures: &TorqueFigures, machine: &Machine) -> Option<Diagnos
     })
 }
 
-/// Offers the least share that is kept, where there is one.
-fn kept(figures: &TorqueFigures, limit: Span, diagnostic: Diagnostic) -> Diagnostic {
-    let shares = figures.axes.iter().filter_map(AxisTorque::share);
-    let share = shares.fold(0.0, f64::max);
+/// Offers the least share that is kept, where there is one: `share` is the largest that an axis needs.
+fn kept(share: f64, limit: Span, diagnostic: Diagnostic) -> Diagnostic {
     if share > 1.0 {
         return diagnostic.note("the whole torque of its drive does not suffice");
     }

@@ -381,7 +381,8 @@ fn a_place_that_relieves_a_drive_is_offered() {
             .iter()
             .all(|told| told.code != Code::TorqueAboveLimit)
     );
-    // The same job with the limit a little below what is needed there is refused, at a little above it is not.
+    // The same job with the limit a little below what is needed there is refused, at a little above it is not. What is stated is a
+    // bound, up to half a percent above that.
     let needed = figures.nearest().unwrap().most;
     for (limit, is_refused) in [(0.995 * needed - 0.1, true), (needed + 0.001, false)] {
         let sheet = std::fs::read_to_string(folder.join("support/weak_arm.toml")).unwrap();
