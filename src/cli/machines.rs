@@ -172,7 +172,11 @@ fn in_json(description: &Description) -> Value {
         let more = [
             ("model", json!(sheet.model)),
             ("manufacturer", json!(sheet.manufacturer)),
-            ("payload_kg", json!(sheet.payload)),
+            ("payload_kg", json!(sheet.payload.rated)),
+            (
+                "wrist_inertia_limit_kg_m2",
+                json!(sheet.payload.wrist.map(|wrist| [wrist.axis_5, wrist.axis_6])),
+            ),
             ("confidence", json!(sheet.confidence.map(sheet::Confidence::word))),
             ("facts", facts_in_json(&sheet.facts)),
             ("masses", json!(sheet.masses.as_ref().map(masses_in_json))),

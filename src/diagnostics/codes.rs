@@ -232,6 +232,8 @@ codes! {
     LimitNotChecked = "VC0535", Error, "limit on deviation or torque that cannot be checked";
     /// Cuts that differ from how the forces of their blade were measured.
     ForcesElsewhere = "VC0536", Warning, "forces measured under other conditions";
+    /// A load that the machine may not carry.
+    LoadTooMuch = "VC0537", Error, "load that is too much for the machine";
 
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "target that needs a machine";

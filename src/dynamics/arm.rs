@@ -14,7 +14,7 @@ use glam::{DMat3, DVec3};
 use vcutc_backend_api::ir::Load;
 use vcutc_geometry::number::Along;
 use vcutc_machine::Model;
-use vcutc_machine::body::{Body, MILLIMETRES};
+use vcutc_machine::body::Body;
 use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// The acceleration of free fall, in m/s2: the standard value (ISO 80000-3).
@@ -75,11 +75,7 @@ impl Arm {
         let chain = Chain::of(mechanism)?;
         let carried = load.map(|load| {
             let flange = chain.flange_at_zero;
-            let centre = DVec3::from_array(load.centre.to_array());
-            Body::point(
-                load.mass.to_kg(),
-                (flange.rotation * centre + flange.position) / MILLIMETRES,
-            )
+            Body::from(load).moved(&flange)
         });
         let links = core::array::from_fn(|place| {
             let load = carried.iter().filter(|_| place + 1 == JOINTS);

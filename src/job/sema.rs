@@ -23,6 +23,7 @@ mod heads;
 mod home;
 pub mod kind;
 mod lets;
+mod load;
 mod machine;
 mod mismatch;
 mod missing;

@@ -2,6 +2,7 @@
 
 use crate::kinematics::pose::Pose;
 use glam::{DMat3, DVec3};
+use vcutc_backend_api::ir::{Inertia, Load};
 
 /// Millimetres in a metre.
 pub const MILLIMETRES: f64 = 1000.0;
@@ -79,6 +80,18 @@ impl Body {
         let off = self.centre - point;
         let outer = DMat3::from_cols(off * off.x, off * off.y, off * off.z);
         self.inertia + (DMat3::from_diagonal(DVec3::splat(off.length_squared())) - outer) * self.mass
+    }
+}
+
+impl From<Load> for Body {
+    /// Seen from the flange.
+    fn from(load: Load) -> Self {
+        let inertia = load.inertia.unwrap_or(Inertia::POINT);
+        Self {
+            mass: load.mass.to_kg(),
+            centre: DVec3::from_array(load.centre.to_array()) / MILLIMETRES,
+            inertia: DMat3::from_diagonal(DVec3::from_array(inertia.to_array())),
+        }
     }
 }
 

@@ -131,7 +131,7 @@ pub fn summaries() -> Vec<Summary> {
             name,
             kind: sheet.kind(),
             model: sheet.model,
-            payload: sheet.payload,
+            payload: sheet.payload.rated,
             reach: sheet.facts.wrist_reach,
             confidence: sheet.confidence,
         })

@@ -10,6 +10,7 @@ pub mod kinematics;
 mod limit_places;
 pub mod masses;
 pub mod path_limits;
+pub mod payload;
 mod ranges;
 mod reach;
 pub mod sheet;
@@ -23,6 +24,7 @@ use crate::kinematics::Mechanism;
 use elasticity::Elasticity;
 use masses::{Masses, Torques};
 use path_limits::PathLimits;
+use payload::Payload;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::FileId;
@@ -40,6 +42,8 @@ pub struct Model {
     pub mechanism: Mechanism,
     /// What its controller keeps along the way of the tip.
     pub path: PathLimits,
+    /// What its flange may carry, as far as that is known.
+    pub payload: Payload,
     /// The masses of its links, when known.
     pub masses: Option<Masses>,
     /// The torques of its drives, when known.

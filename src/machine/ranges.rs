@@ -25,6 +25,8 @@ pub(crate) const SLIDING_JERK: Range = sliding(3, 1e10);
 pub(crate) const MASS: Range = Range::closed(Dimension::MASS, 0.0, 1e6);
 /// Entries of inertias, in kg m2.
 pub(crate) const INERTIA: Range = Range::closed(Dimension::PURE, -1e6, 1e6);
+/// What an axis of a wrist may turn, in kg m2.
+pub(crate) const INERTIA_LIMIT: Range = Range::closed(Dimension::PURE, 1e-6, 1e6);
 /// Torques, in Nm.
 pub(crate) const TORQUE: Range = Range::closed(Dimension::PURE, 0.001, 1e7);
 /// Stiffnesses of joints, in Nm/rad.

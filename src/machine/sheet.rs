@@ -14,6 +14,7 @@ use super::elasticity::Elasticity;
 use super::facts::{self, Facts, FkCheck};
 use super::masses::{Masses, Torques};
 use super::path_limits::{self, PathLimits};
+use super::payload::{self, Payload};
 use super::ranges;
 use crate::kinematics::Mechanism;
 use vcutc_backend_api::ir::{Axis, MachineKind, Maker};
@@ -29,8 +30,8 @@ pub struct Sheet {
     /// Its model as its maker writes it, such as `KUKA KR 210 R3100 ultra`.
     pub model: String,
     pub manufacturer: Option<String>,
-    /// Rated payload in kg, when stated.
-    pub payload: Option<f64>,
+    /// What its flange may carry, as far as it is stated.
+    pub payload: Payload,
     /// How far the numbers are backed, when stated.
     pub confidence: Option<Confidence>,
     /// Its axes, in the controller's order and sense.
@@ -130,7 +131,7 @@ fn read(root: Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Sheet> {
     root.text("id", faults);
     let model = root.text("model", faults);
     let manufacturer = root.text("manufacturer", faults);
-    let payload = root.number("rated_payload_kg", faults);
+    let rated = root.number("rated_payload_kg", faults);
     let confidence = root.word("confidence", CONFIDENCES, faults);
     let mut facts = facts::read(root, faults);
     let body = (form.read)(root, maker(manufacturer), faults)?;
@@ -139,6 +140,8 @@ fn read(root: Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Sheet> {
     let path = path_limits::read(root, &mut facts.sources, &mut facts.remarks, faults);
     let mechanism = body.mechanism?;
     let arm = (kind == MachineKind::Robot).then_some(root);
+    let opw = mechanism.ortho_parallel();
+    let wrist = opw.and_then(|opw| payload::read(root, opw.c4, &mut facts.sources, faults));
     let masses = arm.and_then(|root| Masses::read(root, faults));
     if let (Some(masses), Some(arm)) = (&masses, mechanism.ortho_parallel()) {
         masses.check(root, arm.length(), faults);
@@ -150,7 +153,7 @@ fn read(root: Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<Sheet> {
     Some(Sheet {
         model: model?.to_owned(),
         manufacturer: manufacturer.map(str::to_owned),
-        payload,
+        payload: Payload { rated, wrist },
         confidence,
         axes: body.axes,
         mechanism,
@@ -192,6 +195,7 @@ impl Sheet {
             axes: self.axes.clone(),
             mechanism: self.mechanism.clone(),
             path: self.path,
+            payload: self.payload,
             masses: self.masses.clone(),
             torques: self.torques.clone(),
             elasticity: self.elasticity.clone(),

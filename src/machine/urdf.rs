@@ -24,6 +24,7 @@ mod tree;
 use super::LimitPlaces;
 use super::Model;
 use super::path_limits::PathLimits;
+use super::payload::Payload;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::serial::SerialArm;
 use crate::kinematics::{Mechanism, recognise};
@@ -80,6 +81,7 @@ fn read(name: &str, file: FileId, text: &str, flange: Flange<'_>) -> Read<Model>
         axes: joints.iter().map(axis).collect(),
         mechanism: recognise::closed_form(&arm).unwrap_or(Mechanism::Serial(arm)),
         path: PathLimits::UNKNOWN,
+        payload: Payload::default(),
         masses,
         torques,
         elasticity: None,

@@ -6,7 +6,7 @@ use vcutc_backend_api::ir::{
     Action, AxisKind, Change, Changer, Edges, Load, OperationId, Program, Ready, Registered,
 };
 use vcutc_backend_api::units::Speed;
-use vcutc_diagnostics::number::show;
+use vcutc_diagnostics::number::{rounded, show};
 use vcutc_job::{BladeRef, Body, CheckedJob, HeldTool, Machine, Setup, StraightBlade};
 
 /// A name and a value, as plain text.
@@ -89,12 +89,20 @@ pub(super) fn tool(material: &Material<'_>) -> Vec<Fact> {
     machine.tools.iter().flat_map(held).collect()
 }
 
-fn carried(load: Registered<Load>) -> String {
+/// `8 kg at x 0, y 0, z 120 mm`: a load, with its moments of inertia where it states some.
+pub(crate) fn carried(load: Registered<Load>) -> String {
     match load {
         Registered::Number(number) => format!("number {number} of the controller"),
         Registered::Value(load) => {
             let [x, y, z] = [load.centre.x, load.centre.y, load.centre.z].map(show);
-            format!("{} kg at x {x}, y {y}, z {z} mm", show(load.mass.to_kg()))
+            let moments = load.inertia.map_or_else(String::new, |inertia| {
+                let [x, y, z] = inertia.to_array().map(|moment| rounded(moment, 1e6));
+                format!(", {x}, {y} and {z} kg m2 about x, y and z")
+            });
+            format!(
+                "{} kg at x {x}, y {y}, z {z} mm{moments}",
+                show(load.mass.to_kg())
+            )
         }
     }
 }

@@ -308,6 +308,44 @@ pub struct Load {
     pub mass: Mass,
     /// Centre of mass seen from the flange, in mm.
     pub centre: Point3,
+    /// How hard it is to turn; none of a load that counts as a point.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertia: Option<Inertia>,
+}
+
+/// The moments of inertia of a load about its centre of mass, along the axes of the flange, in kg m2.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Inertia {
+    /// About x.
+    pub x: f64,
+    /// About y.
+    pub y: f64,
+    /// About z.
+    pub z: f64,
+}
+
+impl Inertia {
+    /// That of a point.
+    pub const POINT: Self = Self {
+        x: 0.0,
+        y: 0.0,
+        z: 0.0,
+    };
+
+    /// About x, y and z.
+    #[must_use]
+    pub const fn to_array(self) -> [f64; 3] {
+        [self.x, self.y, self.z]
+    }
+
+    /// Whether a body can have it: none of the moments is greater than the two others together.
+    #[must_use]
+    pub fn is_possible(self) -> bool {
+        let [x, y, z] = self.to_array();
+        let half = (x + y + z) / 2.0;
+        half.is_finite() && [x, y, z].iter().all(|moment| (0.0..=half).contains(moment))
+    }
 }
 
 /// How a program knows that generator and spindle are up before the blade enters.

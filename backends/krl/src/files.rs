@@ -6,7 +6,9 @@ use crate::names::{CHANGE, HOME, part_name};
 use crate::options::PartNames;
 use vcutc_backend_api::backend::EmitError;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, AxisValues, Changer, Load, PlacedFrame, Registered, Tool, ToolId};
+use vcutc_backend_api::ir::{
+    Action, AxisValues, Changer, Inertia, Load, PlacedFrame, Registered, Tool, ToolId,
+};
 use vcutc_backend_api::number::NotFinite;
 use vcutc_backend_api::script::{File, Files, Part, Written};
 use vcutc_backend_api::state::Place;
@@ -141,13 +143,21 @@ impl KrlDialect<'_, '_, '_> {
         }
     }
 
-    /// Sets `$LOAD`. The job knows no inertia about the centre of mass, so that of a point mass stands.
+    /// Sets `$LOAD`. Where the job states no inertia about the centre of mass, that of a point mass stands.
     fn load(&mut self, load: Load) -> Written {
         self.text.put(b"$LOAD={M ");
         self.text.trimmed(load.mass.to_kg())?;
         self.text.put(b",CM {");
         self.point(load.centre)?;
-        Ok(self.text.line(",A 0.0,B 0.0,C 0.0},J {X 0.0,Y 0.0,Z 0.0}}")?)
+        let Some(Inertia { x, y, z }) = load.inertia else {
+            return Ok(self.text.line(",A 0.0,B 0.0,C 0.0},J {X 0.0,Y 0.0,Z 0.0}}")?);
+        };
+        self.text.put(b",A 0.0,B 0.0,C 0.0},J {");
+        for (name, moment) in [("X ", x), (",Y ", y), (",Z ", z)] {
+            self.text.put(name.as_bytes());
+            self.text.trimmed(moment)?;
+        }
+        Ok(self.text.line("}}")?)
     }
 
     /// The `.dat` of a module. Declarations live here only: one behind an instruction of a `.src` does not compile [K-QG].

@@ -153,13 +153,22 @@ impl RapidDialect<'_, '_, '_> {
         Ok(self.text.line("];")?)
     }
 
-    /// The job knows no inertia about the centre of mass, so that of a point mass stands.
+    /// Where the job states no inertia about the centre of mass, that of a point mass stands.
     fn load(&mut self, load: Load) -> Written {
         self.text.put(b"[");
         self.text.trimmed(load.mass.to_kg())?;
         self.text.put(b",");
         self.point(load.centre)?;
-        self.text.put(b",[1,0,0,0],0,0,0]");
+        let Some(inertia) = load.inertia else {
+            self.text.put(b",[1,0,0,0],0,0,0]");
+            return Ok(());
+        };
+        self.text.put(b",[1,0,0,0]");
+        for moment in inertia.to_array() {
+            self.text.put(b",");
+            self.text.trimmed(moment)?;
+        }
+        self.text.put(b"]");
         Ok(())
     }
 

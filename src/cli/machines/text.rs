@@ -66,8 +66,14 @@ pub(super) fn machine(description: &Description) -> String {
 
 fn of_sheet(sheet: &Sheet) -> Vec<String> {
     let mut lines = Vec::new();
-    if let Some(payload) = sheet.payload {
+    if let Some(payload) = sheet.payload.rated {
         lines.push(format!("payload {payload} kg"));
+    }
+    if let Some(wrist) = sheet.payload.wrist {
+        lines.push(format!(
+            "wrist: at most {} kg m2 about axis 5, {} kg m2 about axis 6",
+            wrist.axis_5, wrist.axis_6
+        ));
     }
     match (sheet.facts.wrist_reach, sheet.facts.designated_reach) {
         (Some(reach), Some(named)) => {

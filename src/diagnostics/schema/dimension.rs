@@ -41,6 +41,8 @@ impl Dimension {
     pub const FORCE: Self = Self::new(1, 0, -2, 1);
     /// A force on each length of an edge.
     pub const EDGE_FORCE: Self = Self::new(0, 0, -2, 1);
+    /// A moment of inertia.
+    pub const INERTIA: Self = Self::new(2, 0, 0, 1);
 
     /// From the four exponents.
     pub const fn new(length: i8, angle: i8, time: i8, mass: i8) -> Self {
@@ -98,6 +100,7 @@ impl Dimension {
             (1, 0, -2, 0) => "an acceleration",
             (1, 0, -2, 1) => "a force",
             (0, 0, -2, 1) => "a force per length",
+            (2, 0, 0, 1) => "a moment of inertia",
             _ => return format!("a quantity in {}", self.unit()),
         };
         name.to_owned()
@@ -109,6 +112,7 @@ impl Dimension {
             Self::AREA => return "mm2".to_owned(),
             Self::FORCE => return "N".to_owned(),
             Self::EDGE_FORCE => return "N/mm".to_owned(),
+            Self::INERTIA => return "kgm2".to_owned(),
             _ => {}
         }
         let powers = [
@@ -146,9 +150,12 @@ impl Dimension {
 
     /// How much one of [`Self::unit`] is in the units in which values are stored (mm, rad, s, kg).
     pub fn unit_size(self) -> f64 {
-        if matches!(self, Self::FORCE | Self::EDGE_FORCE) {
+        match self {
             // A newton is 1 kg m/s2.
-            return 1000.0;
+            Self::FORCE | Self::EDGE_FORCE => return 1000.0,
+            // A square metre is 1e6 mm2.
+            Self::INERTIA => return 1e6,
+            _ => {}
         }
         match self.angle {
             0 => 1.0,

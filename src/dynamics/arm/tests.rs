@@ -4,8 +4,10 @@ use super::*;
 use core::f64::consts::FRAC_PI_2;
 use proptest::prelude::*;
 use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::Inertia;
 use vcutc_backend_api::units::Mass;
 use vcutc_geometry::number::Interval;
+use vcutc_machine::body::MILLIMETRES;
 use vcutc_machine::catalogue;
 use vcutc_machine::kinematics::mounted::Mounted;
 use vcutc_machine::kinematics::opw::{Coupling, Opw};
@@ -76,6 +78,7 @@ fn every_sheet_with_masses_has_the_torques_of_pinocchio() {
                 Some(Load {
                     mass: Mass::kg(mass),
                     centre: Point3::new(x, y, z),
+                    inertia: None,
                 }),
             );
             let found = torques(&arm, state.joints, state.rates, state.accelerations);
@@ -209,10 +212,37 @@ fn known_arms_need_known_torques() {
 }
 
 #[test]
+fn the_inertia_of_a_load_resists_the_axes_that_turn_it() {
+    let load = |inertia| {
+        let load = Load {
+            mass: Mass::kg(14.5),
+            centre: Point3::new(10.0, 20.0, 140.0),
+            inertia,
+        };
+        named("kuka/kr210_r3100_ultra", Some(load))
+    };
+    let (x, y, z) = (0.3, 0.2, 0.1);
+    let (point, body) = (load(None), load(Some(Inertia { x, y, z })));
+    // Axis 5 is along y of the flange, and along x after a quarter turn of axis 6.
+    for (axis, turned, moment) in [(5, 0.0, z), (4, 0.0, y), (4, FRAC_PI_2, x)] {
+        let mut accelerations = [0.0; JOINTS];
+        accelerations[axis] = 2.0;
+        let state = |arm: &Arm| State {
+            turns: arm.turns(&[0.3, -1.2, 1.1, 0.4, 0.5, turned]),
+            rates: [0.0; JOINTS],
+            accelerations,
+        };
+        let more = body.torques(&state(&body))[axis] - point.torques(&state(&point))[axis];
+        assert!((more - 2.0 * moment).abs() < 1e-9, "{axis}: {more}");
+    }
+}
+
+#[test]
 fn a_load_hangs_on_the_axes_that_carry_it() {
     let load = Load {
         mass: Mass::kg(14.5),
         centre: Point3::new(0.0, 0.0, 140.0),
+        inertia: None,
     };
     let arm = named("kuka/kr210_r3100_ultra", Some(load));
     let level = [0.0, -90.0, 90.0, 0.0, 0.0, 0.0].map(f64::to_radians);

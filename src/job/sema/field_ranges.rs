@@ -57,6 +57,8 @@ pub const GROWTH: Range = Range::closed(Dimension::PURE, 1.0, 100.0);
 pub const SCALE: Range = Range::positive(Dimension::PURE, 1e6);
 /// Gaps between the lines of a drawing over which they are joined.
 pub const JOINING: Range = Range::positive(Dimension::LENGTH, 10.0);
+/// Moments of inertia of loads.
+pub const INERTIA: Range = Range::closed(Dimension::INERTIA, 0.0, 1e4);
 /// Numbers of inputs and outputs of a controller.
 pub const SIGNAL: Range = Range::closed(Dimension::PURE, 1.0, 65_535.0);
 /// Numbers of a controller's own tables, counted from 1.

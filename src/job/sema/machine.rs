@@ -1,12 +1,13 @@
 //! `machine NAME = robot "model" { ... }`: the machine that carries the blade.
 
-use super::arguments::{Parameter, calls};
+use super::arguments::calls;
 use super::eval::Scope;
-use super::field_ranges::{MASS, SHARE, SIGNAL, WAIT};
+use super::field_ranges::{SHARE, SIGNAL, WAIT};
 use super::fields::{BlockSpec, Fields, Inner, Place, Takes, block, limit, value};
-use super::frame::{self, FRAME, coordinate, table_number};
+use super::frame::{self, FRAME};
 use super::heads::Head;
 use super::home::{self, JOINTS};
+use super::load::{self, LOAD, LOADS};
 use super::model;
 use super::options;
 use super::read::{Reader, default, sourced, words_of};
@@ -15,21 +16,18 @@ use super::session::{Described, Session};
 use super::setup::inner_place;
 use super::tools;
 use crate::{Gravity, Machine, Sourced};
-use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Load, PlacedFrame, Ready, Registered};
-use vcutc_backend_api::units::{Duration, Mass};
+use vcutc_backend_api::ir::{PlacedFrame, Ready};
+use vcutc_backend_api::units::Duration;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_syntax::ast::{Block, Expr};
 
-pub(crate) const LOADS: &[(&str, &str)] = &[("load", LOAD), ("number", "number(2)")];
 const OUTPUTS: &[(&str, &str)] = &[("output", "output(12)")];
 const GRAVITY: &[(&str, Gravity)] = &[
     ("compensated", Gravity::Compensated),
     ("uncompensated", Gravity::Uncompensated),
 ];
 const READY: &[(&str, &str)] = &[("input", "input(7)"), ("after", "after(0.5 s)")];
-pub(crate) const LOAD: &str = "load(mass = 8 kg, x = 0 mm, y = 0 mm, z = 120 mm)";
 
 pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`machine`",
@@ -65,18 +63,6 @@ const LIMITS: BlockSpec = BlockSpec {
     fields: &[limit("torque", "80 %").within(SHARE)],
     inner: Inner::Refused,
 };
-
-/// The values of a load.
-pub(crate) const LOAD_PARAMETERS: &[Parameter<'_>; 4] = &[
-    Parameter {
-        name: "mass",
-        range: MASS,
-        typical: "8 kg",
-    },
-    coordinate("x"),
-    coordinate("y"),
-    coordinate("z"),
-];
 
 /// Time after which the generator counts as up, when the job does not say: a usual value, from no source. The language
 /// reference asks users to measure theirs.
@@ -121,13 +107,15 @@ pub(crate) fn check(
     let ready = optional(&fields, "ready", &mut reader, ready);
     let gravity = reader.choice(&fields, "gravity", GRAVITY);
     let Described { model, limits } = model?;
+    let tools = tools?;
+    load::check(&tools, &model, head.model.span, &mut session.reports)?;
     Ok(Machine {
         name: head.name.node.to_owned(),
         head_span: place.head,
         model,
         model_span: head.model.span,
         limit_spans: limits,
-        tools: tools?,
+        tools,
         base: base?,
         home: home?,
         change: change?,
@@ -182,19 +170,6 @@ pub(crate) fn optional<T>(
         Some(expr) => Ok(Some(sourced(read(name, expr, reader)?, expr.span))),
         None => Ok(None),
     }
-}
-
-pub(crate) fn load(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Registered<Load>> {
-    let call = calls(field, expr, LOADS, reader.reports)?;
-    if call.function == "number" {
-        let number = call.single(reader.reports)?;
-        return table_number(number, reader).map(Registered::Number);
-    }
-    let [mass, x, y, z] = call.named(LOAD_PARAMETERS, reader)?;
-    Ok(Registered::Value(Load {
-        mass: Mass::kg(mass),
-        centre: Point3::new(x, y, z),
-    }))
 }
 
 fn output(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<u32> {

@@ -6,7 +6,8 @@ use super::field_ranges::{TABLE_NUMBER, WAIT};
 use super::fields::{BlockSpec, Fields, Inner, NamedBlock, Takes, value};
 use super::frame::{self, FRAME};
 use super::home::{self, JOINTS};
-use super::machine::{LOAD, LOADS, load, optional, required_frame};
+use super::load::{self, LOAD, LOADS};
+use super::machine::{optional, required_frame};
 use super::names::Thing;
 use super::read::{Reader, words_of};
 use super::report::Checked;
@@ -79,7 +80,7 @@ pub(crate) fn check(fields: &Fields<'_>, scope: Scope<'_>, session: &mut Session
 fn whichever(fields: &Fields<'_>, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<HeldTools> {
     let mut reader = Reader::new(scope, &mut session.reports);
     let frame = required_frame(fields, TOOL, &mut reader);
-    let load = optional(fields, "load", &mut reader, load);
+    let load = optional(fields, "load", &mut reader, load::read);
     Ok(HeldTools::one(HeldTool {
         blade: None,
         frame: frame?,
@@ -95,7 +96,7 @@ fn one(named: NamedBlock<'_>, scope: Scope<'_>, session: &mut Session<'_>) -> Ch
     let fields = Fields::sort(&SPEC, inner_place(block), &block.entries, session);
     let mut reader = Reader::new(scope, &mut session.reports);
     let frame = required_frame(&fields, "frame", &mut reader);
-    let load = optional(&fields, "load", &mut reader, load);
+    let load = optional(&fields, "load", &mut reader, load::read);
     let place = optional(&fields, "place", &mut reader, place);
     Ok(HeldTool {
         blade: Some(blade?),

@@ -42,6 +42,8 @@ pub(super) const UNITS: &[Unit] = &[
     unit("kg", "kilogram", 1.0, Dimension::MASS),
     unit("N", "newton", 1000.0, Dimension::FORCE),
     unit("kN", "kilonewton", 1e6, Dimension::FORCE),
+    unit("kgm2", "kilogram square metre", 1e6, Dimension::INERTIA),
+    unit("kgmm2", "kilogram square millimetre", 1.0, Dimension::INERTIA),
     unit("%", "percent", 0.01, Dimension::PURE),
 ];
 

@@ -13,7 +13,7 @@ use super::kind::Operations;
 use super::profile::{data, drawing};
 use super::region;
 use super::surface::{file, nurbs, step};
-use super::{Part, blade, cell, frame, functions, machine, names, stock, units};
+use super::{Part, blade, cell, frame, functions, load, machine, names, stock, units};
 use crate::BladeKind;
 use vcutc_backend_api::ir::MachineKind;
 pub use vcutc_diagnostics::schema::field::{BlockSpec, FieldSpec, Form, Inner, Leaving, Need, Takes};
@@ -224,7 +224,7 @@ pub fn labels(call: &str) -> Vec<(&'static str, &'static str)> {
 fn parameters(call: &str) -> &'static [Parameter<'static>] {
     match call {
         "frame" => frame::WITH_ANGLES,
-        "load" => machine::LOAD_PARAMETERS,
+        "load" => &load::PARAMETERS,
         _ => &[],
     }
 }

@@ -8,6 +8,7 @@ use crate::facts::Sources;
 use crate::kinematics::Mechanism;
 use crate::kinematics::opw::{Coupling, Opw};
 use crate::masses;
+use crate::payload;
 use crate::ranges::{ANGLE, ARM_LENGTH, LENGTH, TORQUE, TURNING_ACCELERATION, TURNING_JERK, TURNING_RATE};
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker};
 use vcutc_diagnostics::Diagnostic;
@@ -23,6 +24,7 @@ pub(super) const FORM: Form = Form {
         optional(masses::KEY),
         optional(masses::TORQUE_KEY),
         optional(elasticity::KEY),
+        optional(payload::KEY),
     ],
     read,
 };

@@ -126,6 +126,7 @@ fn made_up(arm: Opw, limits: [(f64, f64); 6]) -> Model {
         axes: axes.to_vec(),
         mechanism: Mechanism::OrthoParallel(arm),
         path: PathLimits::UNKNOWN,
+        payload: Default::default(),
         masses: None,
         torques: None,
         elasticity: None,

@@ -3,9 +3,10 @@
 
 use super::source::Listing;
 use super::{Section, Subject};
+use crate::facts::carried;
 use crate::html::{Column, Html, table, unbroken};
 use vcutc_backend_api::geometry::Frame;
-use vcutc_backend_api::ir::{AxisKind, Load, Ready, Registered};
+use vcutc_backend_api::ir::{AxisKind, Ready};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_job::description::{Origin, ParameterRow as Row, ParameterTable};
@@ -111,7 +112,7 @@ fn machine_rows(machine: &Machine) -> Vec<Row> {
     for tool in machine.tools.iter() {
         rows.extend(
             tool.load
-                .map(|given| Row::of("load", given, |given| held(tool, load(given)))),
+                .map(|given| Row::of("load", given, |given| held(tool, carried(given)))),
         );
     }
     rows.extend(machine.home.map(|home| {
@@ -139,19 +140,6 @@ fn machine_rows(machine: &Machine) -> Vec<Row> {
         Ready::After(time) => format!("{} s after switching on", show(time.to_s())),
     }));
     rows
-}
-
-fn load(load: Registered<Load>) -> String {
-    match load {
-        Registered::Number(number) => format!("number {number} of the controller"),
-        Registered::Value(Load { mass, centre }) => format!(
-            "{} kg at x {}, y {}, z {} mm",
-            show(mass.to_kg()),
-            show(centre.x),
-            show(centre.y),
-            show(centre.z)
-        ),
-    }
 }
 
 fn frame(frame: &Frame) -> String {

@@ -234,7 +234,7 @@ fn units_fit_the_dimension_of_their_place() {
         "rough vcut { layer = (2 |) / 3 }",
         "let any = 3 |",
     ] {
-        assert_eq!(tried.labels(piece).len(), 19, "{piece}");
+        assert_eq!(tried.labels(piece).len(), 21, "{piece}");
     }
     tried.process.end();
 }
@@ -279,7 +279,10 @@ fn calls_of_machines_are_known_inside() {
     tried.offers(&frame("|"), &["a", "b", "c", "q", "x", "y", "z"]);
     tried.offers(&frame("x = 0 mm, a = 0 deg, |)"), &["b", "c", "y", "z"]);
     tried.offers(&frame("q = (1, 0, 0, 0), |)"), &["x", "y", "z"]);
-    tried.offers(&format!("{ROBOT} {{ load = load(|"), &["mass", "x", "y", "z"]);
+    tried.offers(
+        &format!("{ROBOT} {{ load = load(|"),
+        &["ix", "iy", "iz", "mass", "x", "y", "z"],
+    );
     tried.offers(&format!("{ROBOT} {{ base = number(1, |"), &["frame"]);
     tried.offers(
         &format!("{ROBOT} {{ base = number(1, frame(|"),

@@ -118,6 +118,7 @@ impl Default for CellRecipe {
             load: Some(Registered::Value(Load {
                 mass: Mass::kg(12.5),
                 centre: Point3::new(0.0, 0.0, 140.0),
+                inertia: None,
             })),
             home: AxisValues([0.0, -90.0, 90.0, 0.0, 45.0, 0.0].map(f64::to_radians)),
             ultrasonic: Some(12),

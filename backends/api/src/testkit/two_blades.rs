@@ -2,8 +2,8 @@
 
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{
-    Action, AxisValues, Blade, Cell, Change, Changer, Load, MachineKind, Op, OperationId, PlacedFrame,
-    Program, Registered, Site, Tool, ToolId,
+    Action, AxisValues, Blade, Cell, Change, Changer, Inertia, Load, MachineKind, Op, OperationId,
+    PlacedFrame, Program, Registered, Site, Tool, ToolId,
 };
 use crate::units::{Duration, Length, Mass};
 
@@ -73,6 +73,11 @@ pub(super) fn hold_two(cell: &mut Cell, by: Changer) {
         load: Some(Registered::Value(Load {
             mass: Mass::kg(2.5),
             centre: Point3::new(0.0, 0.0, 80.0),
+            inertia: Some(Inertia {
+                x: 0.012,
+                y: 0.0115,
+                z: 0.004,
+            }),
         })),
         place: Some(2),
     });

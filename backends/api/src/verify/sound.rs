@@ -1,7 +1,7 @@
 //! Whether the numbers of a machine, and of the bodies of its blades, are ones that they can have.
 
 use crate::ir::{
-    Axis, AxisValues, Blade, BodyStage, Cell, Changer, Crusher, Disc, MOST_AXES, PlacedFrame, Ready,
+    Axis, AxisValues, Blade, BodyStage, Cell, Changer, Crusher, Disc, Inertia, MOST_AXES, PlacedFrame, Ready,
     Registered, Shape, Spindle, Straight, Tool,
 };
 use crate::units::{Angle, AngularSpeed, Duration, Length, Mass};
@@ -31,7 +31,10 @@ pub(super) fn has_sound_numbers(cell: &Cell) -> bool {
 fn is_sound_tool(tool: &Tool) -> bool {
     let load = match tool.load {
         Some(Registered::Value(load)) => {
-            load.mass.is_finite() && load.mass >= Mass::ZERO && load.centre.is_finite()
+            load.mass.is_finite()
+                && load.mass >= Mass::ZERO
+                && load.centre.is_finite()
+                && load.inertia.is_none_or(Inertia::is_possible)
         }
         Some(Registered::Number(number)) => number > 0,
         None => true,

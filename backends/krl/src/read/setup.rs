@@ -7,7 +7,7 @@
 use crate::interpreter::speeds::{Velocity, velocities};
 use crate::options::Settings;
 use crate::syntax::{Component, Coordinates, Field, Value, Variable, is_same_name};
-use vcutc_backend_api::ir::{Cell, Load, Registered, ToolId};
+use vcutc_backend_api::ir::{Cell, Inertia, Load, Registered, ToolId};
 use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::readback::{Effect, End, Pace};
 use vcutc_backend_api::script::TRIMMED;
@@ -237,8 +237,8 @@ fn is_load(value: &Value<'_>, should: &Registered<Load>, settings: &Settings<'_>
                     Value::Coordinates(is) => is_centre(is, should, settings.common.lengths),
                     _ => false,
                 };
-                let no_inertia = match &inertia.value {
-                    Value::Coordinates(is) => is.all(Component::TIP) == Some([0.0; 3]),
+                let is_inertia = match &inertia.value {
+                    Value::Coordinates(is) => has_inertia(is, should.inertia.unwrap_or(Inertia::POINT)),
                     _ => false,
                 };
                 of(mass, "M")
@@ -246,12 +246,18 @@ fn is_load(value: &Value<'_>, should: &Registered<Load>, settings: &Settings<'_>
                     && of(inertia, "J")
                     && is_number(&mass.value, should.mass.to_kg(), TRIMMED)
                     && centre_of_mass
-                    && no_inertia
+                    && is_inertia
             }
             _ => false,
         },
         (Registered::Number(_) | Registered::Value(_), _) => false,
     }
+}
+
+fn has_inertia(is: &Coordinates, should: Inertia) -> bool {
+    let moments = is.all(Component::TIP).into_iter().flatten();
+    let mut pairs = moments.zip(should.to_array()).peekable();
+    pairs.peek().is_some() && pairs.all(|(is, should)| TRIMMED.is_near(is, should))
 }
 
 fn is_centre(is: &Coordinates, should: &Load, lengths: FixedDecimal) -> bool {

@@ -56,7 +56,7 @@ fn a_routine_of_the_cell_changes_the_blade() {
         ";FOLD SETUP",
         "$TOOL={X 1.000,Y 2.000,Z 250.000,A 0.0000,B 0.0000,C 0.0000}",
         "$BASE={X 1800.000,Y -25.000,Z 700.000,A 0.0000,B 0.0000,C 90.0000}",
-        "$LOAD={M 2.5,CM {X 0.000,Y 0.000,Z 80.000,A 0.0,B 0.0,C 0.0},J {X 0.0,Y 0.0,Z 0.0}}",
+        "$LOAD={M 2.5,CM {X 0.000,Y 0.000,Z 80.000,A 0.0,B 0.0,C 0.0},J {X 0.012,Y 0.0115,Z 0.004}}",
     ];
     let found = change(&bundle);
     assert_eq!(found[..6], expected);

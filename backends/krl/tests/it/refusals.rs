@@ -304,6 +304,7 @@ fn frames_and_loads_that_no_robot_has() {
     let heavy = Load {
         mass: Mass::kg(5000.0),
         centre: Point3::new(1e9, 0.0, 0.0),
+        inertia: None,
     };
     assert_eq!(refused(with_cell(|cell| cell.tool = far)), ["tool Y"]);
     assert_eq!(refused(with_cell(|cell| cell.base = far)), ["base Y"]);

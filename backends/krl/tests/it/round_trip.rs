@@ -5,7 +5,7 @@ use crate::support::{emit, reachable, reader, status};
 use proptest::prelude::*;
 use vcutc_backend_api::backend::OptionValue;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
-use vcutc_backend_api::ir::{AxisValues, Edges, Load, PlacedFrame, Ready, Registered, Stock};
+use vcutc_backend_api::ir::{AxisValues, Edges, Inertia, Load, PlacedFrame, Ready, Registered, Stock};
 use vcutc_backend_api::testkit::{CellRecipe, Crossing, Passes, Recipe};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Duration, Length, Mass, Speed};
 
@@ -23,13 +23,27 @@ fn placed(most: u32) -> impl Strategy<Value = PlacedFrame> {
     (frame(), proptest::option::of(1..=most)).prop_map(|(frame, number)| PlacedFrame { frame, number })
 }
 
+/// Of the moments of a body, those about x and y come from how far its mass is from two planes, and that about z from both.
+fn inertia() -> impl Strategy<Value = Inertia> {
+    [0.0..20.0_f64, 0.0..20.0_f64, 0.0..20.0_f64].prop_map(|[x, y, z]| Inertia {
+        x: y + z,
+        y: x + z,
+        z: x + y,
+    })
+}
+
 fn load() -> impl Strategy<Value = Registered<Load>> {
     prop_oneof![
         (1..=16_u32).prop_map(Registered::Number),
-        (0.1..200.0_f64, -300.0..300.0_f64).prop_map(|(mass, z)| Registered::Value(Load {
-            mass: Mass::kg(mass),
-            centre: Point3::new(0.0, 0.0, z),
-        })),
+        (0.1..200.0_f64, -300.0..300.0_f64, proptest::option::of(inertia())).prop_map(
+            |(mass, z, inertia)| {
+                Registered::Value(Load {
+                    mass: Mass::kg(mass),
+                    centre: Point3::new(0.0, 0.0, z),
+                    inertia,
+                })
+            }
+        ),
     ]
 }
 

@@ -4,7 +4,7 @@ use super::sentence::Value;
 use crate::speeds::EXTERNAL;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
-use vcutc_backend_api::ir::{AxisValues, Load, ToolId};
+use vcutc_backend_api::ir::{AxisValues, Inertia, Load, ToolId};
 use vcutc_backend_api::units::Mass;
 
 /// The number that stands for an external axis that is not there [A-INS].
@@ -238,15 +238,20 @@ impl View<'_> {
         Some((self.frame(frame)?, self.load(load)?))
     }
 
-    /// A `loaddata` of a point mass.
+    /// A `loaddata` whose moments of inertia are those along the axes of the flange.
     fn load(&self, value: &Value) -> Option<Load> {
-        let [mass, centre, axes, inertia @ ..] = self.list::<6>(value)?;
-        let is_point = inertia.iter().all(|moment| self.number(moment) == Some(0.0));
+        let [mass, centre, axes, x, y, z] = self.list(value)?;
         let is_straight = self.numbers(axes) == Some([1.0, 0.0, 0.0, 0.0]);
-        (is_point && is_straight).then_some(())?;
+        is_straight.then_some(())?;
+        let inertia = Inertia {
+            x: self.number(x)?,
+            y: self.number(y)?,
+            z: self.number(z)?,
+        };
         Some(Load {
             mass: Mass::kg(self.number(mass)?),
             centre: self.point(centre)?,
+            inertia: Some(inertia).filter(|inertia| *inertia != Inertia::POINT),
         })
     }
 

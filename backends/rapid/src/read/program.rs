@@ -8,7 +8,7 @@ use super::sentence::{Sentence, Value, sentence};
 use crate::names::MAIN;
 use core::ops::Range;
 use std::collections::{BTreeMap, BTreeSet};
-use vcutc_backend_api::ir::{Load, Registered, Tool, ToolId};
+use vcutc_backend_api::ir::{Inertia, Load, Registered, Tool, ToolId};
 use vcutc_backend_api::readback::{Effect, FrameRole, FrameSetting, ProgramFile, has_extension, stem};
 use vcutc_backend_api::script::TRIMMED;
 
@@ -429,7 +429,10 @@ fn carries(tool: &Tool, load: Load, machine: Machine<'_>) -> bool {
         return false;
     };
     let lengths = machine.settings.common.lengths;
-    TRIMMED.is_near(load.mass.to_kg(), should.mass.to_kg())
+    let moments = |load: Load| load.inertia.unwrap_or(Inertia::POINT).to_array();
+    let mut pairs = moments(load).into_iter().zip(moments(should));
+    pairs.all(|(is, should)| TRIMMED.is_near(is, should))
+        && TRIMMED.is_near(load.mass.to_kg(), should.mass.to_kg())
         && lengths.is_near(load.centre.x, should.centre.x)
         && lengths.is_near(load.centre.y, should.centre.y)
         && lengths.is_near(load.centre.z, should.centre.z)

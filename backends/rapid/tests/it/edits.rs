@@ -1,12 +1,15 @@
 //! Programs that people have edited: what means the same is taken, and what does not is told.
 
 use crate::round_trip::replayed;
-use crate::support::{emit_with, one_cut, options, reachable};
+use crate::support::{cell, emit_with, one_cut, options, reachable};
 use vcutc_backend_api::backend::{OptionValue, Options};
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{Inertia, Load, Registered};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::profile::Profile;
 use vcutc_backend_api::readback::{Divergence, DivergenceKind, Place, ProgramFile, program_files};
-use vcutc_backend_api::units::Length;
+use vcutc_backend_api::testkit::{CellRecipe, Recipe};
+use vcutc_backend_api::units::{Length, Mass};
 
 fn program() -> ReachableProgram {
     reachable(one_cut().program())
@@ -222,4 +225,40 @@ fn zones_are_those_of_the_job() {
     assert!(replayed(&program, &options, &files).is_ok());
     files[0].text = files[0].text.replacen("[FALSE,2.5,", "[FALSE,3.5,", 1);
     assert!(replayed(&program, &options, &files).is_err());
+}
+
+#[test]
+fn a_load_is_read_with_its_moments_of_inertia() {
+    let load = Load {
+        mass: Mass::kg(14.5),
+        centre: Point3::new(0.0, 0.0, 140.0),
+        inertia: Some(Inertia {
+            x: 0.3,
+            y: 0.25,
+            z: 0.05,
+        }),
+    };
+    let recipe = Recipe {
+        cell: CellRecipe {
+            load: Some(Registered::Value(load)),
+            ..cell()
+        },
+        ..one_cut()
+    };
+    let program = reachable(recipe.program());
+    let options = options(&[]);
+    let mut files = program_files(&emit_with(&program, &options));
+    assert!(replayed(&program, &options, &files).is_ok());
+    let moments = "[1,0,0,0],0.3,0.25,0.05]";
+    assert!(files[0].text.contains(moments));
+    for other in [
+        "[1,0,0,0],0.3,0.25,0.06]",
+        "[1,0,0,0],0,0,0]",
+        "[0,1,0,0],0.3,0.25,0.05]",
+    ] {
+        let before = files[0].text.clone();
+        files[0].text = before.replacen(moments, other, 1);
+        assert!(replayed(&program, &options, &files).is_err(), "{other}");
+        files[0].text = before;
+    }
 }

@@ -66,6 +66,7 @@ fn loads_that_the_controller_refuses() {
         let load = Load {
             mass: Mass::kg(mass),
             centre: Point3::new(0.0, 0.0, z),
+            inertia: None,
         };
         let load = Some(Registered::Value(load));
         what(&issues(with_cell(CellRecipe { load, ..cell() }).program(), &[]))
