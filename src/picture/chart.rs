@@ -10,7 +10,7 @@ use super::trace::{Trace, number};
 /// Room below a plot for its axis.
 pub(super) const BELOW: f64 = 66.0;
 /// Room that a value needs along the lower axis, and along the left one.
-const TICK: [f64; 2] = [80.0, 32.0];
+pub(super) const TICK: [f64; 2] = [80.0, 32.0];
 
 /// A chart: one plot with its axes, from the ground up.
 pub(super) struct Chart<'a> {
@@ -141,7 +141,7 @@ pub(super) const ASCENT: f64 = 12.0;
 pub(super) const DESCENT: f64 = 4.0;
 
 /// Words beside a point. `taken` holds the ends and the lines of words that are there.
-fn beside(
+pub(super) fn beside(
     svg: &mut Svg,
     plot: &Plot,
     point: Point,
@@ -241,12 +241,18 @@ impl Plot {
 
     /// The frame with its values. Comes after series.
     pub(super) fn frame(&self, svg: &mut Svg, [x_label, y_label]: [&str; 2]) {
-        let ([left, right], [bottom, top]) = (self.x.places, self.y.places);
+        let ([left, _], [bottom, top]) = (self.x.places, self.y.places);
         ticks_below(svg, &self.x, bottom, TICK[0]);
         ticks_beside(svg, &self.y, left, TICK[1]);
         svg.rect(self.area(), FRAME);
-        svg.text([left.midpoint(right), bottom + 47.0], Anchor::Middle, "", x_label);
+        self.label_below(svg, x_label);
         svg.upwards([18.0, top.midpoint(bottom)], y_label);
+    }
+
+    /// What is written below the lower axis.
+    pub(super) fn label_below(&self, svg: &mut Svg, label: &str) {
+        let ([left, right], bottom) = (self.x.places, self.y.places[0]);
+        svg.text([left.midpoint(right), bottom + 47.0], Anchor::Middle, "", label);
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Each picture takes plain numbers and knows nothing of jobs, plans and programs. What several of them share: the sheet
 //! with its headings and legend (`sheet`), scales with round values (`scale`), charts of series over two axes (`chart`), the
-//! x-z section (`section`), maps seen from above (`tiles`), solids in space (`projection`), what lies between the lowest and the
+//! x-z section (`section`), panels over the time of a program (`over_time`), maps seen from above (`tiles`), solids in space (`projection`), what lies between the lowest and the
 //! highest of a curve (`band`), colours and their partners on a dark ground (`palette`), paths in relative coordinates (`trace`),
 //! and curves of any number of points in as many as can be seen (`thin`).
 
@@ -15,6 +15,7 @@ pub mod deviation;
 pub mod heat_map;
 pub mod joints;
 pub mod lattice;
+pub mod over_time;
 mod palette;
 pub mod pareto;
 pub mod passes;

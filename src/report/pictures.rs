@@ -4,6 +4,7 @@
 //! before it loses.
 
 mod blade;
+mod clock;
 mod joints;
 mod machined;
 mod passes;

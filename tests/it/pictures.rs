@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use vcutc::driver::Outcome;
 use vcutc::geometry::curve::Point2;
+use vcutc::picture::over_time::{COLUMNS, Course, Span};
 use vcutc::picture::strips::Strips;
 use vcutc::picture::thin::Thinned;
 use vcutc::picture::{PAGE_WIDTH, PHONE_WIDTH, Prefix, contour, joints, lattice};
@@ -450,7 +451,7 @@ fn pictures_of_large_jobs_stay_small() {
 fn axes_of_large_jobs_stay_small_and_keep_their_extremes() {
     let samples = 600_000_u32;
     let curve = |axis: u32| {
-        let mut thinned = Thinned::new(0.0, f64::from(samples), joints::COLUMNS);
+        let mut thinned = Thinned::new(0.0, f64::from(samples), COLUMNS);
         for sample in 0..samples {
             let spike = if sample == 123_456 { 60.0 } else { 0.0 };
             let value = f64::from(sample.wrapping_mul(2_654_435_761 + axis) >> 8) / f64::from(1 << 24) * 50.0;
@@ -473,22 +474,26 @@ fn axes_of_large_jobs_stay_small_and_keep_their_extremes() {
             highest_rate: Some(0.9),
         })
         .collect();
-    let span = |number: u32| joints::Span {
+    let span = |number: u32| Span {
         time: [f64::from(number) * 10.0, f64::from(number + 1) * 10.0],
         kind: number as usize % 3,
     };
+    let spans: Vec<Span> = (0..samples / 10).map(span).collect();
+    let course = Course {
+        seconds: f64::from(samples),
+        kinds: &["cutting", "turning", "travel"],
+        spans: &spans,
+        layers: &[(0.0, "1".to_owned())],
+        cuts: 60_000,
+    };
     let picture = joints::draw(&joints::Joints {
         heading: HEADING,
-        seconds: f64::from(samples),
+        course: &course,
         axes: &axes,
         margin: &curve(9)
             .into_iter()
             .map(|[time, value]| [time, value / 200.0])
             .collect::<Vec<_>>(),
-        kinds: &["cutting", "turning", "travel"],
-        spans: &(0..samples / 10).map(span).collect::<Vec<_>>(),
-        layers: &[(0.0, "1".to_owned())],
-        cuts: 60_000,
     });
     assert!(picture.len() < 300_000, "{} bytes", picture.len());
     let highest = axes

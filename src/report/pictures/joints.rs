@@ -4,19 +4,18 @@
 //! takes them: what the axes do between two samples, over the time that the motion takes for it without speeding up and
 //! slowing down.
 
-use super::time::name;
+use super::clock::Clock;
 use crate::Material;
 use core::convert::Infallible;
-use vcutc_backend_api::ir::{Axis, AxisKind, OpId, Program, Site};
-use vcutc_backend_api::units::Duration;
+use vcutc_backend_api::ir::{Axis, AxisKind, OpId};
 use vcutc_machine::kinematics::Joints;
 use vcutc_motion::axis_range::axis_margin;
 use vcutc_motion::rigs::Rigs;
 use vcutc_motion::summary::{AxisFigure, margin_words};
-use vcutc_motion::trajectory::{Sample, Spacing, trajectory};
+use vcutc_motion::trajectory::{Sample, trajectory};
+use vcutc_picture::over_time::COLUMNS;
 use vcutc_picture::thin::Thinned;
 use vcutc_picture::{Prefix, joints};
-use vcutc_simulation::timing::Kind;
 
 /// Angles, rates and margins of the axes over time (`picture::joints`); none for a job without a machine.
 #[must_use]
@@ -35,14 +34,10 @@ fn drawn<const PLACES: usize>(material: &Material<'_>, places: [Prefix; PLACES])
     let reached = material.compiled.program.reached()?;
     let program = reached.program.program();
     let (machine, cell) = (material.job.machine.as_ref()?, program.cell.as_ref()?);
-    let clock = Clock::of(program, &material.compiled.op_times);
+    let clock = Clock::of(material);
     let home = cell.home.map(|home| home.0);
     let mut curves = Curves::new(&cell.axes, &clock, home);
-    let spacing = if program.ops.len() > NARROW * joints::COLUMNS as usize {
-        Spacing::APART
-    } else {
-        Spacing::CLOSE
-    };
+    let spacing = clock.spacing();
     let rigs = Rigs::of(&machine.model, cell, program);
     let taken = trajectory(&reached.program, &rigs, &spacing, |sample| {
         curves.take(&sample, &clock);
@@ -63,6 +58,7 @@ fn drawn<const PLACES: usize>(material: &Material<'_>, places: [Prefix; PLACES])
     });
     let title = format!("{}: axes over time", material.plan.name);
     let subtitle = format!("{}{least}", cell.model);
+    let course = clock.course();
     let draw = |ids| {
         joints::draw(&joints::Joints {
             heading: joints::Heading {
@@ -70,89 +66,12 @@ fn drawn<const PLACES: usize>(material: &Material<'_>, places: [Prefix; PLACES])
                 title: &title,
                 subtitle: &subtitle,
             },
-            seconds: clock.total,
+            course: &course,
             axes: &axes,
             margin: &margin,
-            kinds: &Kind::ALL.map(name),
-            spans: &clock.spans,
-            layers: &clock.layers,
-            cuts: material.compiled.report.cuts(),
         })
     };
     Some(places.map(draw))
-}
-
-/// From so many ops a column of the picture, samples within an op need not be close.
-const NARROW: usize = 4;
-
-/// When ops begin, in s.
-struct Clock {
-    starts: Vec<f64>,
-    /// How long each takes.
-    lengths: Vec<f64>,
-    /// How long each takes at its programmed speeds; none for what is no motion along a line.
-    programmed: Vec<Option<f64>>,
-    total: f64,
-    spans: Vec<joints::Span>,
-    layers: Vec<(f64, String)>,
-}
-
-impl Clock {
-    fn of(program: &Program, op_times: &[Duration]) -> Self {
-        let mut clock = Self {
-            starts: Vec::with_capacity(program.ops.len()),
-            lengths: Vec::with_capacity(program.ops.len()),
-            programmed: Vec::with_capacity(program.ops.len()),
-            total: 0.0,
-            spans: Vec::new(),
-            layers: Vec::new(),
-        };
-        let several = program.operations.len() > 1;
-        let mut layer = None;
-        for (segment, time) in program.segments().zip(op_times) {
-            let length = time.to_s();
-            let line = segment.line();
-            clock.starts.push(clock.total);
-            clock.lengths.push(length);
-            clock.programmed.push(line.map(|line| line.duration().to_s()));
-            let now = layer_of(segment.op.site);
-            if let Some((operation, number)) = now.filter(|_| now != layer) {
-                let name = if several {
-                    format!("{operation}.{number}")
-                } else {
-                    number.to_string()
-                };
-                clock.layers.push((clock.total, name));
-            }
-            layer = now.or(layer);
-            if let Some(kind) = Kind::of(&segment.op.action).filter(|_| length > 0.0) {
-                let time = [clock.total, clock.total + length];
-                let kind = kind as usize;
-                clock.spans.push(joints::Span { time, kind });
-            }
-            clock.total += length;
-        }
-        clock
-    }
-
-    /// When so much of an op is done.
-    fn time(&self, op: OpId, done: f64) -> f64 {
-        let index = op.0 as usize;
-        match (self.starts.get(index), self.lengths.get(index)) {
-            (Some(start), Some(length)) => start + length * done,
-            (_, _) => self.total,
-        }
-    }
-}
-
-/// Operation and layer of a site, both from 1.
-fn layer_of(site: Site) -> Option<(u32, u32)> {
-    match site {
-        Site::Program | Site::Operation(_) => None,
-        Site::Layer { operation, layer } | Site::Cut { operation, layer, .. } => {
-            Some((u32::from(operation.0) + 1, layer.get()))
-        }
-    }
 }
 
 /// Curves of all axes under construction, thinned as they grow: programs have millions of samples.
@@ -166,7 +85,7 @@ struct Curves<'a> {
 
 impl<'a> Curves<'a> {
     fn new(axes: &'a [Axis], clock: &Clock, home: Option<Joints>) -> Self {
-        let curve = || Thinned::new(0.0, clock.total, joints::COLUMNS);
+        let curve = || Thinned::new(0.0, clock.total(), COLUMNS);
         let mut curves = Self {
             axes,
             values: axes.iter().map(|_| curve()).collect(),
@@ -198,7 +117,7 @@ impl<'a> Curves<'a> {
             Some((before, done, _)) if before == op => done,
             Some(_) | None => 0.0,
         };
-        let programmed = clock.programmed.get(op.0 as usize).copied().flatten();
+        let programmed = clock.programmed(op);
         let seconds = programmed.map_or(0.0, |seconds| seconds * (done - began));
         if let Some((_, _, from)) = self.before {
             let start = clock.time(op, began);
