@@ -11,16 +11,12 @@ use super::joints::{HEADING, place};
 use std::io::{self, Write};
 use vcutc_backend_api::ir::Op;
 use vcutc_diagnostics::number::rounded;
-use vcutc_driver::dynamics::forces;
-use vcutc_dynamics::arms::Arms;
-use vcutc_dynamics::cuts::{Cuts, Known};
-use vcutc_dynamics::deviation::Deviations;
-use vcutc_dynamics::drives::{Drives, Torques};
+use vcutc_driver::dynamics::in_places;
+use vcutc_dynamics::places::{Place, Places};
 use vcutc_job::CheckedJob;
 use vcutc_machine::Model;
-use vcutc_motion::rigs::Rigs;
 use vcutc_motion::solve::Reached;
-use vcutc_motion::trajectory::{Sample, Spacing};
+use vcutc_motion::trajectory::Spacing;
 use vcutc_simulation::prove::UsedEdge;
 
 /// Writes the rows of a machine whose torques are known, one after the other.
@@ -30,110 +26,79 @@ pub(super) fn write(
     edges: &[UsedEdge],
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let program = reached.program.program();
-    let (Some(machine), Some(cell)) = (&job.machine, &program.cell) else {
-        return Ok(());
-    };
-    let model = &machine.model;
-    let Ok(arms) = Arms::of(model, cell) else {
-        return Ok(());
-    };
-    let rigs = Rigs::of(model, cell, program);
-    let known = Known {
-        model,
-        reached: &reached.program,
-        rigs: &rigs,
-        edges,
-    };
-    let forces = forces(job);
-    let cuts = (!forces.is_empty()).then(|| Cuts::of(known, &forces)).flatten();
-    let pushed = cuts.as_ref().map(|cuts| Pushed {
-        cuts,
-        deviations: Deviations::of(cuts, Some(&arms)),
-    });
+    in_places(job, reached, edges, |places| table(places, out)).unwrap_or(Ok(()))
+}
+
+fn table(places: &Places<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let known = places.known();
+    let (model, program) = (known.model, known.reached.program());
     write!(out, "{HEADING}")?;
-    torque_heading(model, out)?;
-    if let Some(pushed) = &pushed {
-        pushed.heading(model, out)?;
-    }
+    heading(places, out)?;
     writeln!(out)?;
-    let drives = Drives::of(&rigs, &arms, program);
-    drives.along(&reached.program, &Spacing::CLOSE, |sample, torques| {
-        let Some(op) = program.ops.get(sample.op.0 as usize) else {
+    places.along(&Spacing::CLOSE, |there| {
+        let Some(op) = program.ops.get(there.sample.op.0 as usize) else {
             return Ok(());
         };
-        row(op, sample, torques, model, out)?;
-        if let Some(pushed) = &pushed {
-            pushed.row(sample, model, out)?;
+        row(op, there, model, out)?;
+        if places.have_forces() {
+            pushed(there, places, out)?;
         }
         writeln!(out)
     })
 }
 
-fn torque_heading(model: &Model, out: &mut dyn Write) -> io::Result<()> {
-    for axis in &model.axes {
+fn heading(places: &Places<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let axes = &places.known().model.axes;
+    for axis in axes {
         let name = &axis.name;
         write!(
             out,
             ",{name}_weight_nm,{name}_motion_nm,{name}_nm,{name}_of_limit"
         )?;
     }
+    if places.have_forces() {
+        write!(out, ",edge_mm,force_x_n,force_y_n,force_z_n")?;
+        for axis in axes {
+            write!(out, ",{}_cutting_nm", axis.name)?;
+        }
+    }
+    if places.have_shifts() {
+        write!(out, ",deviation_tip_mm,deviation_end_mm")?;
+    }
     Ok(())
 }
 
-/// The cuts whose forces are known, and how far these push them off, where that is known, too.
-struct Pushed<'c> {
-    cuts: &'c Cuts<'c>,
-    deviations: Option<Deviations<'c>>,
+/// What pushes the blade in a place, and how far.
+fn pushed(there: &Place, places: &Places<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let Some(pushed) = there.pushed else {
+        let shifts = if places.have_shifts() { 2 } else { 0 };
+        let axes = places.known().model.axes.len();
+        return write!(out, "{}", ",".repeat(4 + axes + shifts));
+    };
+    write!(out, ",{:.3}", pushed.edge.to_mm())?;
+    for part in pushed.force.to_array().into_iter().chain(pushed.torques) {
+        write!(out, ",{:.3}", rounded(part, 1e3))?;
+    }
+    for shift in there.shift.iter().flat_map(|shift| [shift.tip, shift.end]) {
+        write!(out, ",{:.5}", rounded(shift, 1e5))?;
+    }
+    Ok(())
 }
 
-impl Pushed<'_> {
-    fn heading(&self, model: &Model, out: &mut dyn Write) -> io::Result<()> {
-        write!(out, ",edge_mm,force_x_n,force_y_n,force_z_n")?;
-        for axis in &model.axes {
-            write!(out, ",{}_cutting_nm", axis.name)?;
-        }
-        if self.deviations.is_some() {
-            write!(out, ",deviation_tip_mm,deviation_end_mm")?;
-        }
-        Ok(())
-    }
-
-    /// What pushes the blade in a place, and how far.
-    fn row(&self, sample: &Sample, model: &Model, out: &mut dyn Write) -> io::Result<()> {
-        let Sample { op, done, joints } = sample;
-        let Some(there) = self.cuts.in_place(*op, *done, joints) else {
-            let shifts = if self.deviations.is_some() { 2 } else { 0 };
-            return write!(out, "{}", ",".repeat(4 + model.axes.len() + shifts));
-        };
-        write!(out, ",{:.3}", there.edge.to_mm())?;
-        for part in there.force.to_array().into_iter().chain(there.torques) {
-            write!(out, ",{:.3}", rounded(part, 1e3))?;
-        }
-        let Some(deviations) = &self.deviations else {
-            return Ok(());
-        };
-        let shift = deviations.in_place(*op, *done, joints);
-        for shift in shift.iter().flat_map(|shift| [shift.tip, shift.end]) {
-            write!(out, ",{:.5}", rounded(shift, 1e5))?;
-        }
-        Ok(())
-    }
-}
-
-fn row(op: &Op, sample: &Sample, torques: &Torques, model: &Model, out: &mut dyn Write) -> io::Result<()> {
-    place(op, sample, out)?;
-    let parts = torques.weight.iter().zip(&torques.motion);
+/// The torques in a place, without those against the forces of the blade.
+fn row(op: &Op, there: &Place, model: &Model, out: &mut dyn Write) -> io::Result<()> {
+    place(op, &there.sample, out)?;
+    let parts = there.torques.weight.iter().zip(&there.torques.motion);
     for (axis, (weight, motion)) in parts.enumerate().take(model.axes.len()) {
-        let all = torques.of(axis);
-        let [weight, motion, sum] = [*weight, *motion, all].map(|torque| rounded(torque, 1e3));
+        let both = weight + motion;
+        let [weight, motion, sum] = [*weight, *motion, both].map(|torque| rounded(torque, 1e3));
         write!(out, ",{weight:.3},{motion:.3},{sum:.3},")?;
         let limit = model
             .torques
             .as_ref()
             .and_then(|torques| torques.limits.get(axis));
         if let Some(limit) = limit {
-            write!(out, "{:.4}", all.abs() / limit)?;
+            write!(out, "{:.4}", both.abs() / limit)?;
         }
     }
     Ok(())

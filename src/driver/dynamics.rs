@@ -11,6 +11,7 @@ use vcutc_dynamics::cuts::{Cuts, Known};
 use vcutc_dynamics::deviation::figures::{Asked, DeviationFigures};
 use vcutc_dynamics::deviation::{self, verdict};
 use vcutc_dynamics::figures::{Pushing, TorqueFigures};
+use vcutc_dynamics::places::Places;
 use vcutc_dynamics::verdict::{above_limit, is_within_limits, not_checked, relief};
 use vcutc_job::forces::Forces;
 use vcutc_job::{CheckedJob, Machine};
@@ -91,6 +92,21 @@ fn carrying<T>(
     };
     let arms = Arms::of(&machine.model, cell);
     Some(work(known, arms.as_ref().map_err(|why| *why)))
+}
+
+/// What comes of the places along a program, whose cuts use so much edge. None where the torques of its machine are not known.
+#[must_use]
+pub fn in_places<T>(
+    job: &CheckedJob,
+    reached: &Reached,
+    edges: &[UsedEdge],
+    work: impl FnOnce(&Places<'_>) -> T,
+) -> Option<T> {
+    carrying(job.machine.as_ref()?, reached, edges, |known, arms| {
+        let forces = forces(job);
+        let cuts = (!forces.is_empty()).then(|| Cuts::of(known, &forces)).flatten();
+        Some(work(&Places::of(known, arms.ok()?, cuts.as_ref())))
+    })?
 }
 
 fn torques(

@@ -5,6 +5,7 @@
 //! | `chain` | the joints of an arm, and how they move what they carry |
 //! | [`arm`] | an arm as bodies, and the torques of a state |
 //! | [`arms`], [`drives`] | the arm of a program with each of its blades, and its torques at places |
+//! | [`places`] | all that happens in places along a program: torques, forces, deviations |
 //! | [`cuts`], [`condition`] | cuts by blades whose forces are known, and how they are made |
 //! | `everywhere`, [`figures`], [`verdict`] | the most torque that each axis needs, anywhere; its figures; those above limits |
 //! | `push`, `springs` | how the work pushes an edge, and how joints yield |
@@ -21,6 +22,7 @@ pub mod drives;
 mod everywhere;
 pub mod figures;
 mod peaks;
+pub mod places;
 mod push;
 mod springs;
 mod turn;
