@@ -8,6 +8,8 @@ use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Diagnostic, Severity};
 use vcutc_dynamics::arms::{Arms, Unknown};
 use vcutc_dynamics::cuts::{Cuts, Known};
+use vcutc_dynamics::deviation::Deviations;
+use vcutc_dynamics::deviation::each::CutDeviation;
 use vcutc_dynamics::deviation::figures::{Asked, DeviationFigures};
 use vcutc_dynamics::deviation::{self, verdict};
 use vcutc_dynamics::figures::{Pushing, TorqueFigures};
@@ -106,6 +108,17 @@ pub fn in_places<T>(
         let forces = forces(job);
         let cuts = (!forces.is_empty()).then(|| Cuts::of(known, &forces)).flatten();
         Some(work(&Places::of(known, arms.ok()?, cuts.as_ref())))
+    })?
+}
+
+/// How far each cut is pushed off, proven on all of it. None where that is not known.
+#[must_use]
+pub fn cut_by_cut(job: &CheckedJob, compiled: &Compiled) -> Option<Vec<CutDeviation>> {
+    let figures = compiled.dynamics.deviation.as_ref()?;
+    let (machine, reached) = carried(job, compiled)?;
+    carrying(machine, reached, &compiled.report.edges, |known, arms| {
+        let cuts = Cuts::of(known, &forces(job))?;
+        figures.each(&Deviations::of(&cuts, arms.ok())?)
     })?
 }
 

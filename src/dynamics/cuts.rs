@@ -3,7 +3,7 @@
 use crate::chain::{Chain, Column, JOINTS};
 use crate::condition::Condition;
 use crate::peaks::Whole;
-use crate::push::{Posture, Push};
+use crate::push::{Posture, Push, Sides};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{Action, Blade, Op, OpId, OperationId, Program, Site, ToolId};
@@ -64,6 +64,17 @@ impl Cut<'_> {
     pub(crate) fn axes_on(&self, part: Part) -> Option<[Along; JOINTS]> {
         self.moving.axes_on(part)
     }
+}
+
+/// The side of its V that a cut makes, seen looking along +y.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Face {
+    /// Its flank rises towards -x.
+    Left,
+    /// Its flank rises towards +x.
+    Right,
+    /// None: the blade is upright.
+    Upright,
 }
 
 /// The largest force on a blade.
@@ -226,6 +237,21 @@ impl<'p> Cuts<'p> {
             edge: cut.line.edge,
             force: hand_in_work * push.stated(),
             torques: torques.map(|torque| -torque),
+        })
+    }
+
+    /// The side of its V that a cut makes; none where its tip stands still.
+    pub(crate) fn face(&self, cut: &Cut<'_>) -> Option<Face> {
+        if cut.push.sides == Sides::Either {
+            return Some(Face::Upright);
+        }
+        let posture = cut.line.posture(self.known.reached.program(), WHOLE)?;
+        let normal = posture.blade_in_hand.transpose() * DVec3::from_array(cut.push.normal);
+        let into_waste = posture.blade_in_work * normal;
+        Some(if into_waste.x > 0.0 {
+            Face::Left
+        } else {
+            Face::Right
         })
     }
 

@@ -4,6 +4,7 @@
 //! place): the tool shifts by `J K^-1 J^T w` [Ha 2019, equations 30 and 31, with the sign of a force that acts on the tool]. Only the
 //! shift along the normal of the flank forms the part.
 
+pub mod each;
 pub mod figures;
 pub mod verdict;
 
@@ -78,15 +79,12 @@ impl<'c> Deviations<'c> {
         };
         let cuts: Vec<Whole> = self.cuts.wholes_of(operation).collect();
         let [waste, part] = peaks(&cuts, &[sought; 2], |op, part| {
-            let cut = self.cuts.get(op)?;
-            let push = self.cuts.push_on(cut, part)?;
-            let columns = self.cuts.columns_on(cut.tool, cut.axes_on(part)?);
-            let [middle, everywhere] = push.shifts(&columns, &self.springs);
-            let held = |bound: fn(Interval, Sides) -> f64| Held {
-                met: bound(middle, push.sides),
-                most: bound(everywhere, push.sides),
+            let [middle, everywhere] = self.shifts(op, part)?;
+            let held = |bound: fn(Ways) -> f64| Held {
+                met: bound(middle),
+                most: bound(everywhere),
             };
-            Some([held(into_waste), held(into_part)])
+            Some([held(|ways| ways.into_waste), held(|ways| ways.into_part)])
         })?;
         if !(waste.most.is_finite() && part.most.is_finite()) {
             return None;
@@ -139,6 +137,15 @@ impl<'c> Deviations<'c> {
         })
     }
 
+    /// How far the edge of a cut is off in the middle of a part, and everywhere on it. None where it is too long to say.
+    fn shifts(&self, op: OpId, part: Part) -> Option<[Ways; 2]> {
+        let cut = self.cuts.get(op)?;
+        let push = self.cuts.push_on(cut, part)?;
+        let columns = self.cuts.columns_on(cut.tool, cut.axes_on(part)?);
+        let shifts = push.shifts(&columns, &self.springs);
+        Some(shifts.map(|shifts| Ways::of(shifts, push.sides)))
+    }
+
     fn extreme(&self, peak: &Peak) -> Extreme {
         Extreme {
             most: Length::m(peak.most.max(0.0)),
@@ -168,16 +175,24 @@ impl<'c> Deviations<'c> {
     }
 }
 
-fn into_waste(shifts: Interval, sides: Sides) -> f64 {
-    match sides {
-        Sides::Known => shifts.high,
-        Sides::Either => shifts.magnitude(),
-    }
+/// How far an edge is off either way, in m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Ways {
+    into_waste: f64,
+    into_part: f64,
 }
 
-fn into_part(shifts: Interval, sides: Sides) -> f64 {
-    match sides {
-        Sides::Known => -shifts.low,
-        Sides::Either => shifts.magnitude(),
+impl Ways {
+    fn of(shifts: Interval, sides: Sides) -> Self {
+        match sides {
+            Sides::Known => Self {
+                into_waste: shifts.high,
+                into_part: -shifts.low,
+            },
+            Sides::Either => Self {
+                into_waste: shifts.magnitude(),
+                into_part: shifts.magnitude(),
+            },
+        }
     }
 }

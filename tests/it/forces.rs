@@ -4,9 +4,10 @@ use crate::pipeline::{Files, all_diagnostics, compile, emit, fixed, rendered};
 use crate::repository::root;
 use glam::DVec3;
 use proptest::prelude::*;
+use std::collections::BTreeMap;
 use vcutc::diagnostics::{Code, Severity};
 use vcutc::driver::Outcome;
-use vcutc::driver::dynamics::forces;
+use vcutc::driver::dynamics::{cut_by_cut, forces};
 use vcutc::dynamics::cuts::{Cuts, Known};
 use vcutc::dynamics::deviation::Deviations;
 use vcutc::machine::kinematics::Joints;
@@ -18,7 +19,7 @@ use vcutc_backend_api::ir::{Action, OpId};
 const JOB: &str = "job.vcut";
 
 /// A job of V cuts.
-fn text(forces: &str, limits: &str, machine: &str) -> String {
+pub(crate) fn text(forces: &str, limits: &str, machine: &str) -> String {
     format!(
         r#"job "pushed"
 stock {{ size = (50 mm, 300 mm, 24 mm) }}
@@ -44,24 +45,29 @@ machine cell = robot "arm.toml" {{
 
 /// The same on an arm of which everything is known.
 fn job(forces: &str, limits: &str, machine: &str) -> Files {
+    Files::default()
+        .with(JOB, text(forces, limits, machine))
+        .with("arm.toml", arm())
+}
+
+/// The sheet of that arm.
+pub(crate) fn arm() -> String {
     let folder = root().join("tests/process/err/support");
     let sheet = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
     // The masses of one, and the stiffness of the other.
     let weak = sheet("weak_arm.toml");
     let masses = &weak[weak.find("[dynamics]").unwrap()..];
     let masses = &masses[..masses.find("[torque]").unwrap_or(masses.len())];
-    Files::default()
-        .with(JOB, text(forces, limits, machine))
-        .with("arm.toml", sheet("soft_arm.toml") + "\n" + masses)
+    sheet("soft_arm.toml") + "\n" + masses
 }
 
 const STIFFNESS: [f64; 6] = [2.2e6, 3.4e6, 2.8e6, 2.4e6, 2.2e6, 0.47e6];
-const STATED: &str = "forces { drag = 1.1 N/mm, axial = 0.4 N/mm, side = 0.3 N/mm, \
+pub(crate) const STATED: &str = "forces { drag = 1.1 N/mm, axial = 0.4 N/mm, side = 0.3 N/mm, \
     tip = force(drag = 3 N, axial = 1 N, side = 2 N), spread = 20 %, \
     measured { feed = 100 mm/s, rake = 60 deg, swing = 35 deg }, source = \"this test\" }";
 
 #[track_caller]
-fn compiled(files: &Files) -> Outcome {
+pub(crate) fn compiled(files: &Files) -> Outcome {
     let outcome = compile(JOB, files);
     assert!(
         outcome.compiled.is_some(),
@@ -191,6 +197,9 @@ proptest! {
         let off = shift(&Rig::of(machine), &joints, way, used.length.to_mm(), drawn);
         prop_assert!(off <= of.into_waste.most + 1e-7, "{off} {of:?}");
         prop_assert!(-off <= of.into_part.most + 1e-7, "{off} {of:?}");
+        let each = cut_by_cut(outcome.job.as_ref().unwrap(), compiled).unwrap();
+        let cut = each.iter().find(|cut| cut.op == op).unwrap();
+        prop_assert!(off <= cut.into_waste + 1e-7 && -off <= cut.into_part + 1e-7, "{off} {cut:?}");
     }
 }
 
@@ -205,22 +214,32 @@ fn the_figures_are_reached() {
     let machine = outcome.job.as_ref().unwrap().machine.as_ref().unwrap();
     let rig = Rig::of(machine);
     // Soft springs, and forces at one end or the other.
-    let mut high = 0.0_f64;
+    let mut reached: BTreeMap<OpId, f64> = BTreeMap::new();
     for Place { op, way, joints, .. } in cuts(&outcome) {
         let used = compiled.report.edges.iter().find(|used| used.op == op).unwrap();
-        for corner in 0..8_u32 {
+        for corner in 0..16_u32 {
             let parts = [0, 1, 2].map(|part| if corner >> part & 1 == 0 { -1.0 } else { 1.0 });
             let drawn = Drawn {
                 parts,
                 springs: [-1.0; 6],
                 from: 0.0,
                 to: 1.0,
-                up: 1.0,
+                up: f64::from(corner >> 3),
             };
-            high = high.max(shift(&rig, &joints, way, used.length.to_mm(), drawn));
+            let off = shift(&rig, &joints, way, used.length.to_mm(), drawn);
+            let most = reached.entry(op).or_default();
+            *most = most.max(off);
         }
     }
+    let high = reached.values().copied().fold(0.0, f64::max);
     assert!(high >= 0.9 * of.into_waste.most, "{high} {of:?}");
+    let each = cut_by_cut(outcome.job.as_ref().unwrap(), compiled).unwrap();
+    assert_eq!(each.len(), reached.len());
+    for cut in each {
+        // Where axes push against each other, the worst springs are not all soft.
+        let high = reached[&cut.op];
+        assert!(high >= 0.75 * cut.into_waste, "{high} {cut:?}");
+    }
 }
 
 #[test]

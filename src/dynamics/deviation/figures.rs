@@ -269,7 +269,7 @@ fn sagging(sag: Interval, gravity: Option<Gravity>) -> GravityFigure {
 
 impl GravityFigure {
     /// What of it counts as deviation either way, in mm.
-    const fn either_way(self) -> f64 {
+    pub(super) const fn either_way(self) -> f64 {
         match self.counted {
             Counted::Compensated | Counted::NotStated => 0.0,
             Counted::Uncompensated => 0.5 * self.change,
