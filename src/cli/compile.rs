@@ -445,7 +445,7 @@ fn without_surface() -> Failure {
 }
 
 /// A job on a machine whose torques are not known, where they are asked for.
-fn without_masses() -> Failure {
+pub(super) fn without_masses() -> Failure {
     Failure::new("the torques of the job's machine are not known: they take the masses of its links, and the load on its flange")
         .help("state `load = load(mass = , x = , y = , z = )` in the machine, and its masses in a sheet (docs/machines.md)")
 }

@@ -1,7 +1,7 @@
 //! `vcutc plot JOB`: pictures of a job, one of them or all.
 
 use super::args::{PlotArgs, What};
-use super::compile::{unreadable, without_machine};
+use super::compile::{unreadable, without_machine, without_masses};
 use super::console::{Console, Failure, Summary};
 use super::files::{Disk, stem};
 use super::output::{Destination, Output, Placed, one_file};
@@ -122,6 +122,16 @@ fn without(what: What, material: &Material<'_>) -> Failure {
             .help("write `pattern = field` in `clear pocket`"),
         What::Passes => Failure::new("the job has no pockets")
             .help("write `region NAME { ... }` and `clear pocket { region = NAME ... }`"),
+        What::Torques => match &material.job.machine {
+            Some(_) => without_masses(),
+            None => without_machine(),
+        },
+        What::DeviationByForces => Failure::new(
+            "how far the forces of the blade push it off is not known, or the job has no profile",
+        )
+        .help(
+            "state `forces { ... }` in the blade, and take an arm whose stiffness is known (docs/reach.md)",
+        ),
         What::Lattice | What::Contour | What::Deviation | What::Correlation | What::Joints | What::Time => {
             without_machine()
         }
@@ -138,6 +148,14 @@ fn picture(what: What, material: &Material<'_>) -> Option<String> {
         What::Deviation => Some(pictures::deviation(material, ids)),
         What::Correlation => Some(pictures::correlation(material, ids)),
         What::Joints => pictures::joints(material, ids),
+        What::Torques => {
+            let [picture] = pictures::torques(material, [ids])?.pictures;
+            Some(picture)
+        }
+        What::DeviationByForces => {
+            let [picture] = pictures::by_forces(material, [ids])?;
+            Some(picture)
+        }
         What::Time => Some(pictures::time(material, ids)),
         What::Process => pictures::process(material, ids),
         What::Surface => pictures::surface(material, ids),

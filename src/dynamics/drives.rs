@@ -39,6 +39,8 @@ impl Torques {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Most {
     pub op: OpId,
+    /// How much of that op is done there, from 0 to 1; none where so little is needed that the place was not looked for.
+    pub done: Option<f64>,
     pub torques: Torques,
     /// It needs nowhere more than this, either way; where only places are looked at, in none of them.
     pub most: f64,
@@ -74,6 +76,7 @@ impl<'m> Drives<'m> {
                 .map(|(sample, torques)| {
                     core::array::from_fn(|axis| Most {
                         op: sample.op,
+                        done: Some(sample.done),
                         torques,
                         most: torques.of(axis).abs(),
                     })

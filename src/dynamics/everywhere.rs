@@ -131,7 +131,7 @@ impl Demand<'_> {
         })?;
         let each = found.iter().enumerate();
         let most: Vec<Most> = each
-            .map(|(axis, peak)| self.at(axis, peak))
+            .map(|(axis, peak)| self.at(axis, peak, sought[axis].least))
             .collect::<Option<_>>()?;
         most.try_into().ok()
     }
@@ -145,8 +145,8 @@ impl Demand<'_> {
         weights.flatten().fold(0.0, |most, weight| weight.abs().max(most))
     }
 
-    /// The torques where an axis needs the most.
-    fn at(&self, axis: usize, peak: &Peak) -> Option<Most> {
+    /// The torques where an axis needs the most. Up to `least` that is not looked for.
+    fn at(&self, axis: usize, peak: &Peak, least: f64) -> Option<Most> {
         // The motion of a short part is known as closely as its weight.
         let worst = f64::from(u8::try_from(self.on(peak.op, peak.part)?.worst(axis)).ok()?);
         let half = peak.part.half.min(SHORT);
@@ -166,6 +166,7 @@ impl Demand<'_> {
         };
         peak.most.is_finite().then_some(Most {
             op: peak.op,
+            done: (peak.most > least).then_some(short.middle),
             torques,
             most: peak.most,
         })

@@ -79,6 +79,9 @@ pub struct AxisTorque {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<f64>,
     pub at: PlaceFigure,
+    /// How much of the op at that place is done there, from 0 to 1; none where so little is needed that the place means little.
+    #[serde(skip)]
+    pub done: Option<f64>,
 }
 
 /// To a thousandth of a newton metre: what is less is noise of the arithmetic.
@@ -312,6 +315,7 @@ fn figure(known: Known<'_>, axis: usize, most: &Most) -> Option<AxisTorque> {
             op: most.op.0,
             words: words.unwrap_or_default(),
         },
+        done: most.done,
     })
 }
 

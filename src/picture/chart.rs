@@ -165,8 +165,16 @@ pub(super) fn beside(
         let is_within = line - ASCENT > top && line + DESCENT < bottom;
         is_within && !levels.iter().any(|level| around.contains(level)) && !taken.iter().any(meets)
     };
-    // Above it, where no curve can be, before below it.
-    let lines = [-8.0, -14.0, -24.0, -36.0, 5.0, 16.0, 26.0, 36.0, -50.0, 50.0].map(|down| y + down);
+    // On the side away from zero, where no curve can be, before on the other one.
+    let away = [-8.0, -14.0, -24.0, -36.0, 5.0, 16.0, 26.0, 36.0, -50.0, 50.0];
+    let middle = 0.5 * (ASCENT - DESCENT);
+    let lines = away.map(|down| {
+        if point[1] < 0.0 {
+            y + 2.0 * middle - down
+        } else {
+            y + down
+        }
+    });
     let line = lines.into_iter().find(is_free).unwrap_or(y - 4.0);
     taken.push((ends, line));
     let bold = format!("font-weight=\"bold\" {HALO}");

@@ -2,12 +2,13 @@
 //!
 //! Each picture takes plain numbers and knows nothing of jobs, plans and programs. What several of them share: the sheet
 //! with its headings and legend (`sheet`), scales with round values (`scale`), charts of series over two axes (`chart`), the
-//! x-z section (`section`), panels over the time of a program (`over_time`), maps seen from above (`tiles`), solids in space (`projection`), what lies between the lowest and the
-//! highest of a curve (`band`), colours and their partners on a dark ground (`palette`), paths in relative coordinates (`trace`),
-//! and curves of any number of points in as many as can be seen (`thin`).
+//! x-z section (`section`), panels over the time of a program (`over_time`), maps seen from above (`tiles`), solids in space
+//! (`projection`), what lies between the lowest and the highest of a curve (`band`), colours and their partners on a dark ground
+//! (`palette`), paths in relative coordinates (`trace`), and curves of any number of points in as many as can be seen (`thin`).
 
 mod band;
 pub mod blade;
+pub mod by_forces;
 mod chart;
 pub mod contour;
 pub mod correlation;
@@ -33,6 +34,7 @@ mod svg;
 pub mod thin;
 mod tiles;
 pub mod times;
+pub mod torques;
 mod trace;
 pub mod wave;
 

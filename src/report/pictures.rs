@@ -4,6 +4,7 @@
 //! before it loses.
 
 mod blade;
+mod by_forces;
 mod clock;
 mod joints;
 mod machined;
@@ -14,9 +15,11 @@ mod process;
 mod sections;
 mod strips;
 mod time;
+mod torques;
 mod wave;
 
 pub use blade::blade;
+pub use by_forces::by_forces;
 pub use joints::{joints, joints_twice};
 pub use passes::{figures as pocket_figures, passes};
 pub use paths::paths;
@@ -24,6 +27,7 @@ pub use plan_maps::{SurfaceMap, residual, surface};
 pub use process::process;
 pub use sections::SurfaceSections;
 pub use time::time;
+pub use torques::torques;
 pub use wave::wave;
 
 use super::Material;

@@ -39,6 +39,8 @@ mod five_axis;
 mod fmt;
 #[cfg(feature = "krl")]
 mod forces;
+#[cfg(all(feature = "cli", feature = "krl"))]
+mod forces_drawn;
 #[cfg(all(feature = "gcode", feature = "krl"))]
 mod gcode;
 #[cfg(feature = "krl")]

@@ -39,12 +39,13 @@ rough vcut {
 ";
 
 /// The pictures of `docs/pictures.md`: example, what is drawn.
-const SHOWN: [(&str, &str); 9] = [
+const SHOWN: [(&str, &str); 10] = [
     ("fairing", "lattice"),
     ("fairing", "contour"),
     ("fairing", "deviation"),
     ("wavy_panel", "correlation"),
     ("wavy_panel", "joints"),
+    ("spoiler_clarky", "torques"),
     ("wavy_panel", "time"),
     ("bent_hill", "surface"),
     ("bent_hill", "residual"),
@@ -56,7 +57,7 @@ fn outcome(example: &str) -> Outcome {
     compile(&format!("{example}.vcut"), &files)
 }
 
-fn picture(what: &str, outcome: &Outcome, ids: Prefix) -> String {
+pub(crate) fn picture(what: &str, outcome: &Outcome, ids: Prefix) -> String {
     let material = Material::of(outcome).unwrap();
     match what {
         "lattice" => pictures::lattice(&material, ids),
@@ -68,6 +69,14 @@ fn picture(what: &str, outcome: &Outcome, ids: Prefix) -> String {
         "surface" => pictures::surface(&material, ids).unwrap(),
         "residual" => pictures::residual(&material, ids).unwrap(),
         "passes" => pictures::passes(&material, ids).unwrap(),
+        "torques" => {
+            let [picture] = pictures::torques(&material, [ids]).unwrap().pictures;
+            picture
+        }
+        "deviation-by-forces" => {
+            let [picture] = pictures::by_forces(&material, [ids]).unwrap();
+            picture
+        }
         what => panic!("{what}"),
     }
 }
@@ -188,7 +197,7 @@ fn pictures_stay_within_their_sheets() {
     }
 }
 
-fn assert_within_its_sheet(example: &str, what: &str, outcome: &Outcome) {
+pub(crate) fn assert_within_its_sheet(example: &str, what: &str, outcome: &Outcome) {
     let svg = picture(what, outcome, Prefix::new("here-"));
     assert!(svg.len() < 300_000, "{example} {what}: {} bytes", svg.len());
     let document = roxmltree::Document::parse(&svg).unwrap();
@@ -271,7 +280,7 @@ fn every_colour_is_another_one_in_the_dark() {
     }
 }
 
-fn assert_dark(example: &str, what: &str, outcome: &Outcome, dark: &str) {
+pub(crate) fn assert_dark(example: &str, what: &str, outcome: &Outcome, dark: &str) {
     for ids in [Prefix::new("page-"), Prefix::for_phones("phone-")] {
         let svg = picture(what, outcome, ids);
         let document = roxmltree::Document::parse(&svg).unwrap();

@@ -47,7 +47,7 @@ pub(in crate::cli) struct PlotArgs {
 
     /// For one picture, the file or - for standard output (the default); for all, the folder (default: the current one)
     ///
-    /// Pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine, that of processes `rough auto`, those of the surface and the residual a `surface`, that of passes `clear pocket` or `slit walls`.
+    /// Pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine, those of torques and of the deviation by forces an arm and blades of which these are known, that of processes `rough auto`, those of the surface and the residual a `surface`, that of passes `clear pocket` or `slit walls`.
     #[arg(short, long, value_name = "FILE.svg|DIR|-")]
     pub(in crate::cli) output: Option<String>,
 
@@ -68,6 +68,10 @@ pub(in crate::cli) enum What {
     Correlation,
     /// Positions, speeds and margins of the machine's axes over time
     Joints,
+    /// The torques of an arm's axes over time, with the most that each needs anywhere
+    Torques,
+    /// How far the forces of the blade push each cut off, along the profile
+    DeviationByForces,
     /// The time by kind of motion and by layer
     Time,
     /// The times of both processes of `rough auto` over the depth of the work, and where they cross

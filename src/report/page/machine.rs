@@ -38,9 +38,21 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
         body += singular(figures);
     }
     if let Some(figures) = &subject.material.compiled.dynamics.torques {
+        let ids = [Prefix::new("torques-"), Prefix::for_phones("torques-phone-")];
+        if let Some(drawn) = pictures::torques(&subject.material, ids) {
+            let [page, phone] = drawn.pictures;
+            body += framed(page, "for-page", Zoom::Free, &drawn.caption);
+            body += framed(phone, "for-phones", Zoom::Free, &drawn.caption);
+        }
         body += torques(figures);
     }
     if let Some(figures) = &subject.material.compiled.dynamics.deviation {
+        let ids = [Prefix::new("by-forces-"), Prefix::for_phones("by-forces-phone-")];
+        if let Some([page, phone]) = pictures::by_forces(&subject.material, ids) {
+            let caption = by_forces_caption(figures);
+            body += framed(page, "for-page", Zoom::Free, &caption);
+            body += framed(phone, "for-phones", Zoom::Free, &caption);
+        }
         body += deviations(figures);
     }
     Some(Section {
@@ -99,6 +111,23 @@ fn torques(figures: &TorqueFigures) -> Html {
         figures.backing()
     );
     table(&caption, &columns, rows)
+}
+
+/// What the picture of the deviation shows of each cut.
+fn by_forces_caption(figures: &DeviationFigures) -> String {
+    let limits = figures.operations.iter().filter_map(|of| of.limit);
+    let least = limits.reduce(f64::min).map_or_else(String::new, |limit| {
+        format!(
+            " The lowest limit is {} mm; limits are drawn where cuts come near them.",
+            show(limit)
+        )
+    });
+    format!(
+        "How far the forces of the blade push each cut off along the normal of its flank, over the x of its tip: into the waste \
+         above zero, into the part below. The bars are bounds, proven on all of each cut for all forces and stiffnesses within \
+         their spread. Stiffness {}.{least}",
+        figures.stiffness.word()
+    )
 }
 
 /// How far the forces of the blades push cuts off, operation by operation.
