@@ -27,6 +27,7 @@ use vcutc_driver::summary::times::{self, TimeFigures};
 use vcutc_driver::summary::verdict;
 use vcutc_dynamics::deviation::figures::DeviationFigures;
 use vcutc_dynamics::figures::TorqueFigures;
+use vcutc_dynamics::modes::figures::ModeFigures;
 use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 
 /// Version of the JSON objects this module writes.
@@ -175,6 +176,8 @@ struct SummaryBody<'a> {
     torques: Option<&'a TorqueFigures>,
     #[serde(skip_serializing_if = "Option::is_none")]
     deviation: Option<&'a DeviationFigures>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    modes: Option<&'a ModeFigures>,
     files: Vec<&'a str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     unchanged: Vec<&'a str>,
@@ -445,6 +448,7 @@ impl Console {
             reach: summary.reach,
             torques: summary.dynamics.and_then(|dynamics| dynamics.torques.as_ref()),
             deviation: summary.dynamics.and_then(|dynamics| dynamics.deviation.as_ref()),
+            modes: summary.dynamics.and_then(|dynamics| dynamics.modes.as_ref()),
             files: summary.placed.iter().map(Placed::path).collect(),
             unchanged: unchanged(summary.placed),
             replaced: replaced(summary.placed),

@@ -14,6 +14,7 @@ use vcutc_dynamics::deviation::figures::{Asked, DeviationFigures};
 use vcutc_dynamics::deviation::{self, verdict};
 use vcutc_dynamics::figures::{Pushing, TorqueFigures};
 use vcutc_dynamics::places::Places;
+use vcutc_dynamics::modes::figures::ModeFigures;
 use vcutc_dynamics::verdict::{above_limit, is_within_limits, not_checked, relief};
 use vcutc_job::forces::Forces;
 use vcutc_job::{CheckedJob, Machine};
@@ -32,12 +33,15 @@ pub struct Dynamics {
     pub torques: Option<TorqueFigures>,
     /// How far the forces of its blades push its cuts off, where that is known.
     pub deviation: Option<DeviationFigures>,
+    /// How its arm swings by itself, where that is known.
+    pub modes: Option<ModeFigures>,
 }
 
 /// What was found of the torques and the deviations of a program, or why they are not known.
 struct Found {
     torques: Result<TorqueFigures, Unknown>,
     deviation: Result<DeviationFigures, deviation::Unknown>,
+    modes: Option<ModeFigures>,
 }
 
 /// The torques of a program, and how far forces push its cuts off.
@@ -45,6 +49,7 @@ fn found(job: &CheckedJob, machine: &Machine, reached: &Reached, edges: &[UsedEd
     let nothing = Found {
         torques: Err(Unknown::Masses),
         deviation: Err(deviation::Unknown::ClosedForm),
+        modes: None,
     };
     let found = carrying(machine, reached, edges, |known, arms| {
         let forces = forces(job);
@@ -55,6 +60,7 @@ fn found(job: &CheckedJob, machine: &Machine, reached: &Reached, edges: &[UsedEd
         };
         Found {
             torques: torques(machine, known, arms, pushing),
+            modes: arms.ok().and_then(|arms| ModeFigures::of(known, arms)),
             deviation: match &cuts {
                 None => Err(deviation::Unknown::Forces),
                 Some(None) => Err(deviation::Unknown::ClosedForm),
@@ -161,7 +167,11 @@ pub(crate) fn add(job: &CheckedJob, compiled: &mut Compiled) -> Vec<Diagnostic> 
         });
         return limits.collect();
     };
-    let Found { torques, deviation } = found(job, machine, reached, &compiled.report.edges);
+    let Found {
+        torques,
+        deviation,
+        modes,
+    } = found(job, machine, reached, &compiled.report.edges);
     let of_torques = not_checked(&torques, machine);
     let unchecked = unchecked(job, machine, &deviation).into_iter().chain(of_torques);
     add_torques(torques, compiled);
@@ -179,7 +189,11 @@ pub(crate) fn add(job: &CheckedJob, compiled: &mut Compiled) -> Vec<Diagnostic> 
     compiled
         .summary
         .extend(lines.iter().map(|(name, text)| row(name, text)));
+    compiled
+        .summary
+        .extend(modes.as_ref().map(|modes| row("modes", &modes.line())));
     compiled.dynamics.deviation = deviation.ok();
+    compiled.dynamics.modes = modes;
     unchecked.collect()
 }
 

@@ -331,7 +331,7 @@ impl OnLine {
 const NEAR: f64 = 1e-4;
 
 /// The operation and the way of an op that cuts with an edge.
-fn cutting(segment: &Segment<'_>) -> Option<(OperationId, LinearSegment)> {
+pub(crate) fn cutting(segment: &Segment<'_>) -> Option<(OperationId, LinearSegment)> {
     let Op { action, site, .. } = segment.op;
     let (Action::Cut { .. } | Action::Follow { .. }, Site::Cut { operation, .. }) = (action, site) else {
         return None;

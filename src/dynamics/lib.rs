@@ -10,6 +10,7 @@
 //! | `everywhere`, [`figures`], [`verdict`] | the most torque that each axis needs, anywhere; its figures; those above limits |
 //! | `push`, `springs` | how the work pushes an edge, and how joints yield |
 //! | [`deviation`] | how far cuts are off, everywhere on them; its figures and limits |
+//! | [`modes`] | how the arm swings by itself: its mass matrix, its modes, and these over the cuts of a program |
 //! | `peaks` | the most of quantities along motions, proven |
 
 pub mod arm;
@@ -21,6 +22,7 @@ pub mod deviation;
 pub mod drives;
 mod everywhere;
 pub mod figures;
+pub mod modes;
 mod peaks;
 pub mod places;
 mod push;

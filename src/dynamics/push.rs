@@ -399,4 +399,4 @@ fn views(along: Along) -> [Interval; 2] {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

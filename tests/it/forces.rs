@@ -16,7 +16,7 @@ use vcutc::motion::rigs::Rigs;
 use vcutc::motion::trajectory::{Spacing, trajectory};
 use vcutc_backend_api::ir::{Action, OpId};
 
-const JOB: &str = "job.vcut";
+pub(crate) const JOB: &str = "job.vcut";
 
 /// A job of V cuts.
 pub(crate) fn text(forces: &str, limits: &str, machine: &str) -> String {

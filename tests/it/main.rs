@@ -56,6 +56,8 @@ mod left_out;
 #[cfg(all(feature = "krl", feature = "lsp"))]
 mod lsp;
 #[cfg(feature = "krl")]
+mod modes;
+#[cfg(feature = "krl")]
 mod mutations;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod narrower;

@@ -40,7 +40,10 @@ const ONLY_IN: &[(&str, &[&str])] = &[
             "src/place/",
         ],
     ),
-    ("nalgebra::", &["src/machine/kinematics/"]),
+    (
+        "nalgebra::",
+        &["src/machine/kinematics/", "src/dynamics/modes.rs"],
+    ),
     ("roxmltree::", &["src/geometry/import/svg/", "src/machine/urdf/"]),
     (
         "pulp::",

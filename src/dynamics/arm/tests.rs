@@ -327,13 +327,13 @@ fn work_becomes_energy() {
     assert!((work - 311.486333).abs() < 1e-6, "{work}");
 }
 
-fn states() -> impl Strategy<Value = [[f64; 6]; 3]> {
+pub(crate) fn states() -> impl Strategy<Value = [[f64; 6]; 3]> {
     let six = |most: f64| prop::array::uniform6(-most..most);
     (six(3.0), six(4.0), six(20.0)).prop_map(|(joints, rates, accelerations)| [joints, rates, accelerations])
 }
 
-/// An arm of random bodies.
-fn arms() -> impl Strategy<Value = Arm> {
+/// Random bodies of links.
+pub(crate) fn bodies() -> impl Strategy<Value = [Body; JOINTS]> {
     let three = |most: f64| prop::array::uniform3(-most..most);
     let body = (0.0..300.0, three(2.0), three(3.0), three(2.0)).prop_map(|(mass, centre, turn, sides)| {
         let turn = DMat3::from_euler(glam::EulerRot::ZYX, turn[0], turn[1], turn[2]);
@@ -344,8 +344,12 @@ fn arms() -> impl Strategy<Value = Arm> {
             inertia: turn * DMat3::from_diagonal(DVec3::new(y + z, x + z, x + y)) * turn.transpose(),
         }
     });
-    (prop::collection::vec(body, 6), three(1.0)).prop_map(|(bodies, rise)| {
-        let bodies = bodies.try_into().unwrap();
+    prop::collection::vec(body, 6).prop_map(|bodies| bodies.try_into().unwrap())
+}
+
+/// An arm of random bodies.
+fn arms() -> impl Strategy<Value = Arm> {
+    (bodies(), prop::array::uniform3(-1.0..1.0)).prop_map(|(bodies, rise)| {
         let model = catalogue::find("kuka/kr210_r3100_ultra").unwrap();
         Arm::new(&model.mechanism, bodies, None, 9.81 * DVec3::from_array(rise)).unwrap()
     })

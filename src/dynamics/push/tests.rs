@@ -75,6 +75,16 @@ fn flank(side: f64, swing: Angle, rake: Angle) -> DMat3 {
     DMat3::from_cols(normal.cross(-shank), normal, -shank)
 }
 
+/// The arm in the left and the right flank of the V of [Cui 2020], table 1, and the stiffness of its joints.
+pub(crate) fn joints_in_a_v() -> (Opw, [Joints; 2]) {
+    (
+        arm(),
+        [-1.0, 1.0].map(|side| case(side, Elbow::Forward, 0.0).joints),
+    )
+}
+
+pub(crate) const STIFFNESS: [f64; 6] = IDENTIFIED[0];
+
 struct Case {
     chain: Chain,
     joints: Joints,

@@ -7,6 +7,7 @@ use crate::pictures;
 use vcutc_diagnostics::number::{rounded, show};
 use vcutc_dynamics::deviation::figures::{DeviationFigures, ShiftFigure, millimetres};
 use vcutc_dynamics::figures::{TorqueFigures, percent};
+use vcutc_dynamics::modes::figures::ModeFigures;
 use vcutc_motion::summary::{self as reach_summary, AxisFigure, ReachFigures, SingularFigure, margin_words};
 use vcutc_picture::Prefix;
 
@@ -54,6 +55,9 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
             body += framed(phone, "for-phones", Zoom::Free, &caption);
         }
         body += deviations(figures);
+    }
+    if let Some(figures) = &subject.material.compiled.dynamics.modes {
+        body += modes(figures);
     }
     Some(Section {
         id: "machine",
@@ -162,6 +166,28 @@ fn deviations(figures: &DeviationFigures) -> Html {
         "Deviation of the flanks by the forces of the blade, at most; stiffness {}. {}",
         figures.stiffness.word(),
         words.join("; "),
+    );
+    table(&caption, &columns, rows)
+}
+
+/// How the arm swings by itself over the cuts.
+fn modes(figures: &ModeFigures) -> Html {
+    let columns = [
+        Column::Words("Mode"),
+        Column::Numbers("lowest"),
+        Column::Numbers("highest"),
+    ];
+    let hertz = |frequency: f64| Html::text(&format!("{:.1} Hz", rounded(frequency, 10.0)));
+    let rows = (1..).zip(&figures.modes).map(|(number, mode): (u8, _)| {
+        vec![
+            Html::text(&number.to_string()),
+            hertz(mode.lowest),
+            hertz(mode.highest),
+        ]
+    });
+    let caption = format!(
+        "Modes of the arm on its joints over the cuts, at the beginning, the middle and the end of each ({})",
+        figures.backing()
     );
     table(&caption, &columns, rows)
 }

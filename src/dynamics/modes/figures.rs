@@ -1,0 +1,125 @@
+//! The modes of an arm over the cuts of a program, for people and for programs.
+
+use crate::arms::Arms;
+use crate::chain::JOINTS;
+use crate::cuts::{Known, cutting};
+use crate::figures::word;
+use crate::springs::Springs;
+use serde::{Serialize, Serializer};
+use vcutc_diagnostics::number::{rounded, show};
+use vcutc_machine::masses::{Backing, Kind};
+use vcutc_motion::parts::Motions;
+use vcutc_motion::path::Part;
+
+/// Where modes are looked at on each cut: at its beginning, in its middle and at its end.
+pub(crate) const SAMPLES: [Part; 3] = [at(0.0), at(0.5), at(1.0)];
+
+const fn at(middle: f64) -> Part {
+    Part { middle, half: 0.0 }
+}
+
+/// How many modes the summary states.
+const STATED: usize = 3;
+
+/// How an arm swings by itself over the cuts of a program: at samples of each, with masses and stiffness as they are stated.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ModeFigures {
+    /// From the slowest on.
+    pub modes: Vec<ModeFigure>,
+    /// How far the masses are backed.
+    #[serde(serialize_with = "word")]
+    pub masses: Backing,
+    /// How far the stiffness of the joints is backed.
+    #[serde(serialize_with = "word")]
+    pub stiffness: Backing,
+}
+
+/// The frequencies of a mode, in Hz.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ModeFigure {
+    #[serde(serialize_with = "thousandths")]
+    pub lowest: f64,
+    #[serde(serialize_with = "thousandths")]
+    pub highest: f64,
+}
+
+fn thousandths<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64(rounded(*value, 1e3))
+}
+
+impl ModeFigures {
+    /// Of an arm that cuts. None where masses or stiffness are not known, where a joint moves no mass, where the masses are no bodies,
+    /// and where nothing is cut.
+    #[must_use]
+    pub fn of(known: Known<'_>, arms: &Arms) -> Option<Self> {
+        let masses = known.model.masses.as_ref()?;
+        let elasticity = known.model.elasticity.as_ref()?;
+        if masses.kind == Kind::Lumped {
+            return None;
+        }
+        let springs = Springs::from(elasticity);
+        let motions = Motions::of(known.reached, known.rigs);
+        let mut found: Option<[ModeFigure; JOINTS]> = None;
+        let program = known.reached.program();
+        for segment in program.segments() {
+            if cutting(&segment).is_none() {
+                continue;
+            }
+            let (Some(moving), Some(arm)) = (motions.moving(segment.id), arms.with(segment.before.tool))
+            else {
+                continue;
+            };
+            for sample in SAMPLES {
+                let joints = moving.axes_on(sample)?.map(|axis| axis.middle().middle());
+                let here = arm.modes(&joints, &springs)?.map(|mode| mode.frequency);
+                let figures = found.get_or_insert(here.map(|frequency| ModeFigure {
+                    lowest: frequency,
+                    highest: frequency,
+                }));
+                for (figure, frequency) in figures.iter_mut().zip(here) {
+                    figure.lowest = figure.lowest.min(frequency);
+                    figure.highest = figure.highest.max(frequency);
+                }
+            }
+        }
+        Some(Self {
+            modes: found?.to_vec(),
+            masses: masses.backing,
+            stiffness: elasticity.backing,
+        })
+    }
+
+    /// `7.7 to 9.9 Hz, 10.3 to 11.8 Hz and 20.2 to 25.4 Hz over the cuts, at samples; masses published, stiffness measured`.
+    #[must_use]
+    pub fn line(&self) -> String {
+        let slowest: Vec<String> = self.modes.iter().take(STATED).map(ModeFigure::words).collect();
+        format!(
+            "the slowest at {} over the cuts, at samples; {}",
+            slowest.join(", "),
+            self.backing(),
+        )
+    }
+
+    /// `masses published, stiffness measured`.
+    #[must_use]
+    pub fn backing(&self) -> String {
+        format!(
+            "masses {}, stiffness {}",
+            self.masses.word(),
+            self.stiffness.word()
+        )
+    }
+}
+
+impl ModeFigure {
+    /// `7.7 to 9.9 Hz`.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let [lowest, highest] = [self.lowest, self.highest].map(|frequency| show(rounded(frequency, 10.0)));
+        if lowest == highest {
+            format!("{lowest} Hz")
+        } else {
+            format!("{lowest} to {highest} Hz")
+        }
+    }
+}
