@@ -9,13 +9,14 @@ pub mod figures;
 pub mod verdict;
 
 use crate::arms::Arms;
+use crate::chain::{Column, JOINTS};
 use crate::cuts::Cuts;
 use crate::peaks::{Held, Peak, Sought, Whole, peaks};
-use crate::push::{Shift, Sides};
+use crate::push::{Push, Shift, Sides};
 use crate::springs::Springs;
 use vcutc_backend_api::ir::{OpId, OperationId};
 use vcutc_backend_api::units::Length;
-use vcutc_geometry::number::Interval;
+use vcutc_geometry::number::{Along, Interval};
 use vcutc_machine::kinematics::Joints;
 use vcutc_motion::path::Part;
 
@@ -34,6 +35,9 @@ pub enum Unknown {
     /// The machine is not an arm with a closed form.
     ClosedForm,
 }
+
+/// What shifts an edge in the middle of a part of a cut, and everywhere on it.
+type Shifts = fn(&Push, &[Column<Along>; JOINTS], &Springs) -> [Interval; 2];
 
 /// The cuts of a program by blades whose forces are known, on an arm whose joints yield.
 pub struct Deviations<'c> {
@@ -73,13 +77,25 @@ impl<'c> Deviations<'c> {
     /// How far the cuts of an operation deviate at most; none of one that no forces are known of. `limit` is to be kept.
     #[must_use]
     pub fn extremes(&self, operation: OperationId, limit: Option<Length>) -> Option<Extremes> {
+        self.both_ways(operation, limit, Push::shifts)
+    }
+
+    /// How far they may be off at most while the edge comes into the material from rest and the arm swings, wherever on a cut that is;
+    /// whatever its masses and its damping are.
+    #[must_use]
+    pub fn at_entry(&self, operation: OperationId) -> Option<Extremes> {
+        self.both_ways(operation, None, Push::entering)
+    }
+
+    /// The most of shifts either way on the cuts of an operation.
+    fn both_ways(&self, operation: OperationId, limit: Option<Length>, shifts: Shifts) -> Option<Extremes> {
         let sought = Sought {
             least: LEAST,
             limit: limit.map(Length::to_m),
         };
         let cuts: Vec<Whole> = self.cuts.wholes_of(operation).collect();
         let [waste, part] = peaks(&cuts, &[sought; 2], |op, part| {
-            let [middle, everywhere] = self.shifts(op, part)?;
+            let [middle, everywhere] = self.shifts(op, part, shifts)?;
             let held = |bound: fn(Ways) -> f64| Held {
                 met: bound(middle),
                 most: bound(everywhere),
@@ -138,12 +154,12 @@ impl<'c> Deviations<'c> {
     }
 
     /// How far the edge of a cut is off in the middle of a part, and everywhere on it. None where it is too long to say.
-    fn shifts(&self, op: OpId, part: Part) -> Option<[Ways; 2]> {
+    fn shifts(&self, op: OpId, part: Part, shifts: Shifts) -> Option<[Ways; 2]> {
         let cut = self.cuts.get(op)?;
         let push = self.cuts.push_on(cut, part)?;
         let columns = self.cuts.columns_on(cut.tool, cut.axes_on(part)?);
-        let shifts = push.shifts(&columns, &self.springs);
-        Some(shifts.map(|shifts| Ways::of(shifts, push.sides)))
+        let found = shifts(&push, &columns, &self.springs);
+        Some(found.map(|shifts| Ways::of(shifts, push.sides)))
     }
 
     fn extreme(&self, peak: &Peak) -> Extreme {

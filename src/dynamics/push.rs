@@ -3,6 +3,8 @@
 //! All directions are seen from the hand. They stay the same along a straight cut; on others they are those in the middle of a part of
 //! it, and what they are off by there is bounded.
 
+mod entry;
+
 use crate::chain::{Column, JOINTS};
 use crate::springs::Springs;
 use crate::vector::{Number, Vector};
@@ -170,19 +172,12 @@ impl Push {
     /// The largest size that it may have, in N.
     pub(crate) fn largest_size(&self) -> f64 {
         // A size is convex: it is largest where all parts are at an end.
-        let corners = (0..8_u32).map(|corner| {
-            let parts = (0..).zip(self.forces()).map(|(place, force): (u32, &Force)| {
-                let any = force.any();
-                let end = if corner >> place & 1 == 0 {
-                    any.low
-                } else {
-                    any.high
-                };
-                DVec3::from_array(force.direction) * end
-            });
-            parts.sum::<DVec3>().length()
+        let sizes = corners(self.forces().map(Force::any)).map(|parts| {
+            let each = parts.into_iter().zip(self.forces());
+            let each = each.map(|(part, force)| DVec3::from_array(force.direction) * part);
+            each.sum::<DVec3>().length()
         });
-        corners.fold(0.0, f64::max)
+        sizes.fold(0.0, f64::max)
     }
 
     /// What a force pushes each axis with, in Nm for each N of it, where it acts so far up the edge.
@@ -248,10 +243,19 @@ impl Push {
     /// the whole. The place `s` up the edge then shifts by `tip(s) + t edge(s, m)`, with a share `t` from 0 to 1 and the place `m` of that force,
     /// where `edge` is linear in `s` and in `m`: its extremes are at the ends of the edge.
     pub(crate) fn shifts(&self, columns: &[Column<Along>; JOINTS], springs: &Springs) -> [Interval; 2] {
+        let [tip, end] = self
+            .shifts_at_ends(columns, springs)
+            .map(|views| views.map(|by| by.tip.hull(by.tip + by.edge)));
+        // In the air nothing pushes.
+        core::array::from_fn(|view| tip[view].hull(end[view]).hull(Interval::ZERO))
+    }
+
+    /// What the tip and the edge shift each end of the edge by.
+    fn shifts_at_ends(&self, columns: &[Column<Along>; JOINTS], springs: &Springs) -> [[By; 2]; 2] {
         let pushes = self
             .forces()
             .map(|force| self.torques_at_ends(columns, force.direction));
-        let places = self.normals(columns).map(|normal| {
+        self.normals(columns).map(|normal| {
             let [tip, end] = [0, 1].map(|end| {
                 let each = pushes.each_ref().map(|torques| &torques[end]);
                 each.map(|torques| Yielded::of(&normal, torques, springs))
@@ -262,16 +266,12 @@ impl Push {
                 shift(&amounts, yielded, turned)
             };
             let by_tip = shift(|force| force.tip, &tip);
-            let by_edge = [&tip, &end].map(|yielded| shift(|force| force.edge, yielded));
-            core::array::from_fn(|view| {
-                let edge: Interval = by_edge[0][view];
-                let tip: Interval = by_tip[view];
-                tip.hull(tip + edge.hull(by_edge[1][view]))
+            let [near, far] = [&tip, &end].map(|yielded| shift(|force| force.edge, yielded));
+            core::array::from_fn(|view| By {
+                tip: by_tip[view],
+                edge: near[view].hull(far[view]),
             })
-        });
-        // In the air nothing pushes.
-        let [tip, end]: [[Interval; 2]; 2] = places;
-        core::array::from_fn(|view| tip[view].hull(end[view]).hull(Interval::ZERO))
+        })
     }
 
     /// What pushes the axes, in Nm, while no more of the edge than its length is in the material: where each of `views` looks on a part
@@ -349,6 +349,30 @@ impl Push {
         // The normal is off as the forces are.
         Interval::around(0.0, 2.0 * force * self.turns * yields.sum::<f64>())
     }
+}
+
+/// What shifts a place along the normal, in m.
+#[derive(Clone, Copy)]
+struct By {
+    /// The force at the tip.
+    tip: Interval,
+    /// That of the whole edge, as if it acted anywhere on it.
+    edge: Interval,
+}
+
+/// What parts come to when each is at one of its ends.
+fn corners(parts: [Interval; 3]) -> impl Iterator<Item = [f64; 3]> {
+    (0..8_u32).map(move |corner| {
+        let mut place = 0;
+        parts.map(|part| {
+            place += 1;
+            if corner >> (place - 1) & 1 == 0 {
+                part.low
+            } else {
+                part.high
+            }
+        })
+    })
 }
 
 /// What forces shift a place by that yields so for each N of them, and what they add where their directions are off: in the middle of

@@ -242,6 +242,75 @@ fn the_figures_are_reached() {
     }
 }
 
+/// How far an edge swings about where it would rest when all of it comes in at once, in mm: the root of what 1 N along the normal yields,
+/// times the root of what the force does on the springs, in N and mm.
+fn swing(rig: &Rig<'_>, joints: &Joints, way: f64, edge: f64, parts: [f64; 3]) -> f64 {
+    let blade = rig.blade_in_work(joints);
+    let [x, y, z] = [0, 1, 2].map(|axis| blade.rotation.col(axis));
+    let normal = if y.z > 0.0 { y } else { -y };
+    let way = DVec3::Y * way;
+    let leading = if x.dot(way) > 0.0 { x } else { -x };
+    let half_apex = 7.13_f64.to_radians();
+    let along = leading * half_apex.sin() - z * half_apex.cos();
+    let force = |[drag, axial, side]: [f64; 3]| {
+        let [drag, axial, side] =
+            [(drag, 0), (axial, 1), (side, 2)].map(|(amount, part)| amount * parts[part]);
+        -way * drag - z * axial + normal * side
+    };
+    let (per_length, tip) = (force([1.1, 0.4, 0.3]), force([3.0, 1.0, 2.0]));
+    let (mut yields, mut pushes) = (0.0, 0.0);
+    for (axis, stiffness) in STIFFNESS.iter().enumerate() {
+        let spring = 1000.0 * 0.9 * stiffness;
+        let at = |up: f64| moved(rig, joints, blade.rotation.transpose() * (along * up), axis);
+        let torque = at(0.5 * edge).dot(per_length) * edge + at(0.0).dot(tip);
+        pushes += torque * torque / spring;
+        let normal = at(edge).dot(normal);
+        yields += normal * normal / spring;
+    }
+    libm::sqrt(yields * pushes)
+}
+
+/// With soft springs and all forces at one end: an edge that comes in at once may swing as far from where it would rest.
+#[test]
+fn an_edge_that_comes_in_at_once_swings_within_the_figures_and_nearly_reaches_them() {
+    let outcome = compiled(&job(STATED, "", ""));
+    let compiled = outcome.compiled.as_ref().unwrap();
+    let figures = compiled.dynamics.deviation.as_ref().unwrap();
+    let [of] = figures.operations.as_slice() else {
+        panic!("one operation")
+    };
+    let entry = of.at_entry.as_ref().unwrap();
+    let machine = outcome.job.as_ref().unwrap().machine.as_ref().unwrap();
+    let rig = Rig::of(machine);
+    let (mut waste, mut part) = (0.0_f64, 0.0_f64);
+    for Place { op, way, joints, .. } in cuts(&outcome) {
+        let used = compiled.report.edges.iter().find(|used| used.op == op).unwrap();
+        let edge = used.length.to_mm();
+        for corner in 0..8_u32 {
+            let parts = [0, 1, 2].map(|part| if corner >> part & 1 == 0 { -1.0 } else { 1.0 });
+            let drawn = Drawn {
+                parts,
+                springs: [-1.0; 6],
+                from: 0.0,
+                to: 1.0,
+                up: 1.0,
+            };
+            let rests = shift(&rig, &joints, way, edge, drawn);
+            let swings = swing(&rig, &joints, way, edge, parts.map(|part| 1.0 + 0.2 * part));
+            waste = waste.max(rests + swings);
+            part = part.max(swings - rests);
+        }
+    }
+    let (most_waste, most_part) = (entry.into_waste.most, entry.into_part.most);
+    assert!(
+        0.9 * most_waste <= waste && waste <= most_waste + 1e-7,
+        "{waste} {entry:?}"
+    );
+    assert!(part <= most_part + 1e-7, "{part} {entry:?}");
+    assert!(most_waste > 1.5 * of.into_waste.most && most_part > of.into_part.most);
+    assert!(compiled.summary.iter().any(|line| line.contains("at entry")));
+}
+
 #[test]
 fn a_place_of_a_cut_has_the_shift_of_forces_as_stated() {
     let outcome = compiled(&job(STATED, "", ""));

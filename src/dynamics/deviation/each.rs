@@ -4,6 +4,7 @@ use super::figures::{DeviationFigures, GravityFigure, OperationDeviation};
 use super::{Deviations, Ways};
 use crate::cuts::Face;
 use crate::peaks::Whole;
+use crate::push::Push;
 use rayon::prelude::*;
 use vcutc_backend_api::ir::{OpId, OperationId};
 use vcutc_motion::path::Part;
@@ -60,7 +61,7 @@ impl DeviationFigures {
 impl Deviations<'_> {
     /// Without what is not a number: it would pass every comparison.
     fn known_shifts(&self, op: OpId, part: Part) -> Option<[Ways; 2]> {
-        let shifts = self.shifts(op, part)?;
+        let shifts = self.shifts(op, part, Push::shifts)?;
         shifts.into_iter().all(Ways::is_finite).then_some(shifts)
     }
 

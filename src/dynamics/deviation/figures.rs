@@ -58,6 +58,9 @@ pub struct OperationDeviation {
     pub operation: u16,
     pub into_waste: ShiftFigure,
     pub into_part: ShiftFigure,
+    /// While the edge comes into the material and the arm swings.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_entry: Option<EntryFigure>,
     /// How many times as much where the ultrasound fails, when that is stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failed: Option<f64>,
@@ -78,6 +81,23 @@ pub struct ShiftFigure {
     /// Its share of what all axes yield.
     #[serde(serialize_with = "hundredths")]
     pub share: f64,
+}
+
+/// How far the cuts of an operation may be off while the edge comes into the material from rest, or leaves it from rest: nowhere on them
+/// more, whatever the masses and the damping of the arm are.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EntryFigure {
+    pub into_waste: SwingFigure,
+    pub into_part: SwingFigure,
+}
+
+/// The most that cuts are off to one side while the arm swings.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SwingFigure {
+    /// In mm.
+    #[serde(serialize_with = "tenths_of_um")]
+    pub most: f64,
+    pub at: PlaceFigure,
 }
 
 /// What the weight of the arm does to the flanks of the cuts.
@@ -151,6 +171,10 @@ impl DeviationFigures {
                 operation: operation.0,
                 into_waste: shift(known, extremes.into_waste, sag),
                 into_part: shift(known, extremes.into_part, sag),
+                at_entry: deviations.at_entry(operation).map(|extremes| EntryFigure {
+                    into_waste: swing(known, extremes.into_waste, sag),
+                    into_part: swing(known, extremes.into_part, sag),
+                }),
                 failed: failed(known, asked, operation),
                 limit: limit.map(Length::to_mm),
             })
@@ -203,8 +227,28 @@ impl DeviationFigures {
                 ),
             ));
         }
+        lines.extend(self.entry_line().map(|line| ("at entry", line)));
         lines.extend(self.gravity.map(|gravity| ("gravity", gravity.line())));
         lines
+    }
+
+    /// `up to 0.0103 mm into the waste (layer 1, cut 4), 0.0082 mm into the part (layer 1, cut 4), as the edge comes in and the arm swings`.
+    fn entry_line(&self) -> Option<String> {
+        let worst = |side: fn(&EntryFigure) -> &SwingFigure| {
+            let all = self.operations.iter().filter_map(|of| of.at_entry.as_ref());
+            all.map(side).max_by(|one, other| one.most.total_cmp(&other.most))
+        };
+        let (waste, part) = (
+            worst(|entry| &entry.into_waste)?,
+            worst(|entry| &entry.into_part)?,
+        );
+        Some(format!(
+            "up to {} into the waste ({}), {} into the part ({}), while the edge comes in from rest and the arm swings",
+            millimetres(waste.most),
+            waste.at.words,
+            millimetres(part.most),
+            part.at.words,
+        ))
     }
 }
 
@@ -253,6 +297,13 @@ fn shift(known: Known<'_>, extreme: Extreme, sag: Length) -> ShiftFigure {
             .get(axis)
             .map_or_else(String::new, |axis| axis.name.clone()),
         share,
+    }
+}
+
+fn swing(known: Known<'_>, extreme: Extreme, sag: Length) -> SwingFigure {
+    SwingFigure {
+        most: (extreme.most + sag).to_mm(),
+        at: place(known, extreme.op),
     }
 }
 

@@ -5,6 +5,7 @@ use super::*;
 use crate::chain::Chain;
 use crate::springs::Spring;
 use glam::DMat3;
+use nalgebra::{SMatrix, SVector};
 use proptest::prelude::*;
 use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
 use vcutc_backend_api::units::{EdgeForce, Speed};
@@ -326,5 +327,162 @@ proptest! {
             }
         }
         prop_assert!(bound.low <= shift && shift <= bound.high, "{shift} {bound:?}");
+    }
+}
+
+/// An arm in coordinates where all springs are 1, seen by how far two places of an edge are off.
+struct Swinging {
+    inverse_masses: SMatrix<f64, JOINTS, JOINTS>,
+    damping: SMatrix<f64, JOINTS, JOINTS>,
+    normals: [SVector<f64, JOINTS>; 2],
+}
+
+/// What a bit of an edge pushes with, and in which step that begins or ends.
+type Bit = (usize, SVector<f64, JOINTS>);
+
+/// The bits of an edge begin to push an arm at rest, or cease to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Bits {
+    ComeIn,
+    GoOut,
+}
+
+impl Swinging {
+    /// From where to where the edge gets, by Runge and Kutta.
+    fn range(&self, bits: &[Bit], how: Bits) -> [f64; 2] {
+        const STEP: f64 = 0.02;
+        let push = |step: usize| -> SVector<f64, JOINTS> {
+            let pushes = |when: usize| (when <= step) == (how == Bits::ComeIn);
+            let some = bits.iter().filter(|(when, _)| pushes(*when));
+            some.map(|(_, push)| *push).sum()
+        };
+        let mut place: SVector<f64, JOINTS> = match how {
+            Bits::ComeIn => SVector::zeros(),
+            Bits::GoOut => bits.iter().map(|(_, push)| *push).sum(),
+        };
+        let mut rate = SVector::zeros();
+        let mut range = [0.0_f64; 2];
+        for step in 0..2000 {
+            let push = push(step);
+            let slope = |place: SVector<f64, JOINTS>, rate: SVector<f64, JOINTS>| {
+                (rate, self.inverse_masses * (push - place - self.damping * rate))
+            };
+            let a = slope(place, rate);
+            let b = slope(place + a.0 * (STEP / 2.0), rate + a.1 * (STEP / 2.0));
+            let c = slope(place + b.0 * (STEP / 2.0), rate + b.1 * (STEP / 2.0));
+            let d = slope(place + c.0 * STEP, rate + c.1 * STEP);
+            place += (a.0 + (b.0 + c.0) * 2.0 + d.0) * (STEP / 6.0);
+            rate += (a.1 + (b.1 + c.1) * 2.0 + d.1) * (STEP / 6.0);
+            for normal in &self.normals {
+                let off = normal.dot(&place);
+                range = [range[0].min(off), range[1].max(off)];
+            }
+        }
+        range
+    }
+}
+
+fn scaled(torques: [f64; JOINTS], springs: [f64; JOINTS]) -> SVector<f64, JOINTS> {
+    SVector::from_fn(|axis, _| torques[axis] / libm::sqrt(springs[axis]))
+}
+
+/// `A A^T` of some entries: symmetric and without negative eigenvalues.
+fn square(entries: &[f64]) -> SMatrix<f64, JOINTS, JOINTS> {
+    let matrix = SMatrix::<f64, JOINTS, JOINTS>::from_column_slice(entries);
+    matrix * matrix.transpose()
+}
+
+#[test]
+fn an_arm_whose_modes_are_alike_swings_as_far_as_the_bound() {
+    let springs = IDENTIFIED[0];
+    let mut all = forces(0.0);
+    all.edge = Parts {
+        drag: EdgeForce::n_per_mm(0.0),
+        axial: EdgeForce::n_per_mm(0.0),
+        side: EdgeForce::n_per_mm(0.0),
+    };
+    all.tip.side = vcutc_backend_api::units::Force::n(10.0);
+    let joints = case(1.0, Elbow::Forward, 0.0).joints;
+    let tool = Pose {
+        rotation: DMat3::IDENTITY,
+        position: DVec3::new(0.0, 0.0, TOOL),
+    };
+    let blade_in_work = flank(1.0, Angle::deg(34.155), Angle::deg(60.0));
+    let Case {
+        chain, columns, push, ..
+    } = of_posture(joints, blade_in_work, tool, &all, DVec3::Y);
+    let torques = push.torques(&columns, push.side.direction, 0.0);
+    let swinging = Swinging {
+        inverse_masses: SMatrix::identity(),
+        damping: SMatrix::zeros(),
+        normals: push.normals(&columns).map(|normal| scaled(normal, springs)),
+    };
+    let [_, found] = swinging.range(&[(0, scaled(torques, springs) * 10.0)], Bits::ComeIn);
+    let along = chain.turns_along(joints.map(Along::constant));
+    let columns = chain.columns(&along, chain.in_hand(tool).position.to_array());
+    let [_, bound] = push.entering(&columns, &exact(springs));
+    let [_, at_rest] = push.shifts(&columns, &exact(springs));
+    assert!(
+        0.99 * bound.high < found && found <= bound.high * (1.0 + 1e-6),
+        "{found} {bound:?}"
+    );
+    assert!(found > 1.98 * at_rest.high, "{found} {at_rest:?}");
+}
+
+proptest! {
+    /// Whatever its masses and its damping are, and in whatever order the edge comes in from rest or leaves it from rest: no place of it
+    /// is off by more than the bounds.
+    #[test]
+    fn an_arm_that_swings_stays_within_the_bounds(
+        masses in prop::collection::vec(-0.5..0.5_f64, 36),
+        damping in prop::collection::vec(-0.3..0.3_f64, 36),
+        parts in prop::array::uniform3(-1.0..=1.0_f64),
+        soft in prop::array::uniform6(-1.0..=1.0_f64),
+        whens in prop::collection::vec(0..1000_usize, 8),
+        (tip, tip_when) in (-8.0..8.0_f64, 0..1000_usize),
+        (side, swing) in (prop::sample::select(vec![-1.0, 1.0]), 0.0..60.0_f64),
+        how in prop::sample::select(vec![Bits::ComeIn, Bits::GoOut]),
+        at_once in any::<bool>(),
+    ) {
+        let joints: Joints = [0.1, -1.3, 1.5, 0.4, 0.8, 0.2];
+        let tool = Pose { rotation: DMat3::IDENTITY, position: DVec3::new(0.0, 0.0, TOOL) };
+        let blade_in_work = flank(side, Angle::deg(swing), Angle::deg(60.0));
+        let mut all = forces(0.3);
+        // The tip may push the other way than the edge.
+        all.tip.drag = vcutc_backend_api::units::Force::n(tip);
+        let Case { chain, columns, push, .. } = of_posture(joints, blade_in_work, tool, &all, DVec3::Y);
+        let springs = Springs::from(&vcutc_machine::elasticity::Elasticity {
+            stiffness: IDENTIFIED[0],
+            spread: [0.2; 6],
+            backing: vcutc_machine::masses::Backing::Example,
+            sources: Vec::new(),
+        });
+        let along = chain.turns_along(joints.map(Along::constant));
+        let enclosed = chain.columns(&along, chain.in_hand(tool).position.to_array());
+        let [_, bound] = push.entering(&enclosed, &springs);
+
+        let stiffness = core::array::from_fn(|axis| IDENTIFIED[0][axis] * (1.0 + 0.2 * soft[axis]));
+        let total = |amount: fn(&Force) -> Amount, up: f64| {
+            let each = push.forces().into_iter().zip(parts);
+            let each = each.map(|(force, part)| {
+                let amount = amount(force);
+                scaled(push.torques(&columns, force.direction, up), stiffness) * (amount.centre + amount.off * part)
+            });
+            each.sum::<SVector<f64, JOINTS>>()
+        };
+        let count = 8.0;
+        let mut bits: Vec<Bit> = (0..8_u8).zip(&whens).map(|(place, when)| {
+            let up = (f64::from(place) + 0.5) / count * push.edge;
+            (if at_once { 0 } else { *when }, total(|force| force.edge, up) / count)
+        }).collect();
+        bits.push((if at_once { 0 } else { tip_when }, total(|force| force.tip, 0.0)));
+        let swinging = Swinging {
+            inverse_masses: (square(&masses) + SMatrix::identity() * 0.05).try_inverse().unwrap(),
+            damping: square(&damping),
+            normals: push.normals(&columns).map(|normal| scaled(normal, stiffness)),
+        };
+        let [low, high] = swinging.range(&bits, how);
+        let within = 1e-6 * bound.magnitude();
+        prop_assert!(bound.low - within <= low && high <= bound.high + within, "{low} {high} {bound:?}");
     }
 }

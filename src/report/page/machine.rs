@@ -5,7 +5,7 @@ use super::{Section, Subject};
 use crate::html::{Column, Html, near, table, terms};
 use crate::pictures;
 use vcutc_diagnostics::number::{rounded, show};
-use vcutc_dynamics::deviation::figures::{DeviationFigures, ShiftFigure, millimetres};
+use vcutc_dynamics::deviation::figures::{DeviationFigures, ShiftFigure, SwingFigure, millimetres};
 use vcutc_dynamics::figures::{TorqueFigures, percent};
 use vcutc_dynamics::modes::figures::ModeFigures;
 use vcutc_motion::summary::{self as reach_summary, AxisFigure, ReachFigures, SingularFigure, margin_words};
@@ -143,7 +143,12 @@ fn deviations(figures: &DeviationFigures) -> Html {
         Column::Numbers("into the part"),
         Column::Words("at"),
         Column::Numbers("limit"),
+        Column::Numbers("at entry, into the waste"),
+        Column::Numbers("at entry, into the part"),
     ];
+    let swing = |entry: Option<&SwingFigure>| {
+        Html::text(&entry.map_or_else(|| "unknown".to_owned(), |entry| millimetres(entry.most)))
+    };
     let most = |shift: &ShiftFigure| Html::text(&millimetres(shift.most));
     let place = |shift: &ShiftFigure| Html::text(&shift.words());
     let rows = figures.operations.iter().map(|of| {
@@ -157,10 +162,14 @@ fn deviations(figures: &DeviationFigures) -> Html {
                 || Html::text("none"),
                 |limit| Html::text(&format!("{} mm", show(limit))),
             ),
+            swing(of.at_entry.as_ref().map(|entry| &entry.into_waste)),
+            swing(of.at_entry.as_ref().map(|entry| &entry.into_part)),
         ]
     });
     let lines = figures.lines();
-    let others = lines.iter().filter(|(name, _)| *name != "deviation");
+    let others = lines
+        .iter()
+        .filter(|(name, _)| !["deviation", "at entry"].contains(name));
     let words: Vec<String> = others.map(|(name, text)| format!("{name}: {text}")).collect();
     let caption = format!(
         "Deviation of the flanks by the forces of the blade, at most; stiffness {}. {}",
