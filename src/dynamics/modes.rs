@@ -74,6 +74,18 @@ impl Arm {
     }
 }
 
+impl Mode {
+    /// The axis whose spring yields most, and its share of the energy.
+    pub(crate) fn softest(&self, springs: &Springs) -> (usize, f64) {
+        let each = self.swings.iter().zip(springs.each());
+        let mut energies = [0.0; JOINTS];
+        for (energy, (swing, spring)) in energies.iter_mut().zip(each) {
+            *energy = swing * swing / spring.stated;
+        }
+        Springs::softest(energies)
+    }
+}
+
 /// Of a swing and its reverse the one whose largest part is positive.
 fn one_way(swings: [f64; JOINTS]) -> [f64; JOINTS] {
     let larger = |most: f64, next: f64| if next.abs() > most.abs() { next } else { most };

@@ -24,8 +24,8 @@ fn job(sheet: String, forces: &str) -> Files {
         .with("arm.toml", sheet)
 }
 
-/// The frequency of the slowest mode in Hz: what `K^-1 M` makes of a vector again and again grows by the largest `1 / w^2`.
-fn slowest(arm: &Arm, joints: &Joints) -> f64 {
+/// The frequency of the slowest mode in Hz, and the share of each axis of its energy: what `K^-1 M` makes of a vector again and again grows by the largest `1 / w^2`.
+fn slowest(arm: &Arm, joints: &Joints) -> (f64, [f64; 6]) {
     let masses = arm.mass_matrix(joints);
     let mut swings = [1.0, 0.9, -0.8, 0.7, 0.6, 0.5];
     let mut growth = 0.0;
@@ -37,7 +37,10 @@ fn slowest(arm: &Arm, joints: &Joints) -> f64 {
         growth = next.iter().map(|swing| swing * swing).sum::<f64>().sqrt();
         swings = next.map(|swing| swing / growth);
     }
-    1.0 / (std::f64::consts::TAU * growth.sqrt())
+    let energies: [f64; 6] = std::array::from_fn(|axis| STIFFNESS[axis] * swings[axis] * swings[axis]);
+    let whole: f64 = energies.iter().sum();
+    let shares = energies.map(|energy| energy / whole);
+    (1.0 / (std::f64::consts::TAU * growth.sqrt()), shares)
 }
 
 #[test]
@@ -55,18 +58,22 @@ fn the_slowest_mode_is_that_of_repeated_multiplication() {
     };
     let arm = Arm::of(model, Some(load)).unwrap();
     let mut range = [f64::MAX, f64::MIN];
+    let mut shares = [0.0; 6];
     for segment in program.segments() {
         if let Action::Cut { .. } = segment.op.action {
             for joints in [
                 reached.program.axes_before(segment.id),
                 reached.program.axes_after(segment.id),
             ] {
-                let here = slowest(&arm, &joints.unwrap().0);
+                let (here, shares_here) = slowest(&arm, &joints.unwrap().0);
+                if here < range[0] {
+                    shares = shares_here;
+                }
                 range = [range[0].min(here), range[1].max(here)];
             }
         }
     }
-    let found = figures.modes[0];
+    let found = &figures.modes[0];
     assert!(
         found.lowest <= range[0] + 1e-6 && range[1] <= found.highest + 1e-6,
         "{found:?} {range:?}"
@@ -77,6 +84,16 @@ fn the_slowest_mode_is_that_of_repeated_multiplication() {
         "{found:?} {range:?}"
     );
     assert!(range[1] > 1.05 * range[0], "{range:?}");
+    let axis = model
+        .axes
+        .iter()
+        .position(|axis| axis.name == found.axis)
+        .unwrap();
+    let most = shares.into_iter().fold(0.0, f64::max);
+    assert!(
+        shares[axis] == most && (most - found.share).abs() < 0.05,
+        "{found:?} {shares:?}"
+    );
     let line = compiled
         .summary
         .iter()

@@ -1,18 +1,21 @@
 //! The modes of an arm over the cuts of a program, for people and for programs.
 
+use super::Mode;
 use crate::arms::Arms;
 use crate::chain::JOINTS;
+use crate::condition::hundredths;
 use crate::cuts::{Known, cutting};
 use crate::figures::word;
 use crate::springs::Springs;
 use serde::{Serialize, Serializer};
 use vcutc_diagnostics::number::{rounded, show};
+use vcutc_machine::Model;
 use vcutc_machine::masses::{Backing, Kind};
 use vcutc_motion::parts::Motions;
 use vcutc_motion::path::Part;
 
 /// Where modes are looked at on each cut: at its beginning, in its middle and at its end.
-pub(crate) const SAMPLES: [Part; 3] = [at(0.0), at(0.5), at(1.0)];
+const SAMPLES: [Part; 3] = [at(0.0), at(0.5), at(1.0)];
 
 const fn at(middle: f64) -> Part {
     Part { middle, half: 0.0 }
@@ -34,13 +37,43 @@ pub struct ModeFigures {
     pub stiffness: Backing,
 }
 
-/// The frequencies of a mode, in Hz.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+/// A mode over the cuts.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ModeFigure {
+    /// Its lowest frequency, in Hz.
     #[serde(serialize_with = "thousandths")]
     pub lowest: f64,
+    /// Its highest, in Hz.
     #[serde(serialize_with = "thousandths")]
     pub highest: f64,
+    /// The axis whose joint yields most where the mode is slowest.
+    pub axis: String,
+    /// Its share of the energy in all joints.
+    #[serde(serialize_with = "hundredths")]
+    pub share: f64,
+}
+
+/// What is found of a mode.
+#[derive(Clone, Copy)]
+struct Range {
+    slowest: Mode,
+    highest: f64,
+}
+
+impl Range {
+    const fn of(mode: Mode) -> Self {
+        Self {
+            slowest: mode,
+            highest: mode.frequency,
+        }
+    }
+
+    fn extend(&mut self, mode: Mode) {
+        if mode.frequency < self.slowest.frequency {
+            self.slowest = mode;
+        }
+        self.highest = self.highest.max(mode.frequency);
+    }
 }
 
 fn thousandths<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
@@ -59,7 +92,7 @@ impl ModeFigures {
         }
         let springs = Springs::from(elasticity);
         let motions = Motions::of(known.reached, known.rigs);
-        let mut found: Option<[ModeFigure; JOINTS]> = None;
+        let mut found: Option<[Range; JOINTS]> = None;
         let program = known.reached.program();
         for segment in program.segments() {
             if cutting(&segment).is_none() {
@@ -71,25 +104,24 @@ impl ModeFigures {
             };
             for sample in SAMPLES {
                 let joints = moving.axes_on(sample)?.map(|axis| axis.middle().middle());
-                let here = arm.modes(&joints, &springs)?.map(|mode| mode.frequency);
-                let figures = found.get_or_insert(here.map(|frequency| ModeFigure {
-                    lowest: frequency,
-                    highest: frequency,
-                }));
-                for (figure, frequency) in figures.iter_mut().zip(here) {
-                    figure.lowest = figure.lowest.min(frequency);
-                    figure.highest = figure.highest.max(frequency);
+                let here = arm.modes(&joints, &springs)?;
+                let ranges = found.get_or_insert(here.map(Range::of));
+                for (range, mode) in ranges.iter_mut().zip(here) {
+                    range.extend(mode);
                 }
             }
         }
         Some(Self {
-            modes: found?.to_vec(),
+            modes: found?
+                .iter()
+                .map(|range| figure(range, known.model, &springs))
+                .collect(),
             masses: masses.backing,
             stiffness: elasticity.backing,
         })
     }
 
-    /// `7.7 to 9.9 Hz, 10.3 to 11.8 Hz and 20.2 to 25.4 Hz over the cuts, at samples; masses published, stiffness measured`.
+    /// `the slowest at 7.7 to 9.9 Hz, 10.3 to 11.8 Hz, 20.2 to 25.4 Hz over the cuts, at samples; masses published, stiffness measured`.
     #[must_use]
     pub fn line(&self) -> String {
         let slowest: Vec<String> = self.modes.iter().take(STATED).map(ModeFigure::words).collect();
@@ -108,6 +140,17 @@ impl ModeFigures {
             self.masses.word(),
             self.stiffness.word()
         )
+    }
+}
+
+fn figure(range: &Range, model: &Model, springs: &Springs) -> ModeFigure {
+    let (axis, share) = range.slowest.softest(springs);
+    let axis = model.axes.get(axis);
+    ModeFigure {
+        lowest: range.slowest.frequency,
+        highest: range.highest,
+        axis: axis.map_or_else(String::new, |axis| axis.name.clone()),
+        share,
     }
 }
 

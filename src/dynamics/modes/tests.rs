@@ -139,7 +139,10 @@ fn one_soft_spring_swings_what_hangs_on_it() {
     let arm = Arm::new(&Mechanism::OrthoParallel(kr210()), bodies, None, DVec3::Z).unwrap();
     let mut stiffness = [1e9; JOINTS];
     stiffness[0] = 1e5;
-    let [slowest, ..] = arm.modes(&[0.0; JOINTS], &springs(stiffness)).unwrap();
+    let springs = springs(stiffness);
+    let [slowest, ..] = arm.modes(&[0.0; JOINTS], &springs).unwrap();
+    let (axis, share) = slowest.softest(&springs);
+    assert!(axis == 0 && share > 0.999 && share <= 1.0, "{axis} {share}");
     let wanted = libm::sqrt(1e5 / (50.0 * 4.0 + 6.0)) / TAU;
     assert!(
         (slowest.frequency / wanted - 1.0).abs() < 1e-3,

@@ -185,6 +185,7 @@ fn modes(figures: &ModeFigures) -> Html {
         Column::Words("Mode"),
         Column::Numbers("lowest"),
         Column::Numbers("highest"),
+        Column::Words("most by"),
     ];
     let hertz = |frequency: f64| Html::text(&format!("{:.1} Hz", rounded(frequency, 10.0)));
     let rows = (1..).zip(&figures.modes).map(|(number, mode): (u8, _)| {
@@ -192,6 +193,11 @@ fn modes(figures: &ModeFigures) -> Html {
             Html::text(&number.to_string()),
             hertz(mode.lowest),
             hertz(mode.highest),
+            Html::text(&format!(
+                "{}, {:.0} % of the energy where it is slowest",
+                mode.axis,
+                100.0 * mode.share
+            )),
         ]
     });
     let caption = format!(
