@@ -127,7 +127,7 @@ fn without(what: What, material: &Material<'_>) -> Failure {
             None => without_machine(),
         },
         What::DeviationByForces => Failure::new(
-            "how far the forces of the blade push it off is not known, or the job has no profile",
+            "how far the forces of the blade push the cuts off is not known, or the job has no profile",
         )
         .help(
             "state `forces { ... }` in the blade, and take an arm whose stiffness is known (docs/reach.md)",

@@ -51,33 +51,21 @@ fn found(job: &CheckedJob, machine: &Machine, reached: &Reached, edges: &[UsedEd
         deviation: Err(deviation::Unknown::ClosedForm),
         modes: None,
     };
-    let found = carrying(machine, reached, edges, |known, arms| {
-        let forces = forces(job);
-        let cuts = (!forces.is_empty()).then(|| Cuts::of(known, &forces));
-        let pushing = match &cuts {
-            Some(Some(cuts)) => Pushing::By(cuts),
-            Some(None) | None => Pushing::NotKnown,
-        };
-        Found {
-            torques: torques(machine, known, arms, pushing),
-            modes: arms.ok().and_then(|arms| ModeFigures::of(known, arms)),
-            deviation: match &cuts {
-                None => Err(deviation::Unknown::Forces),
-                Some(None) => Err(deviation::Unknown::ClosedForm),
-                Some(Some(cuts)) => {
-                    let limits = job.operations.iter();
-                    let limits: Vec<_> = limits
-                        .map(|operation| operation.deviation_limit().map(|limit| limit.value))
-                        .collect();
-                    let asked = Asked {
-                        forces: &forces,
-                        limits: &limits,
-                        gravity: machine.gravity.map(|gravity| gravity.value),
-                    };
-                    DeviationFigures::of(cuts, arms.ok(), asked)
-                }
-            },
-        }
+    let found = cutting(job, machine, reached, edges, |known, arms, cuts| Found {
+        torques: torques(machine, known, arms, pushing(cuts)),
+        modes: arms.ok().and_then(|arms| ModeFigures::of(known, arms)),
+        deviation: cuts.and_then(|cuts| {
+            let limits = job.operations.iter();
+            let limits: Vec<_> = limits
+                .map(|operation| operation.deviation_limit().map(|limit| limit.value))
+                .collect();
+            let asked = Asked {
+                forces: &forces(job),
+                limits: &limits,
+                gravity: machine.gravity.map(|gravity| gravity.value),
+            };
+            DeviationFigures::of(cuts, arms.ok(), asked)
+        }),
     });
     found.unwrap_or(nothing)
 }
@@ -102,6 +90,30 @@ fn carrying<T>(
     Some(work(known, arms.as_ref().map_err(|why| *why)))
 }
 
+/// The same with the cuts of a job by blades whose forces are known, or why there are none.
+fn cutting<T>(
+    job: &CheckedJob,
+    machine: &Machine,
+    reached: &Reached,
+    edges: &[UsedEdge],
+    work: impl FnOnce(Known<'_>, Result<&Arms, Unknown>, Result<&Cuts<'_>, deviation::Unknown>) -> T,
+) -> Option<T> {
+    let forces = forces(job);
+    carrying(machine, reached, edges, |known, arms| {
+        let cuts = if forces.is_empty() {
+            Err(deviation::Unknown::Forces)
+        } else {
+            Cuts::of(known, &forces).ok_or(deviation::Unknown::ClosedForm)
+        };
+        work(known, arms, cuts.as_ref().map_err(|why| *why))
+    })
+}
+
+/// What pushes the blades of these cuts.
+fn pushing<'c>(cuts: Result<&'c Cuts<'c>, deviation::Unknown>) -> Pushing<'c> {
+    cuts.map_or(Pushing::NotKnown, Pushing::By)
+}
+
 /// What comes of the places along a program, whose cuts use so much edge. None where the torques of its machine are not known.
 #[must_use]
 pub fn in_places<T>(
@@ -110,10 +122,8 @@ pub fn in_places<T>(
     edges: &[UsedEdge],
     work: impl FnOnce(&Places<'_>) -> T,
 ) -> Option<T> {
-    carrying(job.machine.as_ref()?, reached, edges, |known, arms| {
-        let forces = forces(job);
-        let cuts = (!forces.is_empty()).then(|| Cuts::of(known, &forces)).flatten();
-        Some(work(&Places::of(known, arms.ok()?, cuts.as_ref())))
+    cutting(job, job.machine.as_ref()?, reached, edges, |known, arms, cuts| {
+        Some(work(&Places::of(known, arms.ok()?, cuts.ok())))
     })?
 }
 
@@ -122,9 +132,8 @@ pub fn in_places<T>(
 pub fn cut_by_cut(job: &CheckedJob, compiled: &Compiled) -> Option<Vec<CutDeviation>> {
     let figures = compiled.dynamics.deviation.as_ref()?;
     let (machine, reached) = carried(job, compiled)?;
-    carrying(machine, reached, &compiled.report.edges, |known, arms| {
-        let cuts = Cuts::of(known, &forces(job))?;
-        figures.each(&Deviations::of(&cuts, arms.ok())?)
+    cutting(job, machine, reached, &compiled.report.edges, |_, arms, cuts| {
+        figures.each(&Deviations::of(cuts.ok()?, arms.ok())?)
     })?
 }
 
@@ -292,9 +301,11 @@ fn relieving(job: &CheckedJob, wanted: &Wanted) -> Option<(vcutc_remedy::Change,
         let change = base_nearer(job, by)?;
         let (_, there) = compile_checked(&change.job, wanted)?;
         let (machine, reached) = carried(&change.job, &there)?;
-        let figures = found(&change.job, machine, reached, &there.report.edges)
-            .torques
-            .ok()?;
+        let edges = &there.report.edges;
+        let figures = cutting(&change.job, machine, reached, edges, |known, arms, cuts| {
+            torques(machine, known, arms, pushing(cuts))
+        });
+        let figures = figures?.ok()?;
         is_within_limits(&figures).then_some((change, figures))
     })
 }

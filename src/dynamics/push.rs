@@ -363,13 +363,11 @@ struct By {
 /// What parts come to when each is at one of its ends.
 fn corners(parts: [Interval; 3]) -> impl Iterator<Item = [f64; 3]> {
     (0..8_u32).map(move |corner| {
-        let mut place = 0;
-        parts.map(|part| {
-            place += 1;
-            if corner >> (place - 1) & 1 == 0 {
-                part.low
+        core::array::from_fn(|place| {
+            if corner >> place & 1 == 0 {
+                parts[place].low
             } else {
-                part.high
+                parts[place].high
             }
         })
     })

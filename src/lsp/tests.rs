@@ -96,20 +96,15 @@ fn of_field(field: &FieldSpec) -> Vec<(String, Vec<String>)> {
         }
         Takes::Calls(calls) => {
             for (call, example) in calls {
-                let labels = vocabulary::labels(call).into_iter();
-                let labels = labels.map(|(label, typical)| (format!("{label} = "), typical));
-                let (labels, whole) = labels.fold(
-                    (Vec::new(), (*example).to_owned()),
-                    |(mut labels, mut whole): (Vec<String>, String), (label, typical)| {
-                        // What a call may leave out is not in its example.
-                        if !whole.contains(&label) {
-                            whole.insert_str(whole.len() - 1, &format!(", {label}{typical}"));
-                        }
-                        labels.push(label);
-                        (labels, whole)
-                    },
-                );
-                let words = [format!("= {call}(")].into_iter().chain(labels).collect();
+                let (mut words, mut whole) = (vec![format!("= {call}(")], (*example).to_owned());
+                for (label, typical) in vocabulary::labels(call) {
+                    let lead = format!("{label} = ");
+                    // What a call may leave out is not in its example.
+                    if !whole.contains(&lead) {
+                        whole = format!("{}, {lead}{typical})", whole.trim_end_matches(')'));
+                    }
+                    words.push(lead);
+                }
                 all.push((format!("{name} = {whole}"), words));
             }
         }

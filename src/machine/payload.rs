@@ -213,7 +213,7 @@ mod tests {
 
     #[test]
     fn a_centre_aside_is_too_much_for_axis_6() {
-        // 2 kg, 220 mm aside and 72 mm behind the flange: 0.0968 kg m2 about both axes.
+        // 2 kg, 220 mm aside, in the plane of the wrist centre: 0.0968 kg m2 about both axes.
         let turned = turned(&load(2.0, [132.0, 176.0, -72.0], None));
         assert_eq!((turned.axis, turned.from_axis), (6, 220.0));
         assert!((turned.inertia - 0.0968).abs() < 1e-12);

@@ -2,7 +2,7 @@
 
 use super::Setting;
 use super::chart::{Chart, Plot, Series, Shape};
-use super::palette::{BLUE, GREEN, ORANGE, VERMILION};
+use super::palette::{BLUE, GREEN, ORANGE, job_limit};
 use super::sheet::Room;
 use super::svg::{Along, Mark};
 
@@ -103,9 +103,7 @@ impl Unit {
             }
         }
     }
-}
 
-impl Unit {
     /// A value, upward.
     fn words(self, value: f64) -> String {
         decimal((value * self.parts - 1e-7).ceil() / self.parts)
@@ -194,7 +192,7 @@ fn series(shown: &ByForces<'_>, unit: Unit, room: Room) -> Vec<Series> {
     });
     let mut series: Vec<Series> = bars.collect();
     series.push(Series::new(Shape::Level(0.0), "fill=\"none\" stroke=\"#2b2a27\""));
-    let line = format!("fill=\"none\" stroke=\"{VERMILION}\" stroke-width=\"2\" stroke-dasharray=\"9 4\"");
+    let line = job_limit();
     for limit in shown.near_limits() {
         let level = |value: f64| Series::new(Shape::Level(unit.per_mm * value), line.as_str());
         series.push(level(-limit));

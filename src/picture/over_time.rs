@@ -176,7 +176,7 @@ impl<'a> Panels<'a> {
         svg.text([self.room.left - 10.0, top + 20.0], Anchor::End, "", "layer");
     }
 
-    /// The words above a panel, and behind them what there is to warn of. A telephone has no room for that.
+    /// The words above a panel, then what there is to warn of. A telephone has no room for the warning.
     pub(super) fn headline(&self, svg: &mut Svg, words: &str, warning: &str, top: f64) {
         let at = [self.room.left - BEFORE, top + 20.0];
         svg.text(at, Anchor::Start, "", words);

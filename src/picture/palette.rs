@@ -83,6 +83,11 @@ pub fn dark(within: &str) -> String {
     PARTNERS.into_iter().map(rule).collect()
 }
 
+/// The line of a limit that the job sets.
+pub(super) fn job_limit() -> String {
+    format!("fill=\"none\" stroke=\"{VERMILION}\" stroke-width=\"2\" stroke-dasharray=\"9 4\"")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

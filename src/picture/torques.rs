@@ -3,7 +3,7 @@
 
 use super::chart::{self, BELOW, FRAME, Plot, Series, Shape, TICK};
 use super::over_time::{BEYOND, CURVE, Course, EDGED, HEAD, Panels, USED, extremes};
-use super::palette::VERMILION;
+use super::palette::{VERMILION, job_limit};
 use super::sheet::{self, Entry};
 use super::svg::{Along, Mark, Svg};
 use super::trace::number;
@@ -97,7 +97,7 @@ fn legend(torques: &Torques<'_>) -> Vec<Entry> {
     }
     if let Some(allowed) = torques.allowed.filter(|allowed| beyond(*allowed)) {
         legend.push(Entry::line(
-            allowed_line(),
+            job_limit(),
             format!("allowed, {} %", number(100.0 * allowed)),
         ));
     }
@@ -114,10 +114,6 @@ fn any_beyond(axes: &[Axis], share: f64) -> bool {
         axis.limit
             .is_some_and(|_| low <= -100.0 * share || high >= 100.0 * share)
     })
-}
-
-fn allowed_line() -> String {
-    format!("fill=\"none\" stroke=\"{VERMILION}\" stroke-width=\"2\" stroke-dasharray=\"9 4\"")
 }
 
 impl Axis {
@@ -250,7 +246,7 @@ impl Picture<'_> {
         let boxes = beyond.map(|[from, to]| [0.0, seconds, from, to]).collect();
         plot.draw(svg, &Series::new(Shape::Boxes(boxes), BEYOND));
         let allowed = self.torques.allowed.map(|share| 100.0 * share);
-        let each = allowed.into_iter().map(|level| (level, allowed_line()));
+        let each = allowed.into_iter().map(|level| (level, job_limit()));
         let limit = format!("fill=\"none\" stroke=\"{VERMILION}\" stroke-width=\"1.5\"");
         let mut lines = Vec::new();
         for (level, paint) in each.chain([(100.0, limit)]) {

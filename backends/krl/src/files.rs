@@ -149,9 +149,7 @@ impl KrlDialect<'_, '_, '_> {
         self.text.trimmed(load.mass.to_kg())?;
         self.text.put(b",CM {");
         self.point(load.centre)?;
-        let Some(Inertia { x, y, z }) = load.inertia else {
-            return Ok(self.text.line(",A 0.0,B 0.0,C 0.0},J {X 0.0,Y 0.0,Z 0.0}}")?);
-        };
+        let Inertia { x, y, z } = load.inertia.unwrap_or(Inertia::POINT);
         self.text.put(b",A 0.0,B 0.0,C 0.0},J {");
         for (name, moment) in [("X ", x), (",Y ", y), (",Z ", z)] {
             self.text.put(name.as_bytes());

@@ -17,7 +17,7 @@ pub(super) struct Clock {
     starts: Vec<f64>,
     /// How long each takes.
     lengths: Vec<f64>,
-    /// How long each takes at its programmed speeds; none for what is no motion along a line.
+    /// How long each takes at its programmed speeds; none where the tip follows no line or arc.
     programmed: Vec<Option<f64>>,
     total: f64,
     kinds: [&'static str; Kind::ALL.len()],
@@ -72,7 +72,7 @@ impl Clock {
         self.total
     }
 
-    /// How long an op takes at its programmed speed; none for what is no motion along a line.
+    /// How long an op takes at its programmed speed; none where the tip follows no line or arc.
     pub(super) fn programmed(&self, op: OpId) -> Option<f64> {
         self.programmed.get(op.0 as usize).copied().flatten()
     }

@@ -255,9 +255,10 @@ fn is_load(value: &Value<'_>, should: &Registered<Load>, settings: &Settings<'_>
 }
 
 fn has_inertia(is: &Coordinates, should: Inertia) -> bool {
-    let moments = is.all(Component::TIP).into_iter().flatten();
-    let mut pairs = moments.zip(should.to_array()).peekable();
-    pairs.peek().is_some() && pairs.all(|(is, should)| TRIMMED.is_near(is, should))
+    is.all(Component::TIP).is_some_and(|is| {
+        let mut pairs = is.into_iter().zip(should.to_array());
+        pairs.all(|(is, should)| TRIMMED.is_near(is, should))
+    })
 }
 
 fn is_centre(is: &Coordinates, should: &Load, lengths: FixedDecimal) -> bool {
