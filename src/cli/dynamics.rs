@@ -17,16 +17,16 @@ use vcutc_job::CheckedJob;
 use vcutc_machine::Model;
 use vcutc_motion::solve::Reached;
 use vcutc_motion::trajectory::Spacing;
-use vcutc_simulation::prove::UsedEdge;
+use vcutc_simulation::report::Report;
 
 /// Writes the rows of a machine whose torques are known, one after the other.
 pub(super) fn write(
     job: &CheckedJob,
     reached: &Reached,
-    edges: &[UsedEdge],
+    report: &Report,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    in_places(job, reached, edges, |places| table(places, out)).unwrap_or(Ok(()))
+    in_places(job, reached, report, |places| table(places, out)).unwrap_or(Ok(()))
 }
 
 fn table(places: &Places<'_>, out: &mut dyn Write) -> io::Result<()> {

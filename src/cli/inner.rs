@@ -53,7 +53,7 @@ pub(super) fn write(
         InnerForm::Dynamics => match (&outcome.job, &outcome.compiled) {
             (Some(job), Some(compiled)) => match (compiled.program.reached(), &compiled.dynamics.torques) {
                 (Some(reached), Some(_)) => file(sink, &name, |out| {
-                    dynamics::write(job, reached, &compiled.report.edges, out)
+                    dynamics::write(job, reached, &compiled.report, out)
                 }),
                 (Some(_), None) => Ok(Progressed::WithoutMasses),
                 (None, _) => Ok(Progressed::WithoutMachine),

@@ -234,6 +234,8 @@ codes! {
     ForcesElsewhere = "VC0536", Warning, "forces measured under other conditions";
     /// A load that the machine may not carry.
     LoadTooMuch = "VC0537", Error, "load that is too much for the machine";
+    /// Tips that cannot be set off against forces.
+    NotCompensated = "VC0538", Error, "cuts that cannot be compensated for forces";
 
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "target that needs a machine";

@@ -57,6 +57,8 @@ pub enum Check {
     Torques,
     /// How far the forces of the blade push cuts off is bounded, and no more than the limit where one is set.
     Deviation,
+    /// Cuts whose tips are set off against forces stay out of the part where nothing pushes the blade.
+    Unloaded,
     /// The time of the program counts speeding up and slowing down.
     Accelerations,
     /// Shank and holder of the blade stay out of the work: of these blades, of all where none is named.
@@ -199,6 +201,9 @@ impl Checks {
         if !report.slit.is_empty() {
             all.push(made(Check::Walls));
         }
+        if report.compensations.iter().any(Option::is_some) {
+            all.push(made(Check::Unloaded));
+        }
         Self::after(all, carried, basis, holder)
     }
 
@@ -303,6 +308,7 @@ impl Checks {
                 | Check::AboveStock
                 | Check::Torques
                 | Check::Deviation
+                | Check::Unloaded
                 | Check::Accelerations
                 | Check::Holder(_)
                 | Check::Collisions

@@ -3,14 +3,17 @@
 use crate::summary::row;
 use crate::{Compiled, Run, compile_checked};
 use std::collections::BTreeMap;
+use vcutc_backend_api::ir::OperationId;
+use vcutc_backend_api::units::Length;
 use vcutc_cancellation::Wanted;
-use vcutc_diagnostics::source::SourceMap;
+use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_diagnostics::{Diagnostic, Severity};
 use vcutc_dynamics::arms::{Arms, Unknown};
 use vcutc_dynamics::cuts::{Cuts, Known};
 use vcutc_dynamics::deviation::Deviations;
 use vcutc_dynamics::deviation::each::CutDeviation;
-use vcutc_dynamics::deviation::figures::{Asked, DeviationFigures};
+use vcutc_dynamics::deviation::figures::{Asked, DeviationFigures, millimetres};
+use vcutc_dynamics::deviation::verdict::Needs;
 use vcutc_dynamics::deviation::{self, verdict};
 use vcutc_dynamics::figures::{Pushing, TorqueFigures};
 use vcutc_dynamics::modes::figures::ModeFigures;
@@ -21,7 +24,8 @@ use vcutc_job::{CheckedJob, Machine};
 use vcutc_motion::rigs::Rigs;
 use vcutc_motion::solve::Reached;
 use vcutc_remedy::base_nearer;
-use vcutc_simulation::prove::UsedEdge;
+use vcutc_simulation::prove::Compensation;
+use vcutc_simulation::report::Report;
 
 /// How far the base is moved towards the arm where a drive is too weak, in mm.
 const NEARER: [f64; 8] = [50.0, 100.0, 150.0, 200.0, 300.0, 400.0, 500.0, 700.0];
@@ -45,13 +49,13 @@ struct Found {
 }
 
 /// The torques of a program, and how far forces push its cuts off.
-fn found(job: &CheckedJob, machine: &Machine, reached: &Reached, edges: &[UsedEdge]) -> Found {
+fn found(job: &CheckedJob, machine: &Machine, reached: &Reached, report: &Report) -> Found {
     let nothing = Found {
         torques: Err(Unknown::Masses),
         deviation: Err(deviation::Unknown::ClosedForm),
         modes: None,
     };
-    let found = cutting(job, machine, reached, edges, |known, arms, cuts| Found {
+    let found = cutting(job, machine, reached, report, |known, arms, cuts| Found {
         torques: torques(machine, known, arms, pushing(cuts)),
         modes: arms.ok().and_then(|arms| ModeFigures::of(known, arms)),
         deviation: cuts.and_then(|cuts| {
@@ -70,11 +74,11 @@ fn found(job: &CheckedJob, machine: &Machine, reached: &Reached, edges: &[UsedEd
     found.unwrap_or(nothing)
 }
 
-/// What comes of a program and of the arm with each of its blades; none of a program without a cell.
+/// What comes of a program and of the arm with each of its blades; none of a program without a cell. An air cut has no report of cuts.
 fn carrying<T>(
     machine: &Machine,
     reached: &Reached,
-    edges: &[UsedEdge],
+    report: Option<&Report>,
     work: impl FnOnce(Known<'_>, Result<&Arms, Unknown>) -> T,
 ) -> Option<T> {
     let program = reached.program.program();
@@ -84,7 +88,8 @@ fn carrying<T>(
         model: &machine.model,
         reached: &reached.program,
         rigs: &rigs,
-        edges,
+        edges: report.map_or(&[], |report| &report.edges),
+        compensations: report.map_or(&[], |report| &report.compensations),
     };
     let arms = Arms::of(&machine.model, cell);
     Some(work(known, arms.as_ref().map_err(|why| *why)))
@@ -95,11 +100,11 @@ fn cutting<T>(
     job: &CheckedJob,
     machine: &Machine,
     reached: &Reached,
-    edges: &[UsedEdge],
+    report: &Report,
     work: impl FnOnce(Known<'_>, Result<&Arms, Unknown>, Result<&Cuts<'_>, deviation::Unknown>) -> T,
 ) -> Option<T> {
     let forces = forces(job);
-    carrying(machine, reached, edges, |known, arms| {
+    carrying(machine, reached, Some(report), |known, arms| {
         let cuts = if forces.is_empty() {
             Err(deviation::Unknown::Forces)
         } else {
@@ -109,22 +114,44 @@ fn cutting<T>(
     })
 }
 
+/// Offsets of the tips of an operation that take out what its flanks yield.
+///
+/// # Errors
+/// Why they are not known.
+pub(crate) fn compensation(
+    job: &CheckedJob,
+    machine: &Machine,
+    reached: &Reached,
+    report: &Report,
+    operation: OperationId,
+) -> Result<Compensation, deviation::Unknown> {
+    let found = cutting(job, machine, reached, report, |_, arms, cuts| {
+        let deviations = Deviations::of(cuts?, arms.ok()).ok_or(deviation::Unknown::Elasticity)?;
+        deviations.compensation(operation)
+    });
+    found.unwrap_or(Err(deviation::Unknown::ClosedForm))
+}
+
 /// What pushes the blades of these cuts.
 fn pushing<'c>(cuts: Result<&'c Cuts<'c>, deviation::Unknown>) -> Pushing<'c> {
     cuts.map_or(Pushing::NotKnown, Pushing::By)
 }
 
-/// What comes of the places along a program, whose cuts use so much edge. None where the torques of its machine are not known.
+/// What comes of the places along a program with this report. None where the torques of its machine are not known.
 #[must_use]
 pub fn in_places<T>(
     job: &CheckedJob,
     reached: &Reached,
-    edges: &[UsedEdge],
+    report: &Report,
     work: impl FnOnce(&Places<'_>) -> T,
 ) -> Option<T> {
-    cutting(job, job.machine.as_ref()?, reached, edges, |known, arms, cuts| {
-        Some(work(&Places::of(known, arms.ok()?, cuts.ok())))
-    })?
+    cutting(
+        job,
+        job.machine.as_ref()?,
+        reached,
+        report,
+        |known, arms, cuts| Some(work(&Places::of(known, arms.ok()?, cuts.ok()))),
+    )?
 }
 
 /// How far each cut is pushed off, proven on all of it. None where that is not known.
@@ -132,7 +159,7 @@ pub fn in_places<T>(
 pub fn cut_by_cut(job: &CheckedJob, compiled: &Compiled) -> Option<Vec<CutDeviation>> {
     let figures = compiled.dynamics.deviation.as_ref()?;
     let (machine, reached) = carried(job, compiled)?;
-    cutting(job, machine, reached, &compiled.report.edges, |_, arms, cuts| {
+    cutting(job, machine, reached, &compiled.report, |_, arms, cuts| {
         figures.each(&Deviations::of(cuts.ok()?, arms.ok())?)
     })?
 }
@@ -152,7 +179,7 @@ pub(crate) fn add_torques_in_air(job: &CheckedJob, compiled: &mut Compiled) {
     let Some((machine, reached)) = carried(job, compiled) else {
         return;
     };
-    let figures = carrying(machine, reached, &[], |known, arms| {
+    let figures = carrying(machine, reached, None, |known, arms| {
         torques(machine, known, arms, Pushing::Nothing)
     });
     add_torques(figures.unwrap_or(Err(Unknown::Masses)), compiled);
@@ -172,7 +199,8 @@ pub(crate) fn add(job: &CheckedJob, compiled: &mut Compiled) -> Vec<Diagnostic> 
         let limited = job.operations.iter();
         let limits = limited.filter_map(|operation| {
             let limit = operation.deviation_limit()?;
-            Some(verdict::without_machine(limit, operation.setup().head_span))
+            let needs = Needs::limit(limit, operation.setup().head_span);
+            Some(verdict::without_machine(needs))
         });
         return limits.collect();
     };
@@ -180,7 +208,7 @@ pub(crate) fn add(job: &CheckedJob, compiled: &mut Compiled) -> Vec<Diagnostic> 
         torques,
         deviation,
         modes,
-    } = found(job, machine, reached, &compiled.report.edges);
+    } = found(job, machine, reached, &compiled.report);
     let of_torques = not_checked(&torques, machine);
     let unchecked = unchecked(job, machine, &deviation).into_iter().chain(of_torques);
     add_torques(torques, compiled);
@@ -228,8 +256,8 @@ fn unchecked(
             Ok(_) => deviation::Unknown::Forces,
             Err(why) => *why,
         };
-        let head = operation.setup().head_span;
-        Some(verdict::not_checked(why, limit, head, machine))
+        let needs = Needs::limit(limit, operation.setup().head_span);
+        Some(verdict::not_known(why, needs, machine))
     });
     unknown.collect()
 }
@@ -245,17 +273,52 @@ pub(crate) fn verdicts(
     let Some(figures) = &compiled.dynamics.deviation else {
         return all;
     };
-    all.extend(figures.operations.iter().filter_map(|of| {
-        let operation = job.operations.get(usize::from(of.operation))?;
-        let limit = operation.deviation_limit()?;
-        verdict::above_limit(figures, of, limit, operation.setup().head_span)
-    }));
+    for of in &figures.operations {
+        let limited = job.operations.get(usize::from(of.operation));
+        let limited = limited.and_then(|operation| Some((operation, operation.deviation_limit()?)));
+        let Some((operation, limit)) = limited else {
+            continue;
+        };
+        let found = verdict::above_limit(figures, of, limit, operation.setup().head_span);
+        all.extend(found.map(|diagnostic| {
+            let wanted = run.patience.refused(core::slice::from_ref(&diagnostic), sources);
+            match compensating(job, of.operation, limit.value, &wanted) {
+                Some((title, edits)) => diagnostic.fix_all(title, &edits),
+                None => diagnostic,
+            }
+        }));
+    }
     let forces = forces(job);
     all.extend(figures.elsewhere.iter().filter_map(|found| {
         let forces = forces.get(found.blade.as_str())?;
         Some(verdict::elsewhere(found, forces))
     }));
     all
+}
+
+/// What to write where so that an operation keeps its limit of deviation by setting its tips off, with what comes of that; none where
+/// that does not help.
+fn compensating(
+    job: &CheckedJob,
+    number: u16,
+    limit: Length,
+    wanted: &Wanted,
+) -> Option<(String, Vec<(Span, String)>)> {
+    let variant = job.operations.get(usize::from(number))?.compensating()?;
+    if wanted.is_needless() || variant.edits.is_empty() {
+        return None;
+    }
+    let mut changed = job.clone();
+    *changed.operations.get_mut(usize::from(number))? = variant.operation;
+    let (_, there) = compile_checked(&changed, wanted)?;
+    let (machine, reached) = carried(&changed, &there)?;
+    let figures = found(&changed, machine, reached, &there.report).deviation.ok()?;
+    let of = figures.operations.iter().find(|of| of.operation == number)?;
+    let most = of.into_part.most.max(of.into_waste.most);
+    (most <= limit.to_mm()).then(|| {
+        let title = format!("{}, which leaves {}", variant.advice, millimetres(most));
+        (title, variant.edits)
+    })
 }
 
 /// Torques above the limits of drives. Of an error a place of the work that relieves them is looked for, while that is wanted.
@@ -301,8 +364,8 @@ fn relieving(job: &CheckedJob, wanted: &Wanted) -> Option<(vcutc_remedy::Change,
         let change = base_nearer(job, by)?;
         let (_, there) = compile_checked(&change.job, wanted)?;
         let (machine, reached) = carried(&change.job, &there)?;
-        let edges = &there.report.edges;
-        let figures = cutting(&change.job, machine, reached, edges, |known, arms, cuts| {
+        let report = &there.report;
+        let figures = cutting(&change.job, machine, reached, report, |known, arms, cuts| {
             torques(machine, known, arms, pushing(cuts))
         });
         let figures = figures?.ok()?;

@@ -8,6 +8,7 @@ pub mod air_cut;
 mod asked;
 mod axis_moves;
 pub mod checks;
+mod compensation;
 pub mod dynamics;
 mod emitting;
 pub mod hints;
@@ -43,7 +44,7 @@ use crate::summary::chosen::{self, OperationFigures};
 use crate::summary::times::{TimeFigures, figures as time_figures};
 use crate::summary::{summary, with_processes, with_surface};
 use refusal::{NotTaken, Refused, Unhelped};
-use routes::{Ended, Made, along_its_routes};
+use routes::{Ended, Made};
 use trials::{Machine, Trials};
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::ir::{Head, OpId, Purpose};
@@ -317,7 +318,7 @@ pub fn compile_checked(job: &CheckedJob, wanted: &Wanted) -> Option<(PlannedJob,
         wanted,
         patience: &mut Unhurried,
     };
-    match along_its_routes(job, &SourceMap::default(), &mut run, &mut |_| ()) {
+    match compensation::ended(None, job, &SourceMap::default(), &mut run, &mut |_| ()) {
         Ended::Compiled(made) if !wanted.is_needless() => Some((*made.plan, *made.compiled)),
         Ended::Compiled(_) | Ended::Refused(_) | Ended::Cancelled => None,
     }
@@ -338,7 +339,7 @@ fn plan_and_prove(
         made = decided.made;
     }
     let Some(job) = &outcome.job else { return };
-    let ended = match routes::ended(made, job, &outcome.sources, run, progress) {
+    let ended = match compensation::ended(made, job, &outcome.sources, run, progress) {
         Ended::Compiled(mut made) => {
             let mut found = dynamics::add(job, &mut made.compiled);
             found.extend(dynamics::verdicts(job, &made.compiled, &outcome.sources, run));

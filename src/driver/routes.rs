@@ -41,20 +41,6 @@ impl Made {
     }
 }
 
-/// What came of a checked job, where it is not known yet.
-pub(super) fn ended<'j>(
-    known: Option<Made>,
-    job: &'j CheckedJob,
-    sources: &SourceMap,
-    run: &mut Run<'_>,
-    progress: &mut dyn FnMut(Stage),
-) -> Ended<'j> {
-    match known {
-        Some(made) => Ended::Compiled(made),
-        None => along_its_routes(job, sources, run, progress),
-    }
-}
-
 /// Compiles a checked job.
 pub(super) fn along_its_routes<'j>(
     job: &'j CheckedJob,

@@ -4,7 +4,8 @@
 //! the text, exactly as an editor would make it, and the text is compiled as far as these two. How often that is done for one
 //! refusal is bounded by a [`Budget`].
 
-use super::routes::{self, Ended};
+use super::compensation;
+use super::routes::Ended;
 use super::{Request, Run, Unhurried, target, ways};
 use crate::memory::Memory;
 use std::collections::{BTreeMap, BTreeSet};
@@ -97,7 +98,7 @@ impl<'t> Trials<'t> {
         };
         let decided = ways::decided(&job, &sources, &mut run, &mut |_| ());
         let (job, made) = decided.map_or((job, None), |decided| (decided.job, decided.made));
-        let ended = routes::ended(made, &job, &sources, &mut run, &mut |_| ());
+        let ended = compensation::ended(made, &job, &sources, &mut run, &mut |_| ());
         let (plan, left) = match ended {
             Ended::Compiled(made) => {
                 let objections = target::objections(&job, &made.compiled, self.request);

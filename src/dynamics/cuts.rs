@@ -10,15 +10,16 @@ use vcutc_backend_api::ir::{Action, Blade, Op, OpId, OperationId, Program, Site,
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::segments::{LinearSegment, Segment};
 use vcutc_backend_api::units::{Angle, Force, Length};
-use vcutc_geometry::number::Along;
+use vcutc_geometry::number::{Along, Interval};
 use vcutc_job::forces::{Forces, Parts};
 use vcutc_machine::Model;
+use vcutc_machine::body::MILLIMETRES;
 use vcutc_machine::kinematics::Joints;
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_motion::parts::{Motions, Moving};
 use vcutc_motion::path::Part;
 use vcutc_motion::rigs::Rigs;
-use vcutc_simulation::prove::UsedEdge;
+use vcutc_simulation::prove::{Compensation, UsedEdge, VNumber};
 
 /// A program and what carries it out.
 #[derive(Clone, Copy)]
@@ -28,6 +29,15 @@ pub struct Known<'p> {
     pub rigs: &'p Rigs<'p>,
     /// How much edge cuts use, in the program's order.
     pub edges: &'p [UsedEdge],
+    /// How far the tips of its operations are set off, operation by operation; none of those that are not compensated.
+    pub compensations: &'p [Option<Compensation>],
+}
+
+impl<'p> Known<'p> {
+    /// How far the tips of an operation are set off; none of one that is not compensated.
+    pub(crate) fn compensation(&self, operation: OperationId) -> Option<&'p Compensation> {
+        self.compensations.get(usize::from(operation.0))?.as_ref()
+    }
 }
 
 /// The cuts of a program by blades whose forces are known.
@@ -50,7 +60,9 @@ pub(crate) enum Others {
 /// A cut by a blade whose forces are known.
 pub(crate) struct Cut<'p> {
     condition: Condition,
-    operation: OperationId,
+    pub(crate) operation: OperationId,
+    /// Of its operation.
+    pub(crate) vee: VNumber,
     pub(crate) tool: ToolId,
     moving: Moving<'p>,
     line: OnLine,
@@ -109,7 +121,7 @@ impl<'p> Cuts<'p> {
         let motions = Motions::of(known.reached, known.rigs);
         let (mut cuts, mut others) = (BTreeMap::new(), Others::None);
         for segment in program.segments() {
-            let Some((operation, line)) = cutting(&segment) else {
+            let Some((operation, vee, line)) = cutting(&segment) else {
                 continue;
             };
             let tool = segment.before.tool;
@@ -141,6 +153,7 @@ impl<'p> Cuts<'p> {
             let cut = Cut {
                 condition: Condition::in_cut(&posture, &line),
                 operation,
+                vee,
                 tool,
                 moving,
                 line: on_line,
@@ -240,14 +253,30 @@ impl<'p> Cuts<'p> {
         })
     }
 
+    /// How far the tip of a cut is set off along the normal of its flank, anywhere on it, in m; none of one that is not compensated.
+    pub(crate) fn set_off(&self, cut: &Cut<'_>) -> Option<Interval> {
+        let offset = self.known.compensation(cut.operation)?.offset(cut.vee);
+        let offset = DVec3::new(offset.x, 0.0, offset.z) / MILLIMETRES;
+        let along = self.normal_in_work(cut)?.dot(offset);
+        Some(Interval::around(
+            along,
+            offset.length() * cut.line.turns().to_rad(),
+        ))
+    }
+
+    /// The normal of the flank of a cut into the waste, in the work and in the middle of its way; none where its tip stands still.
+    pub(crate) fn normal_in_work(&self, cut: &Cut<'_>) -> Option<DVec3> {
+        let posture = cut.line.posture(self.known.reached.program(), WHOLE)?;
+        let in_blade = posture.blade_in_hand.transpose() * DVec3::from_array(cut.push.normal);
+        Some(posture.blade_in_work * in_blade)
+    }
+
     /// The side of its V that a cut makes; none where its tip stands still.
     pub(crate) fn face(&self, cut: &Cut<'_>) -> Option<Face> {
         if cut.push.sides == Sides::Either {
             return Some(Face::Upright);
         }
-        let posture = cut.line.posture(self.known.reached.program(), WHOLE)?;
-        let normal = posture.blade_in_hand.transpose() * DVec3::from_array(cut.push.normal);
-        let into_waste = posture.blade_in_work * normal;
+        let into_waste = self.normal_in_work(cut)?;
         Some(if into_waste.x > 0.0 {
             Face::Left
         } else {
@@ -330,13 +359,21 @@ impl OnLine {
 /// How far from a place its neighbours are that say which way the tip goes, in parts of the motion.
 const NEAR: f64 = 1e-4;
 
-/// The operation and the way of an op that cuts with an edge.
-pub(crate) fn cutting(segment: &Segment<'_>) -> Option<(OperationId, LinearSegment)> {
+/// The operation, the V and the way of an op that cuts with an edge.
+pub(crate) fn cutting(segment: &Segment<'_>) -> Option<(OperationId, VNumber, LinearSegment)> {
     let Op { action, site, .. } = segment.op;
-    let (Action::Cut { .. } | Action::Follow { .. }, Site::Cut { operation, .. }) = (action, site) else {
+    let (
+        Action::Cut { .. } | Action::Follow { .. },
+        Site::Cut {
+            operation,
+            layer,
+            cut,
+        },
+    ) = (action, site)
+    else {
         return None;
     };
-    Some((*operation, segment.line()?))
+    Some((*operation, (*layer, *cut), segment.line()?))
 }
 
 /// How much edge an op uses, where that is measured.

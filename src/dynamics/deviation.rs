@@ -4,6 +4,7 @@
 //! place): the tool shifts by `J K^-1 J^T w` [Ha 2019, equations 30 and 31, with the sign of a force that acts on the tool]. Only the
 //! shift along the normal of the flank forms the part.
 
+pub mod compensation;
 pub mod each;
 pub mod figures;
 pub mod verdict;
@@ -75,9 +76,19 @@ impl<'c> Deviations<'c> {
     }
 
     /// How far the cuts of an operation deviate at most; none of one that no forces are known of. `limit` is to be kept.
+    ///
+    /// Of a compensated operation that is meant under load: while all of the edge that a cut uses is in the material.
     #[must_use]
     pub fn extremes(&self, operation: OperationId, limit: Option<Length>) -> Option<Extremes> {
-        self.both_ways(operation, limit, Push::shifts)
+        self.both_ways(operation, limit, self.counted(operation))
+    }
+
+    /// The shifts of an operation that count as its deviation.
+    fn counted(&self, operation: OperationId) -> Shifts {
+        match self.cuts.known().compensation(operation) {
+            Some(_) => Push::loaded,
+            None => Push::shifts,
+        }
     }
 
     /// How far they may be off at most while the edge comes into the material from rest and the arm swings, wherever on a cut that is;
@@ -147,9 +158,10 @@ impl<'c> Deviations<'c> {
         let cut = self.cuts.get(op)?;
         let push = self.cuts.push_at(cut, done)?;
         let shares = push.shares(&self.cuts.columns_at(cut.tool, joints), &self.springs);
+        let set_off = self.cuts.set_off(cut).map_or(0.0, Interval::middle);
         Some(Shift {
-            tip: 1000.0 * shares.iter().map(|share| share.tip).sum::<f64>(),
-            end: 1000.0 * shares.iter().map(|share| share.end).sum::<f64>(),
+            tip: 1000.0 * (shares.iter().map(|share| share.tip).sum::<f64>() + set_off),
+            end: 1000.0 * (shares.iter().map(|share| share.end).sum::<f64>() + set_off),
         })
     }
 
@@ -159,7 +171,8 @@ impl<'c> Deviations<'c> {
         let push = self.cuts.push_on(cut, part)?;
         let columns = self.cuts.columns_on(cut.tool, cut.axes_on(part)?);
         let found = shifts(&push, &columns, &self.springs);
-        Some(found.map(|shifts| Ways::of(shifts, push.sides)))
+        let set_off = self.cuts.set_off(cut).unwrap_or(Interval::ZERO);
+        Some(found.map(|shifts| Ways::of(shifts + set_off, push.sides)))
     }
 
     fn extreme(&self, peak: &Peak) -> Extreme {

@@ -4,6 +4,7 @@
 //! it, and what they are off by there is bounded.
 
 mod entry;
+mod loaded;
 
 use crate::chain::{Column, JOINTS};
 use crate::springs::Springs;

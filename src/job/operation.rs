@@ -49,6 +49,21 @@ pub trait Operation: OperationValue + Any + Debug + Send + Sync {
         None
     }
 
+    /// Where the job asks that its tips are set off against the forces of its blade, if it does.
+    fn compensates(&self) -> Option<Span> {
+        None
+    }
+
+    /// The same operation with its tips set off against the forces of its blade; none where that cannot be, or is asked already.
+    fn compensating(&self) -> Option<Variant> {
+        None
+    }
+
+    /// The same operation so that it stays so much farther out of the part, at least.
+    fn keeping_more(&self, _by: Length) -> Option<Variant> {
+        None
+    }
+
     /// The same operation so that it leaves less on the part, but no less than this along its normal, for one that takes off
     /// the rest; what changes the least comes first.
     fn leaving_less(&self, _least: Length) -> Vec<Variant> {

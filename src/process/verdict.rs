@@ -4,6 +4,7 @@
 
 mod attempts;
 mod bodies;
+pub mod unloaded;
 
 use crate::lower;
 use crate::plan::plan_while;

@@ -15,10 +15,13 @@
 //! Tracks of a disc that change along y are judged elsewhere, where the surface is known that they follow ([`Tracks`]), and so are
 //! passes over a region of the plan ([`Cleared`]): here they take nothing off.
 //!
+//! Tips that are set off against forces are replayed where the blade is while these push ([`Compensation`]).
+//!
 //! On a piece of a chain the blade itself is followed, with its thickness and the chain's blend ([`piece`]).
 
 mod along;
 mod cleared;
+mod compensation;
 mod edge;
 mod entry;
 mod findings;
@@ -37,6 +40,7 @@ use super::sides::ThickFlank;
 use super::surface::{Side, Single, Surface, Vee};
 use along::AlongSpine;
 pub use cleared::{Cleared, ClearingFault};
+pub use compensation::{Compensation, VNumber};
 use core::num::NonZeroU32;
 pub use edge::UsedEdge;
 pub use entry::below_top;
@@ -77,6 +81,9 @@ pub struct Bound<'p> {
     pub spine: Option<&'p Spine>,
     /// How much lower than their tips say flanks of level cuts have to come out.
     pub lower: Length,
+    /// How far its tips are set off against forces: it is replayed as it cuts under these. None where they are not, or where it is
+    /// replayed as it cuts while nothing pushes the blade.
+    pub compensation: Option<&'p Compensation>,
 }
 
 /// Something wrong with a cut.
@@ -109,6 +116,7 @@ impl<'p> Bound<'p> {
             passes: None,
             spine: None,
             lower: Length::ZERO,
+            compensation: None,
         }
     }
 }
@@ -168,6 +176,8 @@ pub struct Replay {
     pub longest_edge: Length,
     /// How much edge cuts use, in the program's order, as far as it is measured cut by cut.
     pub edges: Vec<UsedEdge>,
+    /// How far the tips of its operations are set off, operation by operation; none of those that are not compensated.
+    pub compensations: Vec<Option<Compensation>>,
     /// Cuts of each layer of each operation, in order.
     pub layers: Vec<(OperationId, usize)>,
     /// What tracks on a surface do, operation by operation; empty until they are judged where the surface is known.
@@ -206,7 +216,7 @@ pub fn accompanied(
     show: &mut dyn FnMut(OpId, &mut Surface),
 ) {
     let untouched = Surface::untouched(program.program().stock);
-    let mut player = Player::new(untouched, program.program(), with_spines(bounds));
+    let mut player = Player::new(untouched, program.program(), telling(bounds));
     player.play(program, &mut |op, section| show(op, section.surface()));
 }
 
@@ -218,7 +228,7 @@ pub fn watched(
     show: &mut dyn FnMut(OpId, &mut Surface, Vec<Taken>),
 ) -> (Vec<Taken>, Surface) {
     let untouched = Surface::untouched(program.program().stock);
-    let mut player = Player::new(untouched, program.program(), with_spines(bounds));
+    let mut player = Player::new(untouched, program.program(), telling(bounds));
     player.section.keep_taken();
     player.play(program, &mut |op, section| {
         let taken = section.taken();
@@ -227,13 +237,10 @@ pub fn watched(
     (player.section.taken(), player.section.into_surface())
 }
 
-/// What to know of operations to tell what their cuts take: where none follows a spine, nothing.
-fn with_spines<'b, 'p>(bounds: &'b [Bound<'p>]) -> &'b [Bound<'p>] {
-    if bounds.iter().any(|bound| bound.spine.is_some()) {
-        bounds
-    } else {
-        &[]
-    }
+/// What to know of operations to tell what their cuts take: where none follows a spine and none is compensated, nothing.
+fn telling<'b, 'p>(bounds: &'b [Bound<'p>]) -> &'b [Bound<'p>] {
+    let tells = |bound: &Bound<'_>| bound.spine.is_some() || bound.compensation.is_some();
+    if bounds.iter().any(tells) { bounds } else { &[] }
 }
 
 /// Depth below which an overcut is rounding: a nanometre.
@@ -336,24 +343,21 @@ struct Player<'p> {
     along: AlongSpine,
 }
 
-/// A V by its layer and its cut.
-type Place = (NonZeroU32, NonZeroU32);
-
 /// Slope of the flank that is done, of Vs of which one is. The other one mostly comes next, so the latest is kept apart.
 #[derive(Default)]
 struct HalfDone {
-    latest: Option<(Place, f64)>,
-    others: BTreeMap<Place, f64>,
+    latest: Option<(VNumber, f64)>,
+    others: BTreeMap<VNumber, f64>,
 }
 
 impl HalfDone {
-    fn put(&mut self, place: Place, slope: f64) {
+    fn put(&mut self, place: VNumber, slope: f64) {
         if let Some((before, slope)) = self.latest.replace((place, slope)) {
             self.others.insert(before, slope);
         }
     }
 
-    fn take(&mut self, place: Place) -> Option<f64> {
+    fn take(&mut self, place: VNumber) -> Option<f64> {
         match self.latest.take_if(|(latest, _)| *latest == place) {
             Some((_, slope)) => Some(slope),
             None => self.others.remove(&place),
@@ -394,12 +398,22 @@ impl<'p> Player<'p> {
             show(id, &mut self.section);
             self.playing = id;
             if let Some(cut) = Cut::of(op, after) {
+                let cut = self.under_load(cut);
                 self.cut(&cut, verified.is_single(id));
             } else if is_piece(op)
                 && let Some(segment) = pieces.next()
             {
                 self.piece(&segment);
             }
+        }
+    }
+
+    /// A cut where it is to be replayed.
+    fn under_load(&self, cut: Cut) -> Cut {
+        let bound = self.bounds.get(usize::from(cut.operation.0));
+        match bound.and_then(|bound| bound.compensation) {
+            Some(compensation) => cut.under_load(compensation),
+            None => cut,
         }
     }
 
@@ -659,6 +673,11 @@ impl<'p> Player<'p> {
             findings: self.findings,
             longest_edge: Length::mm(self.longest_edge),
             edges: self.edges,
+            compensations: self
+                .bounds
+                .iter()
+                .map(|bound| bound.compensation.cloned())
+                .collect(),
             layers: self
                 .layers
                 .into_iter()

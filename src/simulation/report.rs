@@ -2,7 +2,7 @@
 
 use super::body::Passage;
 use super::contour::{Sampled, Scallop, farthest};
-use super::prove::{Cleared, Replay, Slit, Tracked, UsedEdge};
+use super::prove::{Cleared, Compensation, Replay, Slit, Tracked, UsedEdge};
 use super::timing::Times;
 use vcutc_backend_api::ir::{OperationId, Stock};
 use vcutc_backend_api::units::{Area, Length};
@@ -30,6 +30,8 @@ pub struct Report {
     pub longest_edge: Length,
     /// How much edge cuts use, in the program's order, as far as it is measured cut by cut.
     pub edges: Vec<UsedEdge>,
+    /// How far the tips of its operations are set off, operation by operation; none of those that are not compensated.
+    pub compensations: Vec<Option<Compensation>>,
     /// Largest normalised cross-correlation of machined and theoretical contour, each resampled at 1000 points [Cui 15].
     pub correlation: f64,
     /// The point of the part farthest from the machined contour. Over a hollow that no cut reaches it is farther away than
@@ -86,6 +88,7 @@ pub fn report(replay: Replay, stock: Stock, part: &Profile, times: Times) -> Rep
         mean_scallop: Length::mm(residual.to_mm2() / part.arc_length().to_mm()),
         longest_edge: replay.longest_edge,
         edges: replay.edges,
+        compensations: replay.compensations,
         correlation: Sampled::of(&corners, part.points()).correlation(),
         deepest,
         body: None,

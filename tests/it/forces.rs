@@ -90,19 +90,21 @@ fn moved(rig: &Rig<'_>, joints: &Joints, in_blade: DVec3, axis: usize) -> DVec3 
 
 /// What the oracle draws: all forces and all springs, within their spread, and what of the edge is in the material.
 #[derive(Clone, Copy, Debug)]
-struct Drawn {
-    parts: [f64; 3],
-    springs: [f64; 6],
+pub(crate) struct Drawn {
+    /// How many times [`STATED`] the forces are.
+    pub(crate) times: f64,
+    pub(crate) parts: [f64; 3],
+    pub(crate) springs: [f64; 6],
     /// From where to where it is in the material, as shares of its length.
-    from: f64,
-    to: f64,
+    pub(crate) from: f64,
+    pub(crate) to: f64,
     /// The place of the edge, likewise.
-    up: f64,
+    pub(crate) up: f64,
 }
 
 /// By how much a place of the edge shifts along the normal of the flank, in mm: from the force, place by place along the edge, and
 /// what it turns each axis by. A flank, the way along y, and everything in N and mm.
-fn shift(rig: &Rig<'_>, joints: &Joints, way: f64, edge: f64, drawn: Drawn) -> f64 {
+pub(crate) fn shift(rig: &Rig<'_>, joints: &Joints, way: f64, edge: f64, drawn: Drawn) -> f64 {
     let blade = rig.blade_in_work(joints);
     let [x, y, z] = [0, 1, 2].map(|axis| blade.rotation.col(axis));
     let normal = if y.z > 0.0 { y } else { -y };
@@ -113,7 +115,9 @@ fn shift(rig: &Rig<'_>, joints: &Joints, way: f64, edge: f64, drawn: Drawn) -> f
     let of = |[drag, axial, side]: [f64; 3]| -way * drag - z * axial + normal * side;
     let part = |amount: [f64; 3]| {
         let each = amount.iter().zip(drawn.parts);
-        let each: Vec<f64> = each.map(|(amount, part)| amount * (1.0 + 0.2 * part)).collect();
+        let each: Vec<f64> = each
+            .map(|(amount, part)| drawn.times * amount * (1.0 + 0.2 * part))
+            .collect();
         of([each[0], each[1], each[2]])
     };
     let (per_length, tip) = (part([1.1, 0.4, 0.3]), part([3.0, 1.0, 2.0]));
@@ -138,16 +142,16 @@ fn shift(rig: &Rig<'_>, joints: &Joints, way: f64, edge: f64, drawn: Drawn) -> f
 
 /// A place of a cut.
 #[derive(Clone, Copy, Debug)]
-struct Place {
-    op: OpId,
+pub(crate) struct Place {
+    pub(crate) op: OpId,
     done: f64,
     /// Along y: 1 or -1.
-    way: f64,
-    joints: Joints,
+    pub(crate) way: f64,
+    pub(crate) joints: Joints,
 }
 
 /// The cuts of a program with the axes at places of them.
-fn cuts(outcome: &Outcome) -> Vec<Place> {
+pub(crate) fn cuts(outcome: &Outcome) -> Vec<Place> {
     let reached = outcome.compiled.as_ref().unwrap().program.reached().unwrap();
     let program = reached.program.program();
     let model = &outcome.job.as_ref().unwrap().machine.as_ref().unwrap().model;
@@ -193,7 +197,7 @@ proptest! {
         let all = cuts(&outcome);
         let Place { op, way, joints, .. } = all[at.index(all.len())];
         let used = compiled.report.edges.iter().find(|used| used.op == op).unwrap();
-        let drawn = Drawn { parts, springs, from: from.min(to), to: from.max(to), up };
+        let drawn = Drawn { times: 1.0, parts, springs, from: from.min(to), to: from.max(to), up };
         let off = shift(&Rig::of(machine), &joints, way, used.length.to_mm(), drawn);
         prop_assert!(off <= of.into_waste.most + 1e-7, "{off} {of:?}");
         prop_assert!(-off <= of.into_part.most + 1e-7, "{off} {of:?}");
@@ -220,6 +224,7 @@ fn the_figures_are_reached() {
         for corner in 0..16_u32 {
             let parts = [0, 1, 2].map(|part| if corner >> part & 1 == 0 { -1.0 } else { 1.0 });
             let drawn = Drawn {
+                times: 1.0,
                 parts,
                 springs: [-1.0; 6],
                 from: 0.0,
@@ -289,6 +294,7 @@ fn an_edge_that_comes_in_at_once_swings_within_the_figures_and_nearly_reaches_th
         for corner in 0..8_u32 {
             let parts = [0, 1, 2].map(|part| if corner >> part & 1 == 0 { -1.0 } else { 1.0 });
             let drawn = Drawn {
+                times: 1.0,
                 parts,
                 springs: [-1.0; 6],
                 from: 0.0,
@@ -325,6 +331,7 @@ fn a_place_of_a_cut_has_the_shift_of_forces_as_stated() {
         reached: &reached.program,
         rigs: &rigs,
         edges: &compiled.report.edges,
+        compensations: &compiled.report.compensations,
     };
     let cuts_of = Cuts::of(known, &forces(checked)).unwrap();
     let deviations = Deviations::of(&cuts_of, None).unwrap();
@@ -341,6 +348,7 @@ fn a_place_of_a_cut_has_the_shift_of_forces_as_stated() {
         let off = deviations.in_place(op, done, &joints).unwrap();
         let stated = |up: f64| {
             let drawn = Drawn {
+                times: 1.0,
                 parts: [0.0; 3],
                 springs: [0.0; 6],
                 from: 0.0,

@@ -23,6 +23,8 @@ mod codes;
 #[cfg(all(feature = "cli", feature = "krl"))]
 #[path = "../../build/commit.rs"]
 mod commit;
+#[cfg(all(feature = "krl", feature = "rapid"))]
+mod compensation;
 #[cfg(feature = "krl")]
 mod convert;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]

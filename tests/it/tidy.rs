@@ -17,6 +17,7 @@ const ONLY_IN: &[(&str, &[&str])] = &[
     (
         "rayon::",
         &[
+            "src/dynamics/deviation/compensation.rs",
             "src/dynamics/deviation/each.rs",
             "src/dynamics/peaks.rs",
             "src/field/",

@@ -251,6 +251,7 @@ fn largest_sampled(outcome: &Outcome) -> [f64; 6] {
         reached: &reached.program,
         rigs: &rigs,
         edges: &compiled.report.edges,
+        compensations: &compiled.report.compensations,
     };
     let cuts = Cuts::of(known, &forces(job)).unwrap();
     let arms = Arms::of(&machine.model, cell).unwrap();

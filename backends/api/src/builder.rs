@@ -105,8 +105,20 @@ impl ProgramBuilder {
     pub fn operation(&mut self, kind: OperationKind, blade: Blade, source: SourceRef) -> OperationId {
         let tool = self.put_in(blade);
         let tools = vec![tool];
-        self.program.operations.push(Operation { kind, tools, source });
+        self.program.operations.push(Operation {
+            kind,
+            tools,
+            source,
+            compensation: None,
+        });
         OperationId(id(self.program.operations.len() - 1))
+    }
+
+    /// Notes how far the tips of the latest operation are set off at most against what forces do to its blades.
+    pub fn compensated(&mut self, by: Length) {
+        if let Some(operation) = self.program.operations.last_mut() {
+            operation.compensation = Some(by);
+        }
     }
 
     /// Goes on with the latest operation with another of its blades, which is put in where it is not at hand.

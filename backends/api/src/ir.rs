@@ -369,6 +369,9 @@ pub struct Operation {
     pub tools: Vec<ToolId>,
     /// Where the job says so.
     pub source: SourceRef,
+    /// How far its tips are set off at most against what forces do to its blades, in mm; none where they are not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compensation: Option<Length>,
 }
 
 /// A kind of operation: the words of its head in the language, joined by `_`, such as `rough_vcut`. Programs name the kind for

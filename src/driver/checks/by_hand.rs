@@ -66,6 +66,9 @@ impl Check {
             Self::Deviation => {
                 "The forces of the blade do not push it off by more than the part allows: measure the first part"
             }
+            Self::Unloaded => {
+                "Compensated cuts stay out of the part where the edge comes in and goes out: measure the first part there"
+            }
             Self::Accelerations => "Time of the first part: computed without speeding up and slowing down",
             Self::Holder(blades) => {
                 return format!(
@@ -132,6 +135,7 @@ mod tests {
             Check::Turns,
             Check::Torques,
             Check::Deviation,
+            Check::Unloaded,
             Check::Accelerations,
             Check::Holder(Vec::new()),
             Check::Collisions,

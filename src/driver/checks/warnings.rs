@@ -30,6 +30,7 @@ impl Checks {
             | Check::AboveStock
             | Check::Torques
             | Check::Deviation
+            | Check::Unloaded
             | Check::Accelerations
             | Check::Holder(_)
             | Check::Collisions

@@ -74,6 +74,9 @@ impl Checks {
                 "the forces of its blades push no flank off by more than the stated deviation".to_owned(),
             );
         }
+        if self.is_made(&Check::Unloaded) {
+            parts.push("where nothing pushes the blade, no compensated cut enters the part".to_owned());
+        }
         if self.is_made(&Check::ReadBack) {
             parts.push("the written text reads back as the same program".to_owned());
         }
@@ -170,6 +173,7 @@ impl Checks {
                     | Check::Turns
                     | Check::Torques
                     | Check::Deviation
+                    | Check::Unloaded
                     | Check::Accelerations
                     | Check::Holder(_)
                     | Check::Collisions
@@ -218,6 +222,7 @@ impl Check {
             Self::Turns => "turns",
             Self::Torques => "torques",
             Self::Deviation => "deviation",
+            Self::Unloaded => "unloaded",
             Self::Accelerations => "accelerations",
             Self::Holder(_) => "holder",
             Self::Collisions => "collisions",
@@ -243,6 +248,7 @@ impl Check {
             Self::Turns => "the sweep of the edge where the blade turns beside the work",
             Self::Torques => "torques of the axes",
             Self::Deviation => "how far the forces of the blade push it off",
+            Self::Unloaded => "whether compensated cuts enter the part where nothing pushes the blade",
             Self::Accelerations => "times with accelerations",
             Self::Holder(_) => "shank and holder of the blade",
             Self::Collisions => "collisions of the machine",

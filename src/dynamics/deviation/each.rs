@@ -1,10 +1,9 @@
 //! How far each cut deviates, proven on all of it: for pictures.
 
 use super::figures::{DeviationFigures, GravityFigure, OperationDeviation};
-use super::{Deviations, Ways};
+use super::{Deviations, Shifts, Ways};
 use crate::cuts::Face;
 use crate::peaks::Whole;
-use crate::push::Push;
 use rayon::prelude::*;
 use vcutc_backend_api::ir::{OpId, OperationId};
 use vcutc_motion::path::Part;
@@ -40,8 +39,8 @@ impl DeviationFigures {
             .map(|(of, whole)| {
                 let [waste, part] = [of.into_waste.most, of.into_part.most];
                 let close = CLOSE * 1e-3 * (waste.max(part) - sag);
-                let ways = deviations.of_cut(whole, close)?;
                 let cut = deviations.cuts.get(whole.op)?;
+                let ways = deviations.of_cut(whole, close, deviations.counted(cut.operation))?;
                 // What is proven of all cuts of the operation holds for this one, too.
                 let held = |way: f64, most: f64| (1000.0 * way + sag).min(most);
                 Some(CutDeviation {
@@ -60,19 +59,20 @@ impl DeviationFigures {
 
 impl Deviations<'_> {
     /// Without what is not a number: it would pass every comparison.
-    fn known_shifts(&self, op: OpId, part: Part) -> Option<[Ways; 2]> {
-        let shifts = self.shifts(op, part, Push::shifts)?;
+    fn known_shifts(&self, op: OpId, part: Part, shifts: Shifts) -> Option<[Ways; 2]> {
+        let shifts = self.shifts(op, part, shifts)?;
         shifts.into_iter().all(Ways::is_finite).then_some(shifts)
     }
 
     /// How far a cut is off, in m: in ever shorter parts, until that is stated no more than `close` too wide.
-    fn of_cut(&self, whole: Whole, close: f64) -> Option<Ways> {
+    pub(super) fn of_cut(&self, whole: Whole, close: f64, shifts: Shifts) -> Option<Ways> {
         let mut found = None;
         for finer in FINER {
             let count = whole.parts.saturating_mul(finer);
             let parts = (0..count).map(|number| Part::one_of(count, number));
-            let looked: Option<Vec<[Ways; 2]>> =
-                parts.map(|part| self.known_shifts(whole.op, part)).collect();
+            let looked: Option<Vec<[Ways; 2]>> = parts
+                .map(|part| self.known_shifts(whole.op, part, shifts))
+                .collect();
             found = looked.and_then(|looked| looked.into_iter().reduce(wider));
             if let Some([middle, everywhere]) = found
                 && everywhere.exceeds(middle) <= close

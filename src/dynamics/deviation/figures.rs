@@ -61,12 +61,28 @@ pub struct OperationDeviation {
     /// While the edge comes into the material and the arm swings.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_entry: Option<EntryFigure>,
+    /// How far its tips are set off; none where it is not compensated. Where they are, `into_waste` and `into_part` are meant under
+    /// load: while all of the edge that a cut uses is in the material.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compensation: Option<CompensationFigure>,
     /// How many times as much where the ultrasound fails, when that is stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failed: Option<f64>,
     /// The most that it may be, in mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<f64>,
+}
+
+/// How far tips are set off against the forces of the blade.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CompensationFigure {
+    /// At most, in mm.
+    #[serde(serialize_with = "tenths_of_um")]
+    pub offset: f64,
+    pub at: PlaceFigure,
+    /// How far flanks lie deeper than planned where nothing pushes the blade, at most, in mm.
+    #[serde(serialize_with = "tenths_of_um")]
+    pub deeper: f64,
 }
 
 /// The most that cuts are off to one side: nowhere more.
@@ -175,6 +191,11 @@ impl DeviationFigures {
                     into_waste: swing(known, extremes.into_waste, sag),
                     into_part: swing(known, extremes.into_part, sag),
                 }),
+                compensation: deviations.set_off(operation).map(|set_off| CompensationFigure {
+                    offset: set_off.most.to_mm(),
+                    at: place(known, set_off.op),
+                    deeper: set_off.deeper.to_mm(),
+                }),
                 failed: failed(known, asked, operation),
                 limit: limit.map(Length::to_mm),
             })
@@ -215,10 +236,16 @@ impl DeviationFigures {
             } else {
                 String::new()
             };
+            let compensated = self.operations.iter().any(|of| of.compensation.is_some());
+            let under = if compensated {
+                " with all of its edge in the material"
+            } else {
+                ""
+            };
             lines.push((
                 "deviation",
                 format!(
-                    "{} into the waste ({}), {} into the part ({}), at most, by the forces of the blade{sag}{failed}; stiffness {}",
+                    "{} into the waste ({}), {} into the part ({}), at most, by the forces of the blade{under}{sag}{failed}; stiffness {}",
                     millimetres(waste.most),
                     waste.words(),
                     millimetres(part.most),
@@ -227,9 +254,25 @@ impl DeviationFigures {
                 ),
             ));
         }
+        lines.extend(self.compensation_line().map(|line| ("compensated", line)));
         lines.extend(self.entry_line().map(|line| ("at entry", line)));
         lines.extend(self.gravity.map(|gravity| ("gravity", gravity.line())));
         lines
+    }
+
+    /// `tips set off by up to 0.034 mm (layer 1, cut 4); flanks lie up to 0.031 mm deeper where nothing pushes the blade`.
+    fn compensation_line(&self) -> Option<String> {
+        let all = self.operations.iter().filter_map(|of| of.compensation.as_ref());
+        let farthest = all
+            .clone()
+            .max_by(|one, other| one.offset.total_cmp(&other.offset))?;
+        let deeper = all.map(|of| of.deeper).fold(0.0, f64::max);
+        Some(format!(
+            "tips set off by up to {} ({}); flanks lie up to {} deeper where nothing pushes the blade",
+            millimetres(farthest.offset),
+            farthest.at.words,
+            millimetres(deeper),
+        ))
     }
 
     /// `up to 0.0103 mm into the waste (layer 1, cut 4), 0.0082 mm into the part (layer 1, cut 4), as the edge comes in and the arm swings`.

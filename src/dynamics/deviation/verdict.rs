@@ -58,42 +58,85 @@ pub fn above_limit(
     })
 }
 
-/// A limit on deviations that nothing can check.
-#[must_use]
-pub fn not_checked(why: Unknown, limit: Sourced<Length>, head: Span, machine: &Machine) -> Diagnostic {
-    let (name, place) = (&machine.model.name, machine.model_span);
-    let fault = |what: String| unchecked(limit, head, &what);
-    match why {
-        Unknown::Forces => fault("the blade of the operation states no forces".to_owned())
-            .help("measure them and state `forces { ... }` in the blade, or delete the limit"),
-        Unknown::Elasticity => fault(format!("`{name}` does not state how its joints yield"))
-            .and(place, "no `[elasticity]`")
-            .help("state `[elasticity]` in a sheet of your machine (docs/machines.md), or delete the limit"),
-        Unknown::Weight => {
-            fault("the weight of the arm counts, and its masses or its load are not known".to_owned())
-                .and(place, "with `gravity = uncompensated`")
-                .help("state `load` in the machine and `[dynamics]` in its sheet, or delete the limit")
+/// What of a job needs deviations that are known.
+#[derive(Clone, Copy, Debug)]
+pub struct Needs {
+    code: Code,
+    /// What comes of it where they are not.
+    what: &'static str,
+    place: Span,
+    label: &'static str,
+    /// What does without them.
+    instead: &'static str,
+}
+
+impl Needs {
+    /// A limit on them.
+    #[must_use]
+    pub fn limit(limit: Sourced<Length>, head: Span) -> Self {
+        Self {
+            code: Code::LimitNotChecked,
+            what: "`deviation` cannot be checked",
+            place: limit.span.unwrap_or(head),
+            label: "a limit that nothing checks",
+            instead: "delete the limit",
         }
-        Unknown::ClosedForm => fault(format!("`{name}` is not an arm with a spherical wrist"))
+    }
+
+    /// Tips that are to be set off against the forces.
+    #[must_use]
+    pub const fn compensation(place: Span) -> Self {
+        Self {
+            code: Code::NotCompensated,
+            what: "the forces of the blade cannot be compensated",
+            place,
+            label: "asked for here",
+            instead: "delete `compensate`",
+        }
+    }
+
+    fn fault(&self, why: &str) -> Diagnostic {
+        Diagnostic::new(self.code, format!("{}: {why}", self.what), self.place, self.label)
+    }
+}
+
+/// What needs deviations, which are not known.
+#[must_use]
+pub fn not_known(why: Unknown, needs: Needs, machine: &Machine) -> Diagnostic {
+    let (name, place) = (&machine.model.name, machine.model_span);
+    let instead = needs.instead;
+    match why {
+        Unknown::Forces => needs
+            .fault("the blade of the operation states no forces")
+            .help(format!(
+                "measure them and state `forces {{ ... }}` in the blade, or {instead}"
+            )),
+        Unknown::Elasticity => needs
+            .fault(&format!("`{name}` does not state how its joints yield"))
+            .and(place, "no `[elasticity]`")
+            .help(format!(
+                "state `[elasticity]` in a sheet of your machine (docs/machines.md), or {instead}"
+            )),
+        Unknown::Weight => needs
+            .fault("the weight of the arm counts, and its masses or its load are not known")
+            .and(place, "with `gravity = uncompensated`")
+            .help(format!(
+                "state `load` in the machine and `[dynamics]` in its sheet, or {instead}"
+            )),
+        Unknown::ClosedForm => needs
+            .fault(&format!("`{name}` is not an arm with a spherical wrist"))
             .and(place, "the machine")
-            .help("delete the limit"),
+            .help(instead),
     }
 }
 
 /// The same of a job without a machine.
 #[must_use]
-pub fn without_machine(limit: Sourced<Length>, head: Span) -> Diagnostic {
-    unchecked(limit, head, "the job has no machine")
-        .help("add the machine that carries the blade, or delete the limit")
-}
-
-fn unchecked(limit: Sourced<Length>, head: Span, why: &str) -> Diagnostic {
-    Diagnostic::new(
-        Code::LimitNotChecked,
-        format!("`deviation` cannot be checked: {why}"),
-        limit.span.unwrap_or(head),
-        "a limit that nothing checks",
-    )
+pub fn without_machine(needs: Needs) -> Diagnostic {
+    let instead = needs.instead;
+    needs
+        .fault("the job has no machine")
+        .help(format!("add the machine that carries the blade, or {instead}"))
 }
 
 /// A warning of cuts that are made otherwise than the forces were measured.

@@ -13,7 +13,7 @@ use vcutc_backend_api::units::{Angle, Area, Duration, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
-use vcutc_simulation::prove::{Bound, Finding, Passes};
+use vcutc_simulation::prove::{Bound, Compensation, Finding, Passes};
 use vcutc_simulation::report::Report;
 use vcutc_simulation::surface::Side;
 
@@ -138,6 +138,11 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
         _stock: Stock,
     ) -> Box<dyn PlannedOperation> {
         self.copied()
+    }
+
+    /// The same plan with its tips set off; none of an operation that cannot be compensated.
+    fn compensated(&self, _by: Compensation) -> Option<Box<dyn PlannedOperation>> {
+        None
     }
 
     /// Writes its motions down.

@@ -47,6 +47,8 @@ pub struct RoughVcut {
     pub standoff: Sourced<Auto<Length>>,
     /// How the cuts follow a part that changes along y. Default `straight`.
     pub follow: Sourced<Follow>,
+    /// What tips are set off against. Default `nothing`.
+    pub compensate: Sourced<Compensate>,
     /// What that came to; none where the cuts are level.
     pub along: Option<Along>,
 }
@@ -179,11 +181,21 @@ pub enum Avoid {
     Swing,
 }
 
+/// What tips are set off against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compensate {
+    /// Nothing: they run where they are planned.
+    Nothing,
+    /// What the forces of the blade do to the arm.
+    Forces,
+}
+
 words! {
     Lattice { Orthogonal = "orthogonal", Interlaced = "interlaced", Free = "free" }
     Objective { Time = "time", Scallop = "scallop", Cuts = "cuts", BladeLoad = "blade_load" }
     Formulas { Paper = "paper", Exact = "exact" }
     Residual { Discard = "discard", Lift = "lift", Shift = "shift", Mixed = "mixed" }
     Avoid { Lift = "lift", Swing = "swing" }
+    Compensate { Nothing = "nothing", Forces = "forces" }
     Sequence { Rows = "rows", Boustrophedon = "boustrophedon", Nearest = "nearest" }
 }

@@ -5,7 +5,7 @@ mod limits_block;
 mod tests;
 mod tips;
 
-use crate::asked::{Avoid, Formulas, Lattice, Objective, Residual, RoughVcut, Sequence};
+use crate::asked::{Avoid, Compensate, Formulas, Lattice, Objective, Residual, RoughVcut, Sequence};
 use crate::operation::NARROWEST_ALONG;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::number::show;
@@ -57,6 +57,7 @@ pub const SPEC: BlockSpec = BlockSpec {
         setup::RUN_OUT_FIELD,
         value("standoff", "auto").within(DISTANCE).or_auto(),
         value("follow", "spine").takes(Takes::Words(|| words_of(Follow::WORDS))),
+        value("compensate", "forces").takes(Takes::Words(|| words_of(Compensate::WORDS))),
     ],
     inner: Inner::Refused,
 };
@@ -114,6 +115,29 @@ fn narrower_along(operation: &RoughVcut) -> Diagnostic {
     )
 }
 
+/// Tips set off along a spine.
+fn compensated_along(operation: &RoughVcut) -> Diagnostic {
+    let head = operation.setup.head_span;
+    let place = operation.compensate.span.unwrap_or(head);
+    let word = operation.follow.value.word();
+    Diagnostic::new(
+        Code::CannotFollow,
+        format!("`compensate = forces` does not go with `follow = {word}`"),
+        place,
+        "tips of level cuts only are set off",
+    )
+    .and(
+        operation.follow.span.unwrap_or(head),
+        "these cuts rise and fall with the part",
+    )
+    .help("delete `compensate`, or cut straight")
+    .fix(
+        "leave the tips where they are planned: `nothing`",
+        place,
+        Compensate::Nothing.word(),
+    )
+}
+
 /// A swing with which a blade that is off its spine by a little spoils much of its flank.
 fn too_narrow_along(operation: &RoughVcut, swing: Angle) -> Diagnostic {
     let head = operation.setup.head_span;
@@ -163,6 +187,7 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
     let sequence = reader.auto_choice(&fields, "sequence", Sequence::WORDS);
     let standoff = reader.auto(&fields, "standoff");
     let follow = reader.choice(&fields, "follow", Follow::WORDS);
+    let compensate = reader.choice(&fields, "compensate", Compensate::WORDS);
     let operation = RoughVcut {
         setup: setup?,
         blade: blade?,
@@ -182,6 +207,7 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
         sequence: sequence?,
         standoff: standoff?,
         follow: follow?.unwrap_or(default(Follow::Straight)),
+        compensate: compensate?.unwrap_or(default(Compensate::Nothing)),
         along: None,
     };
     if operation.avoid.value == Avoid::Swing && operation.follow.value != Follow::Straight {
@@ -192,6 +218,9 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
         && operation.follow.value != Follow::Straight
     {
         return Err(session.reports.push(too_narrow_along(&operation, swing)));
+    }
+    if operation.compensate.value == Compensate::Forces && operation.follow.value != Follow::Straight {
+        return Err(session.reports.push(compensated_along(&operation)));
     }
     match given? {
         Some(given) => tips::over(given, operation, &fields, &mut session.reports),

@@ -13,6 +13,8 @@
 //! Along a spine a cut is a chain through its stations, and all places beside the work are as much higher or lower as the spine is
 //! there.
 //!
+//! Where a plan is compensated, each V is cut at its offset, and so are the ways to and from it.
+//!
 //! From home the blade comes by a move of all axes, which alone can say how the arm is to stand there; everything after it
 //! moves on straight lines.
 
@@ -26,17 +28,20 @@ use crate::plan::{PlannedCut, PlannedVcut, Way};
 use core::num::NonZeroU32;
 use course::Course;
 use postures::Postures;
+use std::borrow::Cow;
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{
     Action, FeedId, Flank, Joint, OperationId, OperationKind, OrientationId, RateId, Site, SourceRef, Switch,
 };
-use vcutc_backend_api::units::Angle;
+use vcutc_backend_api::units::{Angle, Length};
+use vcutc_geometry::curve::Point2;
 use vcutc_geometry::grid;
 use vcutc_geometry::spine::Station;
 use vcutc_job::{Direction, Order};
 use vcutc_process::lower::BLEND;
 use vcutc_process::posture::{Feed, Holder};
+use vcutc_simulation::prove::VNumber;
 
 /// What programs call it.
 const KIND: OperationKind = OperationKind::named("rough_vcut").unwrap();
@@ -44,10 +49,15 @@ const KIND: OperationKind = OperationKind::named("rough_vcut").unwrap();
 /// Appends the ops of one operation.
 pub(crate) fn lower(planned: &PlannedVcut, source: SourceRef, builder: &mut ProgramBuilder) {
     let operation = builder.operation(KIND, planned.asked.blade.in_program(), source);
+    if let Some(compensation) = &planned.compensation {
+        let largest = compensation.largest();
+        builder.compensated(Length::mm(largest.map_or(0.0, |(_, size)| size)));
+    }
     let mut writer = Writer::new(planned, operation, builder);
     let numbers = numbers(&planned.cuts);
+    let cuts = set_off(planned, &numbers);
     for run in &planned.runs {
-        let cuts = planned.cuts.get(run.cuts.clone()).unwrap_or_default();
+        let cuts = cuts.get(run.cuts.clone()).unwrap_or_default();
         let numbers = numbers.get(run.cuts.clone()).unwrap_or_default();
         writer.run(run, cuts, numbers);
     }
@@ -58,8 +68,27 @@ pub(crate) fn lower(planned: &PlannedVcut, source: SourceRef, builder: &mut Prog
     );
 }
 
+/// The cuts with their tips where the program has them.
+fn set_off<'p>(planned: &'p PlannedVcut, numbers: &[VNumber]) -> Cow<'p, [PlannedCut]> {
+    let Some(compensation) = &planned.compensation else {
+        return Cow::Borrowed(&planned.cuts);
+    };
+    let each = planned.cuts.iter().zip(numbers);
+    let each = each.map(|(cut, &vee)| {
+        let offset = compensation.offset(vee);
+        PlannedCut {
+            tip: Point2 {
+                x: grid::nearest(cut.tip.x + offset.x),
+                z: grid::nearest(cut.tip.z + offset.z),
+            },
+            ..*cut
+        }
+    });
+    Cow::Owned(each.collect())
+}
+
 /// Layer and number of each cut, counted from left to right in each layer.
-fn numbers(cuts: &[PlannedCut]) -> Vec<(NonZeroU32, NonZeroU32)> {
+fn numbers(cuts: &[PlannedCut]) -> Vec<VNumber> {
     let mut numbers = Vec::with_capacity(cuts.len());
     for layer in route::layers(cuts) {
         for (index, cut) in (0_u32..).zip(cuts.get(layer).unwrap_or_default()) {
@@ -170,7 +199,7 @@ impl<'b> Writer<'b> {
     }
 
     /// Makes the cuts of a run.
-    fn run(&mut self, run: &Run, cuts: &[PlannedCut], numbers: &[(NonZeroU32, NonZeroU32)]) {
+    fn run(&mut self, run: &Run, cuts: &[PlannedCut], numbers: &[VNumber]) {
         let operation = self.operation;
         let mut places: Vec<(&PlannedCut, Site)> = cuts
             .iter()

@@ -1,6 +1,6 @@
 //! V-shaped roughing as an operation of a job.
 
-use crate::asked::{Avoid, Objective, Residual, RoughVcut};
+use crate::asked::{Avoid, Compensate, Objective, Residual, RoughVcut};
 use crate::choice;
 use crate::plan::{PlannedVcut, parameters};
 use core::any::Any;
@@ -115,6 +115,7 @@ impl Operation for RoughVcut {
         self.sequence.forget_place(place);
         self.standoff.forget_place(place);
         self.follow.forget_place(place);
+        self.compensate.forget_place(place);
         let limits = &mut self.limits;
         limits.swing.forget_places(place);
         limits.layer.forget_places(place);
@@ -135,6 +136,41 @@ impl Operation for RoughVcut {
 
     fn deviation_limit(&self) -> Option<Sourced<Length>> {
         self.limits.deviation
+    }
+
+    fn compensates(&self) -> Option<Span> {
+        match self.compensate.value {
+            Compensate::Nothing => None,
+            Compensate::Forces => Some(self.compensate.span.unwrap_or(self.setup.head_span)),
+        }
+    }
+
+    fn compensating(&self) -> Option<Variant> {
+        if self.compensate.value == Compensate::Forces || self.follow.value != Follow::Straight {
+            return None;
+        }
+        let mut operation = self.clone();
+        operation.compensate.value = Compensate::Forces;
+        Some(Variant {
+            advice: "set the tips off against the forces: `compensate = forces`".to_owned(),
+            edits: self
+                .setup
+                .stated("compensate", self.compensate.span, Compensate::Forces.word()),
+            operation: Box::new(operation),
+        })
+    }
+
+    fn keeping_more(&self, by: Length) -> Option<Variant> {
+        let mut operation = self.clone();
+        let allowance = &mut operation.allowance;
+        // Upward, to hundredths of a mm.
+        allowance.value = Length::mm(((allowance.value + by).to_mm() * 100.0).ceil() / 100.0);
+        let text = format!("{} mm", show(allowance.value.to_mm()));
+        Some(Variant {
+            advice: format!("leave more on the part: `allowance = {text}`"),
+            edits: self.setup.stated("allowance", self.allowance.span, &text),
+            operation: Box::new(operation),
+        })
     }
 
     fn leaving_less(&self, least: Length) -> Vec<Variant> {

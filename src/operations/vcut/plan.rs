@@ -46,6 +46,7 @@ use vcutc_geometry::cone;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::{Order, PlanningJob};
+use vcutc_simulation::prove::Compensation;
 use vcutc_simulation::surface::{Surface, Vee};
 
 /// V-shaped roughing with every choice made.
@@ -73,6 +74,8 @@ pub struct PlannedVcut {
     pub course: Option<Course>,
     /// In which order they are made: every cut in one run.
     pub runs: Vec<Run>,
+    /// How far its tips are set off from their places against forces; none where they are not.
+    pub compensation: Option<Compensation>,
     /// Why it came out so, where the job left the choice open.
     pub decisions: Vec<Decision>,
 }
@@ -231,6 +234,7 @@ fn unplanned(job: &PlanningJob<'_>, asked: &RoughVcut, ground: Ground<'_>) -> Pl
         cuts: Vec::new(),
         course: None,
         runs: Vec::new(),
+        compensation: None,
         decisions: Vec::new(),
     }
 }

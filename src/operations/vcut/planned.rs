@@ -18,7 +18,7 @@ use vcutc_job::operation::{Operation, Trials, WorksThere};
 use vcutc_job::planned::{Balance, Compile, CutShape, Estimate, PlannedTip};
 use vcutc_job::search::RouteSet;
 use vcutc_job::{Auto, Order, PlannedOperation};
-use vcutc_simulation::prove::{Bound, Finding};
+use vcutc_simulation::prove::{Bound, Compensation, Finding};
 use vcutc_simulation::report::Report;
 use vcutc_simulation::surface::Surface;
 
@@ -85,6 +85,7 @@ impl PlannedOperation for PlannedVcut {
             aside: self.parameters.standoff,
             spine: self.asked.along.as_ref().map(|along| &*along.spine),
             edge: self.asked.limits.edge.map(|limit| limit.value),
+            compensation: self.compensation.as_ref(),
             ..Bound::of(&self.bound)
         }
     }
@@ -112,6 +113,17 @@ impl PlannedOperation for PlannedVcut {
         }
         let order = vcut.asked.order.value.or(order.unwrap_or(vcut.order));
         Box::new(vcut.along(order, Sequence::Rows, &Surface::untouched(stock), stock))
+    }
+
+    fn compensated(&self, by: Compensation) -> Option<Box<dyn PlannedOperation>> {
+        // Along a spine tips are not set off.
+        self.asked.along.is_none().then(|| {
+            let compensated: Box<dyn PlannedOperation> = Box::new(Self {
+                compensation: Some(by),
+                ..self.clone()
+            });
+            compensated
+        })
     }
 
     fn lower(&self, source: SourceRef, builder: &mut ProgramBuilder) {

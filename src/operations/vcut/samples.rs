@@ -6,7 +6,7 @@
 )]
 
 use crate::PlannedVcut;
-use crate::asked::{Avoid, Formulas, Lattice, Limits, Objective, Residual, RoughVcut, Sequence};
+use crate::asked::{Avoid, Compensate, Formulas, Lattice, Limits, Objective, Residual, RoughVcut, Sequence};
 use vcutc_backend_api::ir::{Edges, Stock};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
 use vcutc_diagnostics::source::{SourceMap, Span};
@@ -82,6 +82,7 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
             sequence: given(Auto::Given(Sequence::Rows)),
             standoff: given(Auto::Auto),
             follow: given(Follow::Straight),
+            compensate: given(Compensate::Nothing),
             along: None,
         })],
         machine: None,

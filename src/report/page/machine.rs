@@ -126,10 +126,15 @@ fn by_forces_caption(figures: &DeviationFigures) -> String {
             show(limit)
         )
     });
+    let compensated = if figures.operations.iter().any(|of| of.compensation.is_some()) {
+        " Of compensated operations they hold while all of the edge that a cut uses is in the material."
+    } else {
+        ""
+    };
     format!(
         "How far the forces of the blade push each cut off along the normal of its flank, over the x of its tip: into the waste \
          above zero, into the part below. The bars are bounds, proven on all of each cut for all forces and stiffnesses within \
-         their spread. Stiffness {}.{least}",
+         their spread.{compensated} Stiffness {}.{least}",
         figures.stiffness.word()
     )
 }

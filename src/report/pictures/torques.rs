@@ -28,9 +28,8 @@ pub fn torques<const PLACES: usize>(
 ) -> Option<Torques<PLACES>> {
     let figures = material.compiled.dynamics.torques.as_ref()?;
     let reached = material.compiled.program.reached()?;
-    let edges = &material.compiled.report.edges;
     let clock = Clock::of(material);
-    in_places(material.job, reached, edges, |places| {
+    in_places(material.job, reached, &material.compiled.report, |places| {
         let axes = axes(places, figures, &clock);
         let title = format!("{}: torques over time", material.plan.name);
         let subtitle = format!("{}; {}", places.known().model.name, figures.backing());

@@ -9,7 +9,7 @@
 //! out that lies lower by both.
 
 use super::flank::FlankGeometry;
-use super::{Cut, CutFault, Place, Player, note};
+use super::{Cut, CutFault, Player, VNumber, note};
 use crate::surface::{Side, Vee};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::geometry::{Orientation, Point3};
@@ -29,11 +29,11 @@ pub(super) struct AlongSpine {
     /// The places of the chain that is not at its end.
     open: Vec<(Point3, OrientationId)>,
     /// Flanks of Vs whose other flank is not cut yet.
-    half_done: BTreeMap<Place, (Cut, Followed)>,
+    half_done: BTreeMap<VNumber, (Cut, Followed)>,
     /// All flanks, with their slopes.
     cut: Vec<(Cut, f64)>,
     /// Vs of which a flank left the spine.
-    strayed: BTreeSet<Place>,
+    strayed: BTreeSet<VNumber>,
     /// How far any flank so far may lie above its V.
     above: f64,
     /// Whether a piece of the open chain is an arc, and how far it leaves the spine then.

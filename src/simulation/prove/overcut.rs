@@ -32,7 +32,7 @@ impl Player<'_> {
         let tools = (0..).map(ToolId).take(self.program.blades.len());
         let flanks: Vec<_> = tools.map(|tool| flanks(self.program, tool)).collect();
         let mut lowest: Option<(f64, Cut)> = None;
-        let cuts = Cut::all(self.program).map(|(_, cut)| cut);
+        let cuts = Cut::all(self.program).map(|(_, cut)| self.under_load(cut));
         for cut in cuts.filter(|cut| cut.operation == operation) {
             let of_blade = flanks.get(usize::from(cut.tool.0));
             let Some(geometry) = of_blade.and_then(|flanks| flanks.get(cut.held.0 as usize)) else {

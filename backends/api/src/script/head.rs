@@ -74,6 +74,18 @@ pub fn head_lines<'p>(program: &'p Program, machine: &'p str) -> Vec<HeadLine<'p
         Some(time) => vec![ours(counts), ours(time)],
         None => vec![ours(counts)],
     });
+    lines.extend(
+        (1_u32..)
+            .zip(&program.operations)
+            .filter_map(|(number, operation)| {
+                // Upward, but for rounding.
+                let by = (operation.compensation?.to_mm() * 1000.0 - 1e-6).ceil() / 1000.0;
+                Some(ours(format!(
+                    "operation {number}: set off for forces by {} mm at most",
+                    decimals(by)
+                )))
+            }),
+    );
     lines
 }
 
@@ -251,7 +263,15 @@ mod tests {
             job: "f".repeat(64),
             time: Duration::s(359_999.0),
         });
-        for line in head_lines(&program, "cell") {
+        let operation = program.operations[0].clone();
+        program.operations = vec![operation; 20];
+        program.operations[19].compensation = Some(Length::mm(9999.9985));
+        let lines = head_lines(&program, "cell");
+        assert_eq!(
+            lines.last().unwrap().ours,
+            "operation 20: set off for forces by 9999.999 mm at most"
+        );
+        for line in lines {
             assert!(line.ours.len() <= 60 && line.ours.is_ascii(), "{}", line.ours);
         }
     }

@@ -280,6 +280,7 @@ impl Recipe {
                 start: 0,
                 end: 0,
             },
+            compensation: None,
         }
     }
 

@@ -78,6 +78,7 @@ impl Job {
             reached: &reached.program,
             rigs: &rigs,
             edges: &self.edges,
+            compensations: &[],
         };
         work(known, Arms::of(model, cell).ok().as_ref());
     }
