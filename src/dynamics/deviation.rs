@@ -37,8 +37,8 @@ pub enum Unknown {
     ClosedForm,
 }
 
-/// What shifts an edge in the middle of a part of a cut, and everywhere on it.
-type Shifts = fn(&Push, &[Column<Along>; JOINTS], &Springs) -> [Interval; 2];
+/// Ways in which an edge shifts in the middle of a part of a cut, and everywhere on it.
+type Shifts<const N: usize> = fn(&Push, &[Column<Along>; JOINTS], &Springs) -> [[Interval; 2]; N];
 
 /// The cuts of a program by blades whose forces are known, on an arm whose joints yield.
 pub struct Deviations<'c> {
@@ -66,6 +66,16 @@ pub struct Extremes {
     pub into_part: Extreme,
 }
 
+/// How far the cuts of an operation are off at most.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Once the arm has come to rest against the force.
+    pub at_rest: Extremes,
+    /// While the edge comes into the material from rest and the arm swings, wherever on a cut that is; whatever its masses and its damping
+    /// are. None where that is not known.
+    pub at_entry: Option<Extremes>,
+}
+
 impl<'c> Deviations<'c> {
     /// Of these cuts, by an arm that weighs so, where that is known. None where the machine's description does not say how its joints
     /// yield.
@@ -75,48 +85,47 @@ impl<'c> Deviations<'c> {
         Some(Self { cuts, springs, arms })
     }
 
-    /// How far the cuts of an operation deviate at most; none of one that no forces are known of. `limit` is to be kept.
+    /// How far the cuts of an operation are off at most; none of one that no forces are known of. `limit` is to be kept.
     ///
-    /// Of a compensated operation that is meant under load: while all of the edge that a cut uses is in the material.
+    /// Of a compensated operation the bounds at rest are meant under load: while all of the edge that a cut uses is in the material.
     #[must_use]
-    pub fn extremes(&self, operation: OperationId, limit: Option<Length>) -> Option<Extremes> {
-        self.both_ways(operation, limit, self.counted(operation))
-    }
-
-    /// The shifts of an operation that count as its deviation.
-    fn counted(&self, operation: OperationId) -> Shifts {
-        match self.cuts.known().compensation(operation) {
-            Some(_) => Push::loaded,
-            None => Push::shifts,
-        }
-    }
-
-    /// How far they may be off at most while the edge comes into the material from rest and the arm swings, wherever on a cut that is;
-    /// whatever its masses and its damping are.
-    #[must_use]
-    pub fn at_entry(&self, operation: OperationId) -> Option<Extremes> {
-        self.both_ways(operation, None, Push::entering)
-    }
-
-    /// The most of shifts either way on the cuts of an operation.
-    fn both_ways(&self, operation: OperationId, limit: Option<Length>, shifts: Shifts) -> Option<Extremes> {
-        let sought = Sought {
+    pub fn bounds(&self, operation: OperationId, limit: Option<Length>) -> Option<Bounds> {
+        let at_rest = Sought {
             least: LEAST,
             limit: limit.map(Length::to_m),
         };
+        let at_entry = Sought {
+            limit: None,
+            ..at_rest
+        };
+        let shifts = match self.cuts.known().compensation(operation) {
+            Some(_) => Push::loaded_and_entering,
+            None => Push::shifts_and_entering,
+        };
         let cuts: Vec<Whole> = self.cuts.wholes_of(operation).collect();
-        let [waste, part] = peaks(&cuts, &[sought; 2], |op, part| {
-            let [middle, everywhere] = self.shifts(op, part, shifts)?;
-            let held = |bound: fn(Ways) -> f64| Held {
+        let sought = [at_rest, at_rest, at_entry, at_entry];
+        let [waste, part, entry_waste, entry_part] = peaks(&cuts, &sought, |op, part| {
+            let [at_rest, at_entry] = self.shifts(op, part, shifts)?;
+            let held = |[middle, everywhere]: [Ways; 2], bound: fn(Ways) -> f64| Held {
                 met: bound(middle),
                 most: bound(everywhere),
             };
-            Some([held(|ways| ways.into_waste), held(|ways| ways.into_part)])
+            Some([
+                held(at_rest, |ways| ways.into_waste),
+                held(at_rest, |ways| ways.into_part),
+                held(at_entry, |ways| ways.into_waste),
+                held(at_entry, |ways| ways.into_part),
+            ])
         })?;
-        if !(waste.most.is_finite() && part.most.is_finite()) {
-            return None;
-        }
-        Some(Extremes {
+        Some(Bounds {
+            at_rest: self.extremes([waste, part])?,
+            at_entry: self.extremes([entry_waste, entry_part]),
+        })
+    }
+
+    /// None where they are not known.
+    fn extremes(&self, [waste, part]: [Peak; 2]) -> Option<Extremes> {
+        (waste.most.is_finite() && part.most.is_finite()).then(|| Extremes {
             into_waste: self.extreme(&waste),
             into_part: self.extreme(&part),
         })
@@ -166,13 +175,13 @@ impl<'c> Deviations<'c> {
     }
 
     /// How far the edge of a cut is off in the middle of a part, and everywhere on it. None where it is too long to say.
-    fn shifts(&self, op: OpId, part: Part, shifts: Shifts) -> Option<[Ways; 2]> {
+    fn shifts<const N: usize>(&self, op: OpId, part: Part, shifts: Shifts<N>) -> Option<[[Ways; 2]; N]> {
         let cut = self.cuts.get(op)?;
         let push = self.cuts.push_on(cut, part)?;
         let columns = self.cuts.columns_on(cut.tool, cut.axes_on(part)?);
         let found = shifts(&push, &columns, &self.springs);
         let set_off = self.cuts.set_off(cut).unwrap_or(Interval::ZERO);
-        Some(found.map(|shifts| Ways::of(shifts + set_off, push.sides)))
+        Some(found.map(|views| views.map(|shifts| Ways::of(shifts + set_off, push.sides))))
     }
 
     fn extreme(&self, peak: &Peak) -> Extreme {

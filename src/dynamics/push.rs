@@ -244,11 +244,27 @@ impl Push {
     /// the whole. The place `s` up the edge then shifts by `tip(s) + t edge(s, m)`, with a share `t` from 0 to 1 and the place `m` of that force,
     /// where `edge` is linear in `s` and in `m`: its extremes are at the ends of the edge.
     pub(crate) fn shifts(&self, columns: &[Column<Along>; JOINTS], springs: &Springs) -> [Interval; 2] {
-        let [tip, end] = self
-            .shifts_at_ends(columns, springs)
-            .map(|views| views.map(|by| by.tip.hull(by.tip + by.edge)));
-        // In the air nothing pushes.
-        core::array::from_fn(|view| tip[view].hull(end[view]).hull(Interval::ZERO))
+        at_rest(self.shifts_at_ends(columns, springs))
+    }
+
+    /// As [`Push::shifts`], and while the edge comes in from rest ([`Push::entering`]).
+    pub(crate) fn shifts_and_entering(
+        &self,
+        columns: &[Column<Along>; JOINTS],
+        springs: &Springs,
+    ) -> [[Interval; 2]; 2] {
+        let by = self.shifts_at_ends(columns, springs);
+        [at_rest(by), self.entering(by, columns, springs)]
+    }
+
+    /// As [`Push::loaded`], and while the edge comes in from rest ([`Push::entering`]).
+    pub(crate) fn loaded_and_entering(
+        &self,
+        columns: &[Column<Along>; JOINTS],
+        springs: &Springs,
+    ) -> [[Interval; 2]; 2] {
+        let by = self.shifts_at_ends(columns, springs);
+        [self.loaded(columns, springs), self.entering(by, columns, springs)]
     }
 
     /// What the tip and the edge shift each end of the edge by.
@@ -350,6 +366,13 @@ impl Push {
         // The normal is off as the forces are.
         Interval::around(0.0, 2.0 * force * self.turns * yields.sum::<f64>())
     }
+}
+
+/// All shifts of an edge whose ends shift so, view by view.
+fn at_rest(by: [[By; 2]; 2]) -> [Interval; 2] {
+    let [tip, end] = by.map(|views| views.map(|by| by.tip.hull(by.tip + by.edge)));
+    // In the air nothing pushes.
+    core::array::from_fn(|view| tip[view].hull(end[view]).hull(Interval::ZERO))
 }
 
 /// What shifts a place along the normal, in m.

@@ -7,7 +7,6 @@
 use super::{Deviations, Unknown};
 use crate::cuts::{Cut, Face};
 use crate::peaks::Whole;
-use crate::push::Push;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OpId, OperationId};
@@ -75,7 +74,9 @@ impl Deviations<'_> {
             // It yields as far to either side.
             Face::Upright => 0.0,
             Face::Left | Face::Right => {
-                let ways = self.of_cut(whole, CLOSE, Push::loaded)?;
+                let ways = self.of_cut(whole, CLOSE, |push, columns, springs| {
+                    [push.loaded(columns, springs)]
+                })?;
                 500.0 * (ways.into_waste - ways.into_part)
             }
         };

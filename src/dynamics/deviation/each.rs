@@ -58,14 +58,22 @@ impl DeviationFigures {
 }
 
 impl Deviations<'_> {
+    /// The shifts of an operation that count as its deviation.
+    fn counted(&self, operation: OperationId) -> Shifts<1> {
+        match self.cuts.known().compensation(operation) {
+            Some(_) => |push, columns, springs| [push.loaded(columns, springs)],
+            None => |push, columns, springs| [push.shifts(columns, springs)],
+        }
+    }
+
     /// Without what is not a number: it would pass every comparison.
-    fn known_shifts(&self, op: OpId, part: Part, shifts: Shifts) -> Option<[Ways; 2]> {
-        let shifts = self.shifts(op, part, shifts)?;
+    fn known_shifts(&self, op: OpId, part: Part, shifts: Shifts<1>) -> Option<[Ways; 2]> {
+        let [shifts] = self.shifts(op, part, shifts)?;
         shifts.into_iter().all(Ways::is_finite).then_some(shifts)
     }
 
     /// How far a cut is off, in m: in ever shorter parts, until that is stated no more than `close` too wide.
-    pub(super) fn of_cut(&self, whole: Whole, close: f64, shifts: Shifts) -> Option<Ways> {
+    pub(super) fn of_cut(&self, whole: Whole, close: f64, shifts: Shifts<1>) -> Option<Ways> {
         let mut found = None;
         for finer in FINER {
             let count = whole.parts.saturating_mul(finer);

@@ -182,12 +182,12 @@ impl DeviationFigures {
         let sag = Length::mm(gravity.map_or(0.0, GravityFigure::either_way));
         let operations = (0..).map(OperationId).zip(asked.limits);
         let operation = |(operation, limit): (OperationId, &Option<Length>)| {
-            let extremes = deviations.extremes(operation, limit.map(|limit| limit - sag))?;
+            let bounds = deviations.bounds(operation, limit.map(|limit| limit - sag))?;
             Some(OperationDeviation {
                 operation: operation.0,
-                into_waste: shift(known, extremes.into_waste, sag),
-                into_part: shift(known, extremes.into_part, sag),
-                at_entry: deviations.at_entry(operation).map(|extremes| EntryFigure {
+                into_waste: shift(known, bounds.at_rest.into_waste, sag),
+                into_part: shift(known, bounds.at_rest.into_part, sag),
+                at_entry: bounds.at_entry.map(|extremes| EntryFigure {
                     into_waste: swing(known, extremes.into_waste, sag),
                     into_part: swing(known, extremes.into_part, sag),
                 }),
@@ -236,11 +236,11 @@ impl DeviationFigures {
             } else {
                 String::new()
             };
-            let compensated = self.operations.iter().any(|of| of.compensation.is_some());
-            let under = if compensated {
-                " with all of its edge in the material"
-            } else {
-                ""
+            let compensated = self.operations.iter().filter(|of| of.compensation.is_some());
+            let under = match compensated.count() {
+                0 => "",
+                count if count == self.operations.len() => " with all of its edge in the material",
+                _ => ", compensated cuts with all of the edge in the material",
             };
             lines.push((
                 "deviation",

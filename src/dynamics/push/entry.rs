@@ -18,13 +18,17 @@ use vcutc_geometry::number::{Along, Interval};
 
 impl Push {
     /// All shifts of any place of the edge along the normal while it comes in from rest, in the middle of a part of a cut and everywhere
-    /// on it, in m. The forces and the springs may be anything within their spread, as long as they stay as they are.
-    pub(crate) fn entering(&self, columns: &[Column<Along>; JOINTS], springs: &Springs) -> [Interval; 2] {
+    /// on it, in m. `by` is what shifts the ends of the edge. The forces and the springs may be anything within their spread, as long as
+    /// they stay as they are.
+    pub(super) fn entering(
+        &self,
+        by: [[By; 2]; 2],
+        columns: &[Column<Along>; JOINTS],
+        springs: &Springs,
+    ) -> [Interval; 2] {
         // Tip and edge may come in one after the other.
         let rests = |by: By| by.tip.hull(by.edge).hull(by.tip + by.edge);
-        let [tip, end] = self
-            .shifts_at_ends(columns, springs)
-            .map(|views| views.map(rests));
+        let [tip, end] = by.map(|views| views.map(rests));
         let swings = [
             self.swing(columns, springs, Along::middle, 0.0),
             self.swing(columns, springs, Along::value, self.turns),

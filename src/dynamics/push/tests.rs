@@ -420,8 +420,7 @@ fn an_arm_whose_modes_are_alike_swings_as_far_as_the_bound() {
     let [_, found] = swinging.range(&[(0, scaled(torques, springs) * 10.0)], Bits::ComeIn);
     let along = chain.turns_along(joints.map(Along::constant));
     let columns = chain.columns(&along, chain.in_hand(tool).position.to_array());
-    let [_, bound] = push.entering(&columns, &exact(springs));
-    let [_, at_rest] = push.shifts(&columns, &exact(springs));
+    let [[_, at_rest], [_, bound]] = push.shifts_and_entering(&columns, &exact(springs));
     assert!(
         0.99 * bound.high < found && found <= bound.high * (1.0 + 1e-6),
         "{found} {bound:?}"
@@ -459,7 +458,7 @@ proptest! {
         });
         let along = chain.turns_along(joints.map(Along::constant));
         let enclosed = chain.columns(&along, chain.in_hand(tool).position.to_array());
-        let [_, bound] = push.entering(&enclosed, &springs);
+        let [_, [_, bound]] = push.shifts_and_entering(&enclosed, &springs);
 
         let stiffness = core::array::from_fn(|axis| IDENTIFIED[0][axis] * (1.0 + 0.2 * soft[axis]));
         let total = |amount: fn(&Force) -> Amount, up: f64| {
