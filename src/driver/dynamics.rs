@@ -3,7 +3,7 @@
 use crate::summary::row;
 use crate::{Compiled, Run, compile_checked};
 use std::collections::BTreeMap;
-use vcutc_backend_api::ir::OperationId;
+use vcutc_backend_api::ir::{OperationId, Purpose};
 use vcutc_backend_api::units::Length;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::{SourceMap, Span};
@@ -137,7 +137,8 @@ fn pushing<'c>(cuts: Result<&'c Cuts<'c>, deviation::Unknown>) -> Pushing<'c> {
     cuts.map_or(Pushing::NotKnown, Pushing::By)
 }
 
-/// What comes of the places along a program with this report. None where the torques of its machine are not known.
+/// What comes of the places along a program with this report. None where the torques of its machine are not known. In an air cut
+/// nothing pushes the blade.
 #[must_use]
 pub fn in_places<T>(
     job: &CheckedJob,
@@ -145,13 +146,15 @@ pub fn in_places<T>(
     report: &Report,
     work: impl FnOnce(&Places<'_>) -> T,
 ) -> Option<T> {
-    cutting(
-        job,
-        job.machine.as_ref()?,
-        reached,
-        report,
-        |known, arms, cuts| Some(work(&Places::of(known, arms.ok()?, cuts.ok()))),
-    )?
+    let machine = job.machine.as_ref()?;
+    match reached.program.program().purpose {
+        Purpose::Work => cutting(job, machine, reached, report, |known, arms, cuts| {
+            Some(work(&Places::of(known, arms.ok()?, cuts.ok())))
+        })?,
+        Purpose::AirCut { .. } => carrying(machine, reached, None, |known, arms| {
+            Some(work(&Places::of(known, arms.ok()?, None)))
+        })?,
+    }
 }
 
 /// How far each cut is pushed off, proven on all of it. None where that is not known.

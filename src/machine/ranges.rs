@@ -23,6 +23,8 @@ pub(crate) const SLIDING_ACCELERATION: Range = sliding(2, 1e8);
 /// Jerks of linear axes.
 pub(crate) const SLIDING_JERK: Range = sliding(3, 1e10);
 pub(crate) const MASS: Range = Range::closed(Dimension::MASS, 0.0, 1e6);
+/// What an arm may carry.
+pub(crate) const RATED_PAYLOAD: Range = Range::closed(Dimension::MASS, 0.001, 1e6);
 /// Entries of inertias, in kg m2.
 pub(crate) const INERTIA: Range = Range::closed(Dimension::PURE, -1e6, 1e6);
 /// What an axis of a wrist may turn, in kg m2.

@@ -96,7 +96,7 @@ const FIELDS: &[FieldSpec] = &[
     optional("kind"),
     optional("manufacturer"),
     value("model", "\"KUKA KR 210 R3100 ultra\"").required(),
-    optional("rated_payload_kg").within(ranges::MASS),
+    optional("rated_payload_kg").within(ranges::RATED_PAYLOAD),
     optional("payload_source"),
     optional("confidence"),
     optional(path_limits::KEY),

@@ -56,6 +56,25 @@ fn table(folder: &TempDir) -> Vec<BTreeMap<String, f64>> {
     lines.map(row).collect()
 }
 
+#[test]
+fn in_an_air_cut_nothing_pushes_the_blade() {
+    let folder = on_disk(&known());
+    let columns = |arguments: &[&str]| {
+        let all = [&[JOB, "--emit", "dynamics", "-o", "-", "-q"], arguments].concat();
+        let table = vcutc(folder.path(), &all).stdout;
+        table.lines().next().unwrap().to_owned()
+    };
+    let (cutting, in_air) = (columns(&[]), columns(&["--air-cut", "100mm"]));
+    assert!(
+        cutting.contains("deviation_tip_mm") && in_air.contains("A1_weight_nm"),
+        "{in_air}"
+    );
+    assert!(
+        !in_air.contains("cutting") && !in_air.contains("deviation"),
+        "{in_air}"
+    );
+}
+
 fn summary(folder: &TempDir) -> Value {
     let run = vcutc(folder.path(), &["check", JOB, "--message-format", "json"]);
     let last = run
