@@ -236,6 +236,8 @@ codes! {
     LoadTooMuch = "VC0537", Error, "load that is too much for the machine";
     /// Tips that cannot be set off against forces.
     NotCompensated = "VC0538", Error, "cuts that cannot be compensated for forces";
+    /// Cells whose walls push the edge at a frequency at which the arm swings.
+    CellsMeetMode = "VC0539", Warning, "cells that meet a mode of the arm";
 
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "target that needs a machine";

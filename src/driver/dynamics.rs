@@ -75,7 +75,7 @@ fn found(job: &CheckedJob, machine: &Machine, reached: &Reached, report: &Report
 }
 
 /// What comes of a program and of the arm with each of its blades; none of a program without a cell. An air cut has no report of cuts.
-fn carrying<T>(
+pub(crate) fn carrying<T>(
     machine: &Machine,
     reached: &Reached,
     report: Option<&Report>,
@@ -376,6 +376,6 @@ fn relieving(job: &CheckedJob, wanted: &Wanted) -> Option<(vcutc_remedy::Change,
     })
 }
 
-fn carried<'a>(job: &'a CheckedJob, compiled: &'a Compiled) -> Option<(&'a Machine, &'a Reached)> {
+pub(crate) fn carried<'a>(job: &'a CheckedJob, compiled: &'a Compiled) -> Option<(&'a Machine, &'a Reached)> {
     job.machine.as_ref().zip(compiled.program.reached())
 }

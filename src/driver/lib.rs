@@ -7,6 +7,7 @@ mod air;
 pub mod air_cut;
 mod asked;
 mod axis_moves;
+mod cells;
 pub mod checks;
 mod compensation;
 pub mod dynamics;
@@ -343,6 +344,7 @@ fn plan_and_prove(
         Ended::Compiled(mut made) => {
             let mut found = dynamics::add(job, &mut made.compiled);
             found.extend(dynamics::verdicts(job, &made.compiled, &outcome.sources, run));
+            found.extend(cells::compare(job, &mut made.compiled));
             let mut objections = target::objections(job, &made.compiled, request);
             let (errors, warnings): (Vec<_>, Vec<_>) = found
                 .into_iter()

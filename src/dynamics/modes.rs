@@ -4,6 +4,7 @@
 //! the mass matrix `M` of [Ha 2019], equations 20 to 22, and the stiffness `K`. What turns with the motors stands still and does not count.
 //! `K` is diagonal, so `K^-1/2 M K^-1/2` is symmetric; its eigenvalues are `1 / w^2` of the modes.
 
+pub mod cells;
 pub mod figures;
 
 use crate::arm::{Arm, State};

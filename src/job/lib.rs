@@ -66,6 +66,8 @@ pub struct CheckedJob {
     pub stock: Stock,
     /// Where the stock's size is.
     pub stock_span: Span,
+    /// From wall to wall of the core's cells, where the job states it.
+    pub cell_size: Option<Sourced<Length>>,
     /// The part, spanning the stock from side to side and lying within it.
     pub part: Part,
     pub profile_span: Span,

@@ -14,6 +14,9 @@ impl CheckedJob {
         let mut job = self.clone();
         job.name_span = place;
         job.stock_span = place;
+        if let Some(size) = &mut job.cell_size {
+            size.forget_place(place);
+        }
         job.part.forget_places(place);
         job.profile_span = place;
         for operation in &mut job.operations {

@@ -214,6 +214,10 @@ fn whole(
         Some(placed) => stock::check(placed.block, placed.place, scope, session),
         None => Err(missing.stock(session)),
     };
+    let (stock, cell_size) = match stock {
+        Ok(stock) => (Ok(stock.size), stock.cell_size),
+        Err(reported) => (Err(reported), None),
+    };
     let regions: Vec<Checked<NamedRegion>> = all
         .regions
         .iter()
@@ -299,6 +303,7 @@ fn whole(
         name_span: name.span,
         stock: stock.node,
         stock_span: stock.span,
+        cell_size,
         part,
         profile_span: place,
         open: open.collect(),

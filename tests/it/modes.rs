@@ -1,8 +1,10 @@
 //! The modes of an arm over the cuts of a program: against the slowest one as repeated multiplication finds it.
 
 use crate::forces::{JOB, STATED, compiled, text};
-use crate::pipeline::Files;
+use crate::pipeline::{Files, rendered};
 use crate::repository::root;
+use vcutc::diagnostics::{Code, Diagnostic};
+use vcutc::driver::Outcome;
 use vcutc::dynamics::arm::Arm;
 use vcutc::machine::kinematics::Joints;
 use vcutc_backend_api::ir::{Action, Registered};
@@ -117,4 +119,63 @@ fn modes_need_masses_and_stiffness_and_no_forces() {
     assert_eq!(modes(lumped, ""), None);
     let without = |sheet: String| sheet[..sheet.find("[dynamics]").unwrap()].to_owned() + ELASTICITY;
     assert_eq!(modes(without(sheet()), ""), None);
+}
+
+/// Cells that meet the slowest mode, and the speeds that are offered instead.
+#[test]
+fn speeds_at_which_cells_meet_a_mode_are_warned_of_and_those_offered_are_not() {
+    let figures = compiled(&job(sheet(), ""))
+        .compiled
+        .unwrap()
+        .dynamics
+        .modes
+        .unwrap();
+    let met = figures.modes[0].lowest;
+    // Cut at 100 mm/s, the job's edge meets so many cells a second.
+    let size = format!("{:.3} mm", 100.0 / met);
+    let at = |speed: &str| {
+        let text = text("", "", "").replace("24 mm) }", &format!("24 mm), cell_size = {size} }}"));
+        let text = text.replace("cut = 100 mm/s", &format!("cut = {speed} mm/s"));
+        compiled(&Files::default().with(JOB, text).with("arm.toml", sheet()))
+    };
+    let warnings = |outcome: &Outcome| -> Vec<Diagnostic> {
+        let all = outcome.diagnostics.iter();
+        all.filter(|one| one.code == Code::CellsMeetMode)
+            .cloned()
+            .collect()
+    };
+    let outcome = at("100");
+    let found = warnings(&outcome);
+    let [warning] = found.as_slice() else {
+        panic!("{}", rendered(&outcome.diagnostics, &outcome))
+    };
+    let (_, nearest) = warning.help[0].split_once("the nearest are ").unwrap();
+    let speeds: Vec<&str> = nearest
+        .split(" and ")
+        .map(|speed| speed.strip_suffix(" mm/s").unwrap())
+        .collect();
+    assert_eq!(speeds.len(), 2, "{nearest}");
+    for speed in speeds {
+        let outcome = at(speed);
+        assert_eq!(warnings(&outcome), [], "{speed}");
+        let summary = &outcome.compiled.as_ref().unwrap().summary;
+        assert!(
+            summary.iter().any(|line| line.contains("20 % or more away")),
+            "{summary:?}"
+        );
+    }
+}
+
+#[test]
+fn cells_are_not_compared_with_modes_that_are_not_known() {
+    let text = text("", "", "").replace("24 mm) }", "24 mm), cell_size = 3.2 mm }");
+    let stiff = sheet().replace(ELASTICITY, "");
+    let outcome = compiled(&Files::default().with(JOB, text).with("arm.toml", stiff));
+    let summary = outcome.compiled.unwrap().summary;
+    assert!(
+        summary
+            .iter()
+            .any(|line| line.contains("cells") && line.contains("not compared")),
+        "{summary:?}"
+    );
 }

@@ -15,7 +15,7 @@ use vcutc_motion::parts::Motions;
 use vcutc_motion::path::Part;
 
 /// Where modes are looked at on each cut: at its beginning, in its middle and at its end.
-const SAMPLES: [Part; 3] = [at(0.0), at(0.5), at(1.0)];
+pub(super) const SAMPLES: [Part; 3] = [at(0.0), at(0.5), at(1.0)];
 
 const fn at(middle: f64) -> Part {
     Part { middle, half: 0.0 }

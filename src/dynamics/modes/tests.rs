@@ -1,8 +1,9 @@
 //! Modes against published cases, against one spring by hand, and against the matrices of [Ha 2019].
 
+use super::cells::shares;
 use super::*;
 use crate::arm::tests::{bodies, parts_of_the_paper, states};
-use crate::push::tests::{STIFFNESS, joints_in_a_v};
+use crate::push::tests::{STIFFNESS, along_normals_in_a_v, joints_in_a_v};
 use crate::springs::Spring;
 use core::f64::consts::{FRAC_PI_2, PI};
 use glam::{DMat3, DVec3};
@@ -62,9 +63,9 @@ const SPINDLE_ARM: [Row; JOINTS] = [
     ([0.0, -0.42, PI, 0.0], 46.50, [0.13734, 0.0, -0.09334], [0.2591, 1.1944, 1.1005, 0.0, 0.0621, 0.0]),
 ];
 
-#[test]
-fn a_robot_that_mills_has_the_modes_of_another_program() {
-    let (opw, [left, right]) = joints_in_a_v();
+/// A robot that holds a spindle, in both flanks of a V.
+fn spindle_arm() -> (Arm, [Joints; 2]) {
+    let (opw, joints) = joints_in_a_v();
     let mechanism = Mechanism::OrthoParallel(opw);
     let lines = Linkage::from(&mechanism).tool;
     let mut frame = Pose::IDENTITY;
@@ -91,13 +92,53 @@ fn a_robot_that_mills_has_the_modes_of_another_program() {
             inertia: frame.rotation * inertia * frame.rotation.transpose(),
         }
     });
-    let arm = Arm::new(&mechanism, bodies, None, DVec3::Z).unwrap();
+    (Arm::new(&mechanism, bodies, None, DVec3::Z).unwrap(), joints)
+}
+
+#[test]
+fn a_robot_that_mills_has_the_modes_of_another_program() {
+    let (arm, [left, right]) = spindle_arm();
     let modes = arm.modes(&left, &springs(STIFFNESS)).unwrap();
     let within = [5e-3, 5e-3, 5e-3, 0.5, 0.5, 0.5];
     assert_frequencies(&modes, &[9.92, 11.78, 20.20, 84.0, 112.0, 202.0], &within);
     // In the right flank that program holds the spindle a little differently.
     let modes = arm.modes(&right, &springs(STIFFNESS)).unwrap();
     assert_frequencies(&modes, &[7.69, 10.29, 25.43], &[0.02; 3]);
+}
+
+/// How many times as far the blade swings across its flank as it yields to a steady push, where it goes through cells of 3.2 mm at these
+/// speeds and each mode has 3 % of damping: values of another program.
+#[test]
+fn walls_move_a_blade_by_the_shares_of_its_modes() {
+    let (arm, joints) = spindle_arm();
+    let wanted = [
+        (30.0, [2.0, 3.0]),
+        (80.0, [0.9, 4.5]),
+        (100.0, [0.35, 0.32]),
+        (200.0, [0.01, 0.46]),
+    ];
+    for (flank, along_normal) in along_normals_in_a_v().into_iter().enumerate() {
+        let modes = arm.modes(&joints[flank], &springs(STIFFNESS)).unwrap();
+        let shares = shares(&modes, along_normal);
+        assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        for (speed, wanted) in wanted {
+            let [mut along, mut behind] = [0.0, 0.0];
+            for (mode, share) in modes.iter().zip(shares) {
+                let ratio = speed / 3.2 / mode.frequency;
+                let (real, imaginary) = (1.0 - ratio * ratio, 2.0 * 0.03 * ratio);
+                let square = real * real + imaginary * imaginary;
+                along += share * real / square;
+                behind -= share * imaginary / square;
+            }
+            let times = libm::hypot(along, behind);
+            // Half of the last digit; in the right flank that program holds the spindle a little differently.
+            let within = [if wanted[flank] < 0.5 { 0.005 } else { 0.05 }, 0.1][flank];
+            assert!(
+                (times - wanted[flank]).abs() <= within,
+                "{flank} {speed}: {times}"
+            );
+        }
+    }
 }
 
 /// The mass matrix as [Ha 2019], equations 20 to 22, have it: from the Jacobians of the bodies.

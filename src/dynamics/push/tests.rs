@@ -84,6 +84,14 @@ pub(crate) fn joints_in_a_v() -> (Opw, [Joints; 2]) {
     )
 }
 
+/// How the axes move the tip along the normal of the flank in these two.
+pub(crate) fn along_normals_in_a_v() -> [[f64; JOINTS]; 2] {
+    [-1.0, 1.0].map(|side| {
+        let case = case(side, Elbow::Forward, 0.0);
+        case.push.normals(&case.columns)[0]
+    })
+}
+
 pub(crate) const STIFFNESS: [f64; 6] = IDENTIFIED[0];
 
 struct Case {

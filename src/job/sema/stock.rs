@@ -7,6 +7,7 @@ use super::fields::{BlockSpec, Fields, Inner, Place, value};
 use super::read::{Reader, looks_like};
 use super::report::{Checked, Reported};
 use super::session::Session;
+use crate::Sourced;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
@@ -15,9 +16,19 @@ use vcutc_syntax::ast::{Block, Expr};
 
 pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`stock`",
-    fields: &[value("size", "(85 mm, 50 mm, 50 mm)").required().within(SIZE)],
+    fields: &[
+        value("size", "(85 mm, 50 mm, 50 mm)").required().within(SIZE),
+        value("cell_size", "3.2 mm").within(SIZE),
+    ],
     inner: Inner::Refused,
 };
+
+/// What a block says of the stock.
+pub(crate) struct CheckedStock {
+    pub(crate) size: Spanned<Stock>,
+    /// From wall to wall of the core's cells.
+    pub(crate) cell_size: Option<Sourced<Length>>,
+}
 
 /// The stock and where its size is.
 pub(crate) fn check(
@@ -25,9 +36,10 @@ pub(crate) fn check(
     place: Place,
     scope: Scope<'_>,
     session: &mut Session<'_>,
-) -> Checked<Spanned<Stock>> {
+) -> Checked<CheckedStock> {
     let fields = Fields::sort(&SPEC, place, &block.entries, session);
     let mut reader = Reader::new(scope, &mut session.reports);
+    let cell_size = reader.optional(&fields, "cell_size");
     let size = fields.required_value("size", reader.reports)?;
     let Expr::Tuple(sides) = &size.node else {
         return Err(reader.reports.push(not_three(size.span, looks_like(&size.node))));
@@ -48,7 +60,10 @@ pub(crate) fn check(
         depth: depth?,
         height: height?,
     };
-    Ok(Spanned::new(stock, size.span))
+    Ok(CheckedStock {
+        size: Spanned::new(stock, size.span),
+        cell_size: cell_size?,
+    })
 }
 
 fn not_three(span: Span, what: &str) -> Diagnostic {

@@ -41,6 +41,7 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
             height: Length::mm(50.0),
         },
         stock_span: span,
+        cell_size: None,
         part: Part::through(profile).unwrap(),
         profile_span: span,
         open: Vec::new(),
