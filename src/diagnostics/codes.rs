@@ -234,7 +234,7 @@ codes! {
     ForcesElsewhere = "VC0536", Warning, "forces measured under other conditions";
     /// A load that the machine may not carry.
     LoadTooMuch = "VC0537", Error, "load that is too much for the machine";
-    /// Tips that cannot be set off against forces.
+    /// Tips that cannot be offset against forces.
     NotCompensated = "VC0538", Error, "cuts that cannot be compensated for forces";
     /// Cells whose walls push the edge at a frequency at which the arm swings.
     CellsMeetMode = "VC0539", Warning, "cells that meet a mode of the arm";

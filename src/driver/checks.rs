@@ -57,7 +57,7 @@ pub enum Check {
     Torques,
     /// How far the forces of the blade push cuts off is bounded, and no more than the limit where one is set.
     Deviation,
-    /// Cuts whose tips are set off against forces stay out of the part where nothing pushes the blade.
+    /// Cuts whose tips are offset against forces stay out of the part where less pushes the blade.
     Unloaded,
     /// The time of the program counts speeding up and slowing down.
     Accelerations,

@@ -20,7 +20,7 @@ use vcutc_dynamics::modes::figures::ModeFigures;
 use vcutc_dynamics::places::Places;
 use vcutc_dynamics::verdict::{above_limit, is_within_limits, not_checked, relief};
 use vcutc_job::forces::Forces;
-use vcutc_job::{CheckedJob, Machine};
+use vcutc_job::{CheckedJob, Gravity, Machine};
 use vcutc_motion::rigs::Rigs;
 use vcutc_motion::solve::Reached;
 use vcutc_remedy::base_nearer;
@@ -114,20 +114,36 @@ fn cutting<T>(
     })
 }
 
-/// Offsets of the tips of an operation that take out what its flanks yield.
+/// How the tips of an operation are to be offset.
+pub(crate) struct Offset {
+    /// What takes out what its flanks yield.
+    pub(crate) by: Compensation,
+    /// How far its flanks may be pushed into the part at most, whatever stretches of the edge are in the material.
+    pub(crate) into_part: Length,
+}
+
+/// Finds how the tips of an operation are to be offset.
 ///
 /// # Errors
-/// Why they are not known.
-pub(crate) fn compensation(
+/// Why that is not known.
+pub(crate) fn offset(
     job: &CheckedJob,
     machine: &Machine,
     reached: &Reached,
     report: &Report,
     operation: OperationId,
-) -> Result<Compensation, deviation::Unknown> {
+) -> Result<Offset, deviation::Unknown> {
+    let is_weighed = machine.gravity.map(|gravity| gravity.value) == Some(Gravity::Uncompensated);
     let found = cutting(job, machine, reached, report, |_, arms, cuts| {
         let deviations = Deviations::of(cuts?, arms.ok()).ok_or(deviation::Unknown::Elasticity)?;
-        deviations.compensation(operation)
+        if is_weighed && arms.is_err() {
+            return Err(deviation::Unknown::Weight);
+        }
+        let into_part = deviations.into_part_with_any_edge(operation);
+        Ok(Offset {
+            by: deviations.compensation(operation)?,
+            into_part: into_part.ok_or(deviation::Unknown::ClosedForm)?,
+        })
     });
     found.unwrap_or(Err(deviation::Unknown::ClosedForm))
 }
@@ -319,7 +335,13 @@ fn compensating(
     let of = figures.operations.iter().find(|of| of.operation == number)?;
     let most = of.into_part.most.max(of.into_waste.most);
     (most <= limit.to_mm()).then(|| {
-        let title = format!("{}, which leaves {}", variant.advice, millimetres(most));
+        let deeper = of.compensation.as_ref().map_or(0.0, |offsets| offsets.deeper);
+        let title = format!(
+            "{}, which leaves {} under load, and {} into the part where less pushes the blade",
+            variant.advice,
+            millimetres(most),
+            millimetres(deeper),
+        );
         (title, variant.edits)
     })
 }

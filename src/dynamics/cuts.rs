@@ -29,12 +29,12 @@ pub struct Known<'p> {
     pub rigs: &'p Rigs<'p>,
     /// How much edge cuts use, in the program's order.
     pub edges: &'p [UsedEdge],
-    /// How far the tips of its operations are set off, operation by operation; none of those that are not compensated.
+    /// How far the tips of its operations are offset, operation by operation; none of those that are not compensated.
     pub compensations: &'p [Option<Compensation>],
 }
 
 impl<'p> Known<'p> {
-    /// How far the tips of an operation are set off; none of one that is not compensated.
+    /// How far the tips of an operation are offset; none of one that is not compensated.
     pub(crate) fn compensation(&self, operation: OperationId) -> Option<&'p Compensation> {
         self.compensations.get(usize::from(operation.0))?.as_ref()
     }
@@ -253,8 +253,8 @@ impl<'p> Cuts<'p> {
         })
     }
 
-    /// How far the tip of a cut is set off along the normal of its flank, anywhere on it, in m; none of one that is not compensated.
-    pub(crate) fn set_off(&self, cut: &Cut<'_>) -> Option<Interval> {
+    /// How far the tip of a cut is offset along the normal of its flank, anywhere on it, in m; none of one that is not compensated.
+    pub(crate) fn offset_along_normal(&self, cut: &Cut<'_>) -> Option<Interval> {
         let offset = self.known.compensation(cut.operation)?.offset(cut.vee);
         let offset = DVec3::new(offset.x, 0.0, offset.z) / MILLIMETRES;
         let along = self.normal_in_work(cut)?.dot(offset);

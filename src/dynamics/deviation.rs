@@ -167,10 +167,10 @@ impl<'c> Deviations<'c> {
         let cut = self.cuts.get(op)?;
         let push = self.cuts.push_at(cut, done)?;
         let shares = push.shares(&self.cuts.columns_at(cut.tool, joints), &self.springs);
-        let set_off = self.cuts.set_off(cut).map_or(0.0, Interval::middle);
+        let offset = self.cuts.offset_along_normal(cut).map_or(0.0, Interval::middle);
         Some(Shift {
-            tip: 1000.0 * (shares.iter().map(|share| share.tip).sum::<f64>() + set_off),
-            end: 1000.0 * (shares.iter().map(|share| share.end).sum::<f64>() + set_off),
+            tip: 1000.0 * (shares.iter().map(|share| share.tip).sum::<f64>() + offset),
+            end: 1000.0 * (shares.iter().map(|share| share.end).sum::<f64>() + offset),
         })
     }
 
@@ -180,8 +180,8 @@ impl<'c> Deviations<'c> {
         let push = self.cuts.push_on(cut, part)?;
         let columns = self.cuts.columns_on(cut.tool, cut.axes_on(part)?);
         let found = shifts(&push, &columns, &self.springs);
-        let set_off = self.cuts.set_off(cut).unwrap_or(Interval::ZERO);
-        Some(found.map(|views| views.map(|shifts| Ways::of(shifts + set_off, push.sides))))
+        let offset = self.cuts.offset_along_normal(cut).unwrap_or(Interval::ZERO);
+        Some(found.map(|views| views.map(|shifts| Ways::of(shifts + offset, push.sides))))
     }
 
     fn extreme(&self, peak: &Peak) -> Extreme {

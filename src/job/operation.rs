@@ -49,12 +49,12 @@ pub trait Operation: OperationValue + Any + Debug + Send + Sync {
         None
     }
 
-    /// Where the job asks that its tips are set off against the forces of its blade, if it does.
+    /// Where the job asks that its tips are offset against the forces of its blade, if it does.
     fn compensates(&self) -> Option<Span> {
         None
     }
 
-    /// The same operation with its tips set off against the forces of its blade; none where that cannot be, or is asked already.
+    /// The same operation with its tips offset against the forces of its blade; none where that cannot be, or is asked already.
     fn compensating(&self) -> Option<Variant> {
         None
     }

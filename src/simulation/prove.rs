@@ -15,7 +15,7 @@
 //! Tracks of a disc that change along y are judged elsewhere, where the surface is known that they follow ([`Tracks`]), and so are
 //! passes over a region of the plan ([`Cleared`]): here they take nothing off.
 //!
-//! Tips that are set off against forces are replayed where the blade is while these push ([`Compensation`]).
+//! Tips that are offset against forces are replayed where the blade is while these push ([`Compensation`]).
 //!
 //! On a piece of a chain the blade itself is followed, with its thickness and the chain's blend ([`piece`]).
 
@@ -81,7 +81,7 @@ pub struct Bound<'p> {
     pub spine: Option<&'p Spine>,
     /// How much lower than their tips say flanks of level cuts have to come out.
     pub lower: Length,
-    /// How far its tips are set off against forces: it is replayed as it cuts under these. None where they are not, or where it is
+    /// How far its tips are offset against forces: it is replayed as it cuts under these. None where they are not, or where it is
     /// replayed as it cuts while nothing pushes the blade.
     pub compensation: Option<&'p Compensation>,
 }
@@ -176,7 +176,7 @@ pub struct Replay {
     pub longest_edge: Length,
     /// How much edge cuts use, in the program's order, as far as it is measured cut by cut.
     pub edges: Vec<UsedEdge>,
-    /// How far the tips of its operations are set off, operation by operation; none of those that are not compensated.
+    /// How far the tips of its operations are offset, operation by operation; none of those that are not compensated.
     pub compensations: Vec<Option<Compensation>>,
     /// Cuts of each layer of each operation, in order.
     pub layers: Vec<(OperationId, usize)>,
@@ -408,15 +408,6 @@ impl<'p> Player<'p> {
         }
     }
 
-    /// A cut where it is to be replayed.
-    fn under_load(&self, cut: Cut) -> Cut {
-        let bound = self.bounds.get(usize::from(cut.operation.0));
-        match bound.and_then(|bound| bound.compensation) {
-            Some(compensation) => cut.under_load(compensation),
-            None => cut,
-        }
-    }
-
     /// `is_single` says that the cut has no other flank.
     fn cut(&mut self, cut: &Cut, is_single: bool) {
         self.enter(cut.operation, cut.tool);
@@ -438,7 +429,11 @@ impl<'p> Player<'p> {
         }
         let bound = self.bounds.get(usize::from(cut.operation.0));
         let lower = bound.map_or(0.0, |bound| bound.lower.to_mm());
-        self.come_out(cut, side, geometry, lower);
+        let least = match bound.and_then(|bound| bound.compensation) {
+            Some(_) => self.edge_under_load(cut, geometry, lower),
+            None => 0.0,
+        };
+        self.come_out(cut, side, geometry, (lower, least));
         let place = (cut.layer, cut.cut);
         // The verifier has made sure that both flanks are there, once each.
         match self.half_done.take(place) {
@@ -453,15 +448,15 @@ impl<'p> Player<'p> {
         }
     }
 
-    /// Where a flank that may lie so much lower comes out.
-    fn come_out(&mut self, cut: &Cut, side: Side, geometry: FlankGeometry, lower: f64) {
+    /// Where a flank that may lie so much lower comes out. It is taken to be no less high than `least`, in mm.
+    fn come_out(&mut self, cut: &Cut, side: Side, geometry: FlankGeometry, (lower, least): (f64, f64)) {
         let tip = Point2 {
             z: cut.tip.z - lower,
             ..cut.tip
         };
         let surface = self.section.surface();
         let blocked_at = if let Some(run) = surface.flank_from(tip, side, geometry.slope) {
-            self.use_edge(run.reach * geometry.edge_per_height, cut);
+            self.use_edge(run.reach.max(least) * geometry.edge_per_height, cut);
             run.blocked_at
         } else {
             surface.obstacle(Vee::one(tip, side, geometry.slope))

@@ -30,7 +30,7 @@ pub struct Report {
     pub longest_edge: Length,
     /// How much edge cuts use, in the program's order, as far as it is measured cut by cut.
     pub edges: Vec<UsedEdge>,
-    /// How far the tips of its operations are set off, operation by operation; none of those that are not compensated.
+    /// How far the tips of its operations are offset, operation by operation; none of those that are not compensated.
     pub compensations: Vec<Option<Compensation>>,
     /// Largest normalised cross-correlation of machined and theoretical contour, each resampled at 1000 points [Cui 15].
     pub correlation: f64,

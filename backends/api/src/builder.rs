@@ -114,7 +114,7 @@ impl ProgramBuilder {
         OperationId(id(self.program.operations.len() - 1))
     }
 
-    /// Notes how far the tips of the latest operation are set off at most against what forces do to its blades.
+    /// Notes how far the tips of the latest operation are offset at most against what forces do to its blades.
     pub fn compensated(&mut self, by: Length) {
         if let Some(operation) = self.program.operations.last_mut() {
             operation.compensation = Some(by);

@@ -369,7 +369,7 @@ pub struct Operation {
     pub tools: Vec<ToolId>,
     /// Where the job says so.
     pub source: SourceRef,
-    /// How far its tips are set off at most against what forces do to its blades, in mm; none where they are not.
+    /// How far its tips are offset at most against what forces do to its blades, in mm; none where they are not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub compensation: Option<Length>,
 }

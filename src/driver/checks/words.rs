@@ -75,7 +75,7 @@ impl Checks {
             );
         }
         if self.is_made(&Check::Unloaded) {
-            parts.push("where nothing pushes the blade, no compensated cut enters the part".to_owned());
+            parts.push("where less pushes the blade, no compensated cut enters the part".to_owned());
         }
         if self.is_made(&Check::ReadBack) {
             parts.push("the written text reads back as the same program".to_owned());
@@ -248,7 +248,7 @@ impl Check {
             Self::Turns => "the sweep of the edge where the blade turns beside the work",
             Self::Torques => "torques of the axes",
             Self::Deviation => "how far the forces of the blade push it off",
-            Self::Unloaded => "whether compensated cuts enter the part where nothing pushes the blade",
+            Self::Unloaded => "whether compensated cuts enter the part where less pushes the blade",
             Self::Accelerations => "times with accelerations",
             Self::Holder(_) => "shank and holder of the blade",
             Self::Collisions => "collisions of the machine",

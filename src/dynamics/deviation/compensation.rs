@@ -2,11 +2,12 @@
 //!
 //! Both flanks of a V share one tip, and each is formed by its displacement along its own normal. Two normals span the plane across the
 //! cuts, so one offset of the tip takes out what both yield: of a flank that yields by `e` along its normal `n`, it is `-e` along that.
-//! What a flank yields changes along the cut and with the forces; the middle of all that is taken out, and the rest stays.
+//! What a flank yields changes along the cut and with the forces; the middle of all that is taken out, and the rest stays. Along a flank
+//! nothing is taken out: there its tip stays where the offset puts it, mostly lower than planned.
 
-use super::{Deviations, Unknown};
+use super::{Deviations, LEAST, Shifts, Unknown};
 use crate::cuts::{Cut, Face};
-use crate::peaks::Whole;
+use crate::peaks::{Held, Sought, Whole, peaks};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OpId, OperationId};
@@ -30,14 +31,14 @@ struct Yields {
     by: f64,
 }
 
-/// How far the tips of an operation are set off.
+/// The offsets of the tips of an operation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SetOff {
-    /// The farthest that one is.
+pub struct Offsets {
+    /// The largest.
     pub most: Length,
-    /// A flank of that.
+    /// A flank of that V.
     pub op: OpId,
-    /// How far a flank lies deeper than planned where nothing pushes the blade, at most.
+    /// How far a flank lies deeper than planned, at most, whatever stretches of the edge are in the material.
     pub deeper: Length,
 }
 
@@ -89,37 +90,39 @@ impl Deviations<'_> {
         })
     }
 
-    /// How far the tips of an operation are set off; none of one that is not compensated.
+    /// How far the tips of an operation are offset; none of one that is not compensated, or where it is not known how deep its flanks lie.
     #[must_use]
-    pub fn set_off(&self, operation: OperationId) -> Option<SetOff> {
+    pub fn offsets(&self, operation: OperationId) -> Option<Offsets> {
         let compensation = self.cuts.known().compensation(operation)?;
-        let mut found: Option<SetOff> = None;
-        for whole in self.cuts.wholes_of(operation) {
-            let cut = self.cuts.get(whole.op)?;
-            let offset = compensation.offset(cut.vee);
-            let size = Length::mm(libm::hypot(offset.x, offset.z));
-            let deeper = Length::m(-self.cuts.set_off(cut)?.low);
-            found = Some(match found {
-                Some(found) => SetOff {
-                    deeper: found.deeper.max(deeper),
-                    ..if size > found.most {
-                        SetOff {
-                            most: size,
-                            op: whole.op,
-                            ..found
-                        }
-                    } else {
-                        found
-                    }
-                },
-                None => SetOff {
-                    most: size,
-                    op: whole.op,
-                    deeper: deeper.max(Length::ZERO),
-                },
-            });
-        }
-        found
+        let sizes = self.cuts.wholes_of(operation).filter_map(|whole| {
+            let offset = compensation.offset(self.cuts.get(whole.op)?.vee);
+            Some((whole.op, libm::hypot(offset.x, offset.z)))
+        });
+        let (op, most) = sizes.reduce(|best, next| if next.1 > best.1 { next } else { best })?;
+        Some(Offsets {
+            most: Length::mm(most),
+            op,
+            deeper: self.into_part_with_any_edge(operation)?,
+        })
+    }
+
+    /// How far a flank of an operation lies into the part at most, whatever stretches of the edge are in the material, and where none are.
+    #[must_use]
+    pub fn into_part_with_any_edge(&self, operation: OperationId) -> Option<Length> {
+        let sought = Sought {
+            least: LEAST,
+            limit: None,
+        };
+        let cuts: Vec<Whole> = self.cuts.wholes_of(operation).collect();
+        let [part] = peaks(&cuts, &[sought], |op, part| {
+            let shifts: Shifts<1> = |push, columns, springs| [push.shifts(columns, springs)];
+            let [[middle, everywhere]] = self.shifts(op, part, shifts)?;
+            Some([Held {
+                met: middle.into_part,
+                most: everywhere.into_part,
+            }])
+        })?;
+        part.most.is_finite().then(|| Length::m(part.most.max(0.0)))
     }
 }
 
@@ -197,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn a_single_flank_is_set_off_along_its_normal() {
+    fn a_single_flank_is_offset_along_its_normal() {
         let one = flank(30.0, -1.0, 0.5);
         let o = offset(&[one]);
         assert!((o.x - 0.433).abs() < 1e-9 && (o.z + 0.25).abs() < 1e-9, "{o:?}");

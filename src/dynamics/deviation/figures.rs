@@ -61,7 +61,7 @@ pub struct OperationDeviation {
     /// While the edge comes into the material and the arm swings.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_entry: Option<EntryFigure>,
-    /// How far its tips are set off; none where it is not compensated. Where they are, `into_waste` and `into_part` are meant under
+    /// How far its tips are offset; none where it is not compensated. Where they are, `into_waste` and `into_part` are meant under
     /// load: while all of the edge that a cut uses is in the material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub compensation: Option<CompensationFigure>,
@@ -73,14 +73,14 @@ pub struct OperationDeviation {
     pub limit: Option<f64>,
 }
 
-/// How far tips are set off against the forces of the blade.
+/// How far tips are offset against the forces of the blade.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CompensationFigure {
     /// At most, in mm.
     #[serde(serialize_with = "tenths_of_um")]
     pub offset: f64,
     pub at: PlaceFigure,
-    /// How far flanks lie deeper than planned where nothing pushes the blade, at most, in mm.
+    /// How far flanks lie deeper than planned, at most, in mm, whatever stretches of the edge are in the material.
     #[serde(serialize_with = "tenths_of_um")]
     pub deeper: f64,
 }
@@ -191,10 +191,10 @@ impl DeviationFigures {
                     into_waste: swing(known, extremes.into_waste, sag),
                     into_part: swing(known, extremes.into_part, sag),
                 }),
-                compensation: deviations.set_off(operation).map(|set_off| CompensationFigure {
-                    offset: set_off.most.to_mm(),
-                    at: place(known, set_off.op),
-                    deeper: set_off.deeper.to_mm(),
+                compensation: deviations.offsets(operation).map(|offset| CompensationFigure {
+                    offset: offset.most.to_mm(),
+                    at: place(known, offset.op),
+                    deeper: offset.deeper.to_mm(),
                 }),
                 failed: failed(known, asked, operation),
                 limit: limit.map(Length::to_mm),
@@ -222,8 +222,16 @@ impl DeviationFigures {
     pub fn lines(&self) -> Vec<(&'static str, String)> {
         let mut lines = vec![("force", self.force.line())];
         let worst = |side: fn(&OperationDeviation) -> &ShiftFigure| {
-            let all = self.operations.iter().map(side);
-            all.max_by(|one, other| one.most.total_cmp(&other.most))
+            let all = self.operations.iter().map(|of| (of, side(of)));
+            all.max_by(|(_, one), (_, other)| one.most.total_cmp(&other.most))
+        };
+        let side = |(of, shift): (&OperationDeviation, &ShiftFigure), into: &str| {
+            let under_load = of.compensation.as_ref().map_or("", |_| " under load");
+            format!(
+                "{}{under_load} into the {into} ({})",
+                millimetres(shift.most),
+                shift.words()
+            )
         };
         if let (Some(waste), Some(part)) = (worst(|of| &of.into_waste), worst(|of| &of.into_part)) {
             let failed = self.operations.iter().filter_map(|of| of.failed);
@@ -236,20 +244,12 @@ impl DeviationFigures {
             } else {
                 String::new()
             };
-            let compensated = self.operations.iter().filter(|of| of.compensation.is_some());
-            let under = match compensated.count() {
-                0 => "",
-                count if count == self.operations.len() => " with all of its edge in the material",
-                _ => ", compensated cuts with all of the edge in the material",
-            };
             lines.push((
                 "deviation",
                 format!(
-                    "{} into the waste ({}), {} into the part ({}), at most, by the forces of the blade{under}{sag}{failed}; stiffness {}",
-                    millimetres(waste.most),
-                    waste.words(),
-                    millimetres(part.most),
-                    part.words(),
+                    "{}, {}, at most, by the forces of the blade{sag}{failed}; stiffness {}",
+                    side(waste, "waste"),
+                    side(part, "part"),
                     self.stiffness.word(),
                 ),
             ));
@@ -260,7 +260,7 @@ impl DeviationFigures {
         lines
     }
 
-    /// `tips set off by up to 0.034 mm (layer 1, cut 4); flanks lie up to 0.031 mm deeper where nothing pushes the blade`.
+    /// `tips offset by up to 0.034 mm (layer 1, cut 4); flanks lie up to 0.031 mm deeper than planned where less pushes the blade`.
     fn compensation_line(&self) -> Option<String> {
         let all = self.operations.iter().filter_map(|of| of.compensation.as_ref());
         let farthest = all
@@ -268,7 +268,7 @@ impl DeviationFigures {
             .max_by(|one, other| one.offset.total_cmp(&other.offset))?;
         let deeper = all.map(|of| of.deeper).fold(0.0, f64::max);
         Some(format!(
-            "tips set off by up to {} ({}); flanks lie up to {} deeper where nothing pushes the blade",
+            "tips offset by up to {} ({}); flanks lie up to {} deeper than planned where less pushes the blade",
             millimetres(farthest.offset),
             farthest.at.words,
             millimetres(deeper),

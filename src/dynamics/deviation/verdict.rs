@@ -83,7 +83,7 @@ impl Needs {
         }
     }
 
-    /// Tips that are to be set off against the forces.
+    /// Tips that are to be offset against the forces.
     #[must_use]
     pub const fn compensation(place: Span) -> Self {
         Self {

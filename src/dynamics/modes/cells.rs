@@ -1,6 +1,6 @@
 //! Cells of the core that meet a mode of the arm.
 //!
-//! An edge goes through the walls of cells one after the other, and each pushes it: `v / cell` times a second at a speed `v` [derived]. An
+//! An edge goes through the walls of cells one after the other, and each pushes it: `v / cell` times a second at a speed `v`. An
 //! arm that swings by itself at about that rate swings up. How far depends on its damping and on how hard each wall pushes, which are not
 //! known; so what is found is only that the two rates meet, and for modes that move the blade across its flank.
 

@@ -140,7 +140,7 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
         self.copied()
     }
 
-    /// The same plan with its tips set off; none of an operation that cannot be compensated.
+    /// The same plan with its tips offset; none of an operation that cannot be compensated.
     fn compensated(&self, _by: Compensation) -> Option<Box<dyn PlannedOperation>> {
         None
     }

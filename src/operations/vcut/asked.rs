@@ -47,7 +47,7 @@ pub struct RoughVcut {
     pub standoff: Sourced<Auto<Length>>,
     /// How the cuts follow a part that changes along y. Default `straight`.
     pub follow: Sourced<Follow>,
-    /// What tips are set off against. Default `nothing`.
+    /// What tips are offset against. Default `nothing`.
     pub compensate: Sourced<Compensate>,
     /// What that came to; none where the cuts are level.
     pub along: Option<Along>,
@@ -181,7 +181,7 @@ pub enum Avoid {
     Swing,
 }
 
-/// What tips are set off against.
+/// What tips are offset against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compensate {
     /// Nothing: they run where they are planned.

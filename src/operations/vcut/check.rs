@@ -115,7 +115,7 @@ fn narrower_along(operation: &RoughVcut) -> Diagnostic {
     )
 }
 
-/// Tips set off along a spine.
+/// Tips offset along a spine.
 fn compensated_along(operation: &RoughVcut) -> Diagnostic {
     let head = operation.setup.head_span;
     let place = operation.compensate.span.unwrap_or(head);
@@ -124,7 +124,7 @@ fn compensated_along(operation: &RoughVcut) -> Diagnostic {
         Code::CannotFollow,
         format!("`compensate = forces` does not go with `follow = {word}`"),
         place,
-        "tips of level cuts only are set off",
+        "tips of level cuts only are offset",
     )
     .and(
         operation.follow.span.unwrap_or(head),

@@ -49,13 +49,13 @@ const KIND: OperationKind = OperationKind::named("rough_vcut").unwrap();
 /// Appends the ops of one operation.
 pub(crate) fn lower(planned: &PlannedVcut, source: SourceRef, builder: &mut ProgramBuilder) {
     let operation = builder.operation(KIND, planned.asked.blade.in_program(), source);
-    if let Some(compensation) = &planned.compensation {
-        let largest = compensation.largest();
+    if let Some(compensated) = &planned.compensation {
+        let largest = compensated.by.largest();
         builder.compensated(Length::mm(largest.map_or(0.0, |(_, size)| size)));
     }
     let mut writer = Writer::new(planned, operation, builder);
     let numbers = numbers(&planned.cuts);
-    let cuts = set_off(planned, &numbers);
+    let cuts = offset_cuts(planned, &numbers);
     for run in &planned.runs {
         let cuts = cuts.get(run.cuts.clone()).unwrap_or_default();
         let numbers = numbers.get(run.cuts.clone()).unwrap_or_default();
@@ -69,13 +69,13 @@ pub(crate) fn lower(planned: &PlannedVcut, source: SourceRef, builder: &mut Prog
 }
 
 /// The cuts with their tips where the program has them.
-fn set_off<'p>(planned: &'p PlannedVcut, numbers: &[VNumber]) -> Cow<'p, [PlannedCut]> {
-    let Some(compensation) = &planned.compensation else {
+fn offset_cuts<'p>(planned: &'p PlannedVcut, numbers: &[VNumber]) -> Cow<'p, [PlannedCut]> {
+    let Some(compensated) = &planned.compensation else {
         return Cow::Borrowed(&planned.cuts);
     };
     let each = planned.cuts.iter().zip(numbers);
     let each = each.map(|(cut, &vee)| {
-        let offset = compensation.offset(vee);
+        let offset = compensated.by.offset(vee);
         PlannedCut {
             tip: Point2 {
                 x: grid::nearest(cut.tip.x + offset.x),
@@ -88,7 +88,7 @@ fn set_off<'p>(planned: &'p PlannedVcut, numbers: &[VNumber]) -> Cow<'p, [Planne
 }
 
 /// Layer and number of each cut, counted from left to right in each layer.
-fn numbers(cuts: &[PlannedCut]) -> Vec<VNumber> {
+pub(crate) fn numbers(cuts: &[PlannedCut]) -> Vec<VNumber> {
     let mut numbers = Vec::with_capacity(cuts.len());
     for layer in route::layers(cuts) {
         for (index, cut) in (0_u32..).zip(cuts.get(layer).unwrap_or_default()) {

@@ -161,6 +161,10 @@ impl Operation for RoughVcut {
     }
 
     fn keeping_more(&self, by: Length) -> Option<Variant> {
+        // Given tips keep their places.
+        if self.tips.is_some() {
+            return None;
+        }
         let mut operation = self.clone();
         let allowance = &mut operation.allowance;
         // Upward, to hundredths of a mm.

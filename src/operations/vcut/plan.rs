@@ -74,10 +74,19 @@ pub struct PlannedVcut {
     pub course: Option<Course>,
     /// In which order they are made: every cut in one run.
     pub runs: Vec<Run>,
-    /// How far its tips are set off from their places against forces; none where they are not.
-    pub compensation: Option<Compensation>,
+    /// How far its tips are offset from their places against forces; none where they are not.
+    pub compensation: Option<Compensated>,
     /// Why it came out so, where the job left the choice open.
     pub decisions: Vec<Decision>,
+}
+
+/// Tips that are offset against forces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compensated {
+    /// Their offsets.
+    pub by: Compensation,
+    /// How much lower flanks come out at most than those that were planned, where nothing pushes the blade.
+    pub lower: Length,
 }
 
 /// One V-cut.

@@ -1,9 +1,9 @@
 //! The plan of V-shaped roughing as the stages after planning see it.
 
 use crate::asked::{RoughVcut, Sequence};
-use crate::plan::PlannedVcut;
 use crate::plan::avoid::Swings;
 use crate::plan::removable::Removable;
+use crate::plan::{Compensated, PlannedVcut};
 use crate::{choice, lower, summary, tables, verdict};
 use core::any::Any;
 use vcutc_backend_api::builder::ProgramBuilder;
@@ -40,6 +40,23 @@ impl PlannedVcut {
         } else {
             CutShape::Narrowed { left, right }
         }
+    }
+}
+
+impl PlannedVcut {
+    /// How much lower a flank begins and lies at most, at any x, when tips are offset by this.
+    fn lower_by(&self, by: &Compensation) -> Length {
+        let vees = lower::numbers(&self.cuts).into_iter().zip(&self.cuts);
+        let each = vees.flat_map(|(vee, cut)| {
+            let Point2 { x, z } = by.offset(vee);
+            [cut.swings.left, cut.swings.right].map(|swing| {
+                let tangent = libm::tan(swing.to_rad());
+                // A flank gets lower by its slope as it moves to the side. Upright ones do not.
+                let by_slope = if tangent > 0.0 { x.abs() / tangent } else { 0.0 };
+                by_slope - z
+            })
+        });
+        Length::mm(each.fold(0.0, f64::max))
     }
 }
 
@@ -85,7 +102,11 @@ impl PlannedOperation for PlannedVcut {
             aside: self.parameters.standoff,
             spine: self.asked.along.as_ref().map(|along| &*along.spine),
             edge: self.asked.limits.edge.map(|limit| limit.value),
-            compensation: self.compensation.as_ref(),
+            compensation: self.compensation.as_ref().map(|compensated| &compensated.by),
+            lower: self
+                .compensation
+                .as_ref()
+                .map_or(Length::ZERO, |compensated| compensated.lower),
             ..Bound::of(&self.bound)
         }
     }
@@ -116,14 +137,15 @@ impl PlannedOperation for PlannedVcut {
     }
 
     fn compensated(&self, by: Compensation) -> Option<Box<dyn PlannedOperation>> {
-        // Along a spine tips are not set off.
-        self.asked.along.is_none().then(|| {
-            let compensated: Box<dyn PlannedOperation> = Box::new(Self {
-                compensation: Some(by),
-                ..self.clone()
-            });
-            compensated
-        })
+        // Along a spine tips keep their places.
+        if self.asked.along.is_some() {
+            return None;
+        }
+        let lower = self.lower_by(&by);
+        Some(Box::new(Self {
+            compensation: Some(Compensated { by, lower }),
+            ..self.clone()
+        }))
     }
 
     fn lower(&self, source: SourceRef, builder: &mut ProgramBuilder) {

@@ -155,7 +155,8 @@ impl Player<'_> {
         } = followed;
         let slope = geometry.slope;
         self.along.above = self.along.above.max(deviation.above);
-        self.come_out(&cut, side, geometry, deviation.below + self.along.above);
+        let lower = deviation.below + self.along.above;
+        self.come_out(&cut, side, geometry, (lower, 0.0));
         self.along.cut.push((cut.clone(), slope));
         let place = (cut.layer, cut.cut);
         if self.along.strayed.contains(&place) {

@@ -79,9 +79,9 @@ pub fn head_lines<'p>(program: &'p Program, machine: &'p str) -> Vec<HeadLine<'p
             .zip(&program.operations)
             .filter_map(|(number, operation)| {
                 // Upward, but for rounding.
-                let by = (operation.compensation?.to_mm() * 1000.0 - 1e-6).ceil() / 1000.0;
+                let by = (operation.compensation?.to_mm() * 1000.0 - 1e-6).ceil().max(0.0) / 1000.0;
                 Some(ours(format!(
-                    "operation {number}: set off for forces by {} mm at most",
+                    "operation {number}: tips offset for forces, at most {} mm",
                     decimals(by)
                 )))
             }),
@@ -269,7 +269,7 @@ mod tests {
         let lines = head_lines(&program, "cell");
         assert_eq!(
             lines.last().unwrap().ours,
-            "operation 20: set off for forces by 9999.999 mm at most"
+            "operation 20: tips offset for forces, at most 9999.999 mm"
         );
         for line in lines {
             assert!(line.ours.len() <= 60 && line.ours.is_ascii(), "{}", line.ours);
