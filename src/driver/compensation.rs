@@ -74,9 +74,9 @@ fn compensated<'j>(
     if let Some(why) = refusal {
         return refused(plan, made.warnings, why);
     }
-    // Of a plan that was proven, this proof tells nothing new but errors.
-    let told = verdict::diagnose_while(job, &plan, &proven, &Wanted::never(), &mut |_| false);
-    if has_errors(&told) {
+    // The plan was proven before, so only errors are new.
+    let diagnostics = verdict::diagnose_while(job, &plan, &proven, &Wanted::never(), &mut |_| false);
+    if has_errors(&diagnostics) {
         return Ended::Refused(Refused::Unsound(Box::new(plan), Box::new(proven)));
     }
     match reaching::reach(job, proven.program, Changes::InTheAir, run, progress) {
@@ -100,10 +100,10 @@ fn compensated<'j>(
     }
 }
 
-fn refused<'j>(plan: PlannedJob, told: Vec<Diagnostic>, why: Diagnostic) -> Ended<'j> {
+fn refused<'j>(plan: PlannedJob, warnings: Vec<Diagnostic>, why: Diagnostic) -> Ended<'j> {
     Ended::Refused(Refused::ByTarget(Box::new(NotTaken {
         plan,
-        told,
+        told: warnings,
         objections: vec![why.into()],
     })))
 }

@@ -6,6 +6,7 @@
 
 pub mod cells;
 pub mod figures;
+mod samples;
 
 use crate::arm::{Arm, State};
 use crate::chain::JOINTS;

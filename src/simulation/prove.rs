@@ -216,7 +216,7 @@ pub fn accompanied(
     show: &mut dyn FnMut(OpId, &mut Surface),
 ) {
     let untouched = Surface::untouched(program.program().stock);
-    let mut player = Player::new(untouched, program.program(), telling(bounds));
+    let mut player = Player::new(untouched, program.program(), needed(bounds));
     player.play(program, &mut |op, section| show(op, section.surface()));
 }
 
@@ -228,7 +228,7 @@ pub fn watched(
     show: &mut dyn FnMut(OpId, &mut Surface, Vec<Taken>),
 ) -> (Vec<Taken>, Surface) {
     let untouched = Surface::untouched(program.program().stock);
-    let mut player = Player::new(untouched, program.program(), telling(bounds));
+    let mut player = Player::new(untouched, program.program(), needed(bounds));
     player.section.keep_taken();
     player.play(program, &mut |op, section| {
         let taken = section.taken();
@@ -237,10 +237,14 @@ pub fn watched(
     (player.section.taken(), player.section.into_surface())
 }
 
-/// What to know of operations to tell what their cuts take: where none follows a spine and none is compensated, nothing.
-fn telling<'b, 'p>(bounds: &'b [Bound<'p>]) -> &'b [Bound<'p>] {
-    let tells = |bound: &Bound<'_>| bound.spine.is_some() || bound.compensation.is_some();
-    if bounds.iter().any(tells) { bounds } else { &[] }
+/// What is needed of the bounds to see what cuts take: where none follows a spine and none is compensated, nothing.
+fn needed<'b, 'p>(bounds: &'b [Bound<'p>]) -> &'b [Bound<'p>] {
+    let moves_cuts = |bound: &Bound<'_>| bound.spine.is_some() || bound.compensation.is_some();
+    if bounds.iter().any(moves_cuts) {
+        bounds
+    } else {
+        &[]
+    }
 }
 
 /// Depth below which an overcut is rounding: a nanometre.

@@ -5,17 +5,15 @@
 //! known; so what is found is only that the two rates meet, and for modes that move the blade across its flank.
 
 use super::Mode;
-use super::figures::SAMPLES;
+use super::samples::along_cuts;
 use crate::arms::Arms;
 use crate::chain::{Chain, JOINTS};
 use crate::cuts::{Known, cutting};
-use crate::springs::Springs;
 use glam::DVec3;
 use std::collections::BTreeMap;
-use vcutc_backend_api::ir::{Action, OpId, OperationId};
+use vcutc_backend_api::ir::{Action, Blade, OpId, OperationId, Program};
+use vcutc_backend_api::segments::Segment;
 use vcutc_backend_api::units::{Length, Speed};
-use vcutc_machine::masses::Kind;
-use vcutc_motion::parts::Motions;
 
 /// Rates meet that are apart by no more than this share of the mode's: at 3 % of damping a wall then pushes the arm no more than 2.8 times
 /// as far as a steady push of its size.
@@ -62,48 +60,32 @@ struct Across {
 /// Whether cells of this size meet modes, operation by operation. None where modes are not known; what cuts with no edge has none.
 #[must_use]
 pub fn cells(known: Known<'_>, arms: &Arms, size: Length) -> Option<Vec<Cells>> {
-    let masses = known.model.masses.as_ref()?;
-    let springs = Springs::from(known.model.elasticity.as_ref()?);
     let chain = Chain::of(&known.model.mechanism)?;
-    if masses.kind == Kind::Lumped {
-        return None;
-    }
     let program = known.reached.program();
-    let motions = Motions::of(known.reached, known.rigs);
     let mut found: BTreeMap<OperationId, (Speed, Vec<Across>)> = BTreeMap::new();
-    for segment in program.segments() {
-        let (Some((operation, ..)), Action::Cut { feed, .. } | Action::Follow { feed, .. }) =
-            (cutting(&segment), segment.op.action)
-        else {
-            continue;
-        };
+    along_cuts(known, arms, |segment, joints, modes| {
         let tool = segment.before.tool;
-        let is_straight = program
-            .blade(tool)
-            .is_some_and(|blade| blade.straight().is_some());
-        let (true, Some(moving), Some(arm)) = (is_straight, motions.moving(segment.id), arms.with(tool))
-        else {
-            continue;
+        let is_straight = |blade: &Blade| blade.straight().is_some();
+        let (Some((operation, ..)), Some(speed), true) = (
+            cutting(segment),
+            speed(program, segment),
+            program.blade(tool).is_some_and(is_straight),
+        ) else {
+            return;
         };
         let hand = chain.in_hand(known.rigs.with(tool).flange_in_blade.inverse());
         let normal = (hand.rotation * DVec3::Y).to_array();
-        let (_, across) = found
-            .entry(operation)
-            .or_insert((program.feed(feed)?, Vec::new()));
-        for sample in SAMPLES {
-            let joints = moving.axes_on(sample)?.map(|axis| axis.middle().middle());
-            let columns = chain.columns(&chain.turns(&joints), hand.position.to_array());
-            let along_normal = columns.map(|column| column.of_force(normal));
-            let modes = arm.modes(&joints, &springs)?;
-            let all = modes.iter().zip(shares(&modes, along_normal));
-            let counting = all.filter(|(_, share)| *share >= LEAST_SHARE);
-            across.extend(counting.map(|(mode, share)| Across {
-                op: segment.id,
-                frequency: mode.frequency,
-                share,
-            }));
-        }
-    }
+        let columns = chain.columns(&chain.turns(joints), hand.position.to_array());
+        let along_normal = columns.map(|column| column.of_force(normal));
+        let all = modes.iter().zip(shares(&modes, along_normal));
+        let counting = all.filter(|(_, share)| *share >= LEAST_SHARE);
+        let (_, across) = found.entry(operation).or_insert((speed, Vec::new()));
+        across.extend(counting.map(|(mode, share)| Across {
+            op: segment.id,
+            frequency: mode.frequency,
+            share,
+        }));
+    })?;
     let each = found.into_iter().map(|(operation, (speed, across))| {
         let rate = speed.to_mm_per_s() / size.to_mm();
         Cells {
@@ -114,6 +96,14 @@ pub fn cells(known: Known<'_>, arms: &Arms, size: Length) -> Option<Vec<Cells>> 
         }
     });
     Some(each.collect())
+}
+
+/// How fast a cut is.
+fn speed(program: &Program, segment: &Segment<'_>) -> Option<Speed> {
+    match segment.op.action {
+        Action::Cut { feed, .. } | Action::Follow { feed, .. } => program.feed(feed),
+        _ => None,
+    }
 }
 
 /// The share of each mode of how far the blade yields to a steady push along a normal, along which the axes move it so.

@@ -1,25 +1,17 @@
 //! The modes of an arm over the cuts of a program, for people and for programs.
 
 use super::Mode;
+use super::samples::along_cuts;
 use crate::arms::Arms;
 use crate::chain::JOINTS;
 use crate::condition::hundredths;
-use crate::cuts::{Known, cutting};
+use crate::cuts::Known;
 use crate::figures::word;
 use crate::springs::Springs;
 use serde::{Serialize, Serializer};
 use vcutc_diagnostics::number::{rounded, show};
 use vcutc_machine::Model;
-use vcutc_machine::masses::{Backing, Kind};
-use vcutc_motion::parts::Motions;
-use vcutc_motion::path::Part;
-
-/// Where modes are looked at on each cut: at its beginning, in its middle and at its end.
-pub(super) const SAMPLES: [Part; 3] = [at(0.0), at(0.5), at(1.0)];
-
-const fn at(middle: f64) -> Part {
-    Part { middle, half: 0.0 }
-}
+use vcutc_machine::masses::Backing;
 
 /// How many modes the summary states.
 const STATED: usize = 3;
@@ -87,30 +79,14 @@ impl ModeFigures {
     pub fn of(known: Known<'_>, arms: &Arms) -> Option<Self> {
         let masses = known.model.masses.as_ref()?;
         let elasticity = known.model.elasticity.as_ref()?;
-        if masses.kind == Kind::Lumped {
-            return None;
-        }
         let springs = Springs::from(elasticity);
-        let motions = Motions::of(known.reached, known.rigs);
         let mut found: Option<[Range; JOINTS]> = None;
-        let program = known.reached.program();
-        for segment in program.segments() {
-            if cutting(&segment).is_none() {
-                continue;
+        along_cuts(known, arms, |_, _, here| {
+            let ranges = found.get_or_insert(here.map(Range::of));
+            for (range, mode) in ranges.iter_mut().zip(here) {
+                range.extend(mode);
             }
-            let (Some(moving), Some(arm)) = (motions.moving(segment.id), arms.with(segment.before.tool))
-            else {
-                continue;
-            };
-            for sample in SAMPLES {
-                let joints = moving.axes_on(sample)?.map(|axis| axis.middle().middle());
-                let here = arm.modes(&joints, &springs)?;
-                let ranges = found.get_or_insert(here.map(Range::of));
-                for (range, mode) in ranges.iter_mut().zip(here) {
-                    range.extend(mode);
-                }
-            }
-        }
+        })?;
         Some(Self {
             modes: found?
                 .iter()

@@ -122,15 +122,15 @@ fn walls_move_a_blade_by_the_shares_of_its_modes() {
         let shares = shares(&modes, along_normal);
         assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12);
         for (speed, wanted) in wanted {
-            let [mut along, mut behind] = [0.0, 0.0];
+            let [mut in_step, mut out_of_step] = [0.0, 0.0];
             for (mode, share) in modes.iter().zip(shares) {
                 let ratio = speed / 3.2 / mode.frequency;
                 let (real, imaginary) = (1.0 - ratio * ratio, 2.0 * 0.03 * ratio);
                 let square = real * real + imaginary * imaginary;
-                along += share * real / square;
-                behind -= share * imaginary / square;
+                in_step += share * real / square;
+                out_of_step += share * imaginary / square;
             }
-            let times = libm::hypot(along, behind);
+            let times = libm::hypot(in_step, out_of_step);
             // Half of the last digit; in the right flank that program holds the spindle a little differently.
             let within = [if wanted[flank] < 0.5 { 0.005 } else { 0.05 }, 0.1][flank];
             assert!(

@@ -9,6 +9,7 @@ use crate::asked::{Avoid, Compensate, Formulas, Lattice, Objective, Residual, Ro
 use crate::operation::NARROWEST_ALONG;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::number::show;
+use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::follow::Follow;
 use vcutc_job::operation::Operation;
@@ -92,50 +93,63 @@ impl Kind for Vcut {
     }
 }
 
+/// A value that only level cuts take, of an operation whose cuts follow a spine.
+struct LevelOnly {
+    field: &'static str,
+    value: &'static str,
+    span: Option<Span>,
+    label: &'static str,
+    /// What the other value does, and its word.
+    instead: (&'static str, &'static str),
+}
+
+impl LevelOnly {
+    fn refused(self, operation: &RoughVcut) -> Diagnostic {
+        let Self { field, value, .. } = self;
+        let head = operation.setup.head_span;
+        let place = self.span.unwrap_or(head);
+        let word = operation.follow.value.word();
+        let (title, other) = self.instead;
+        Diagnostic::new(
+            Code::CannotFollow,
+            format!("`{field} = {value}` does not go with `follow = {word}`"),
+            place,
+            self.label,
+        )
+        .and(
+            operation.follow.span.unwrap_or(head),
+            "these cuts rise and fall with the part",
+        )
+        .help(format!("delete `{field}`, or cut straight"))
+        .fix(format!("{title}: `{other}`"), place, other)
+    }
+}
+
 /// Narrower flanks along a spine.
 fn narrower_along(operation: &RoughVcut) -> Diagnostic {
-    let head = operation.setup.head_span;
-    let place = operation.avoid.span.unwrap_or(head);
-    let word = operation.follow.value.word();
-    Diagnostic::new(
-        Code::CannotFollow,
-        format!("`avoid = swing` does not go with `follow = {word}`"),
-        place,
-        "narrower flanks are cut straight only",
-    )
-    .and(
-        operation.follow.span.unwrap_or(head),
-        "these cuts rise and fall with the part",
-    )
-    .help("delete `avoid`, or cut straight")
-    .fix(
-        "raise tips where Vs do not fit: `lift`",
-        place,
-        Avoid::Lift.word(),
-    )
+    let narrower = LevelOnly {
+        field: "avoid",
+        value: Avoid::Swing.word(),
+        span: operation.avoid.span,
+        label: "narrower flanks are cut straight only",
+        instead: ("raise tips where Vs do not fit", Avoid::Lift.word()),
+    };
+    narrower.refused(operation)
 }
 
 /// Tips offset along a spine.
 fn compensated_along(operation: &RoughVcut) -> Diagnostic {
-    let head = operation.setup.head_span;
-    let place = operation.compensate.span.unwrap_or(head);
-    let word = operation.follow.value.word();
-    Diagnostic::new(
-        Code::CannotFollow,
-        format!("`compensate = forces` does not go with `follow = {word}`"),
-        place,
-        "tips of level cuts only are offset",
-    )
-    .and(
-        operation.follow.span.unwrap_or(head),
-        "these cuts rise and fall with the part",
-    )
-    .help("delete `compensate`, or cut straight")
-    .fix(
-        "leave the tips where they are planned: `nothing`",
-        place,
-        Compensate::Nothing.word(),
-    )
+    let compensated = LevelOnly {
+        field: "compensate",
+        value: Compensate::Forces.word(),
+        span: operation.compensate.span,
+        label: "only tips of level cuts are offset",
+        instead: (
+            "leave the tips where they are planned",
+            Compensate::Nothing.word(),
+        ),
+    };
+    compensated.refused(operation)
 }
 
 /// A swing with which a blade that is off its spine by a little spoils much of its flank.
