@@ -89,6 +89,7 @@ mod published;
 mod reach;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod rect;
+mod redundant;
 mod referees;
 mod repository;
 mod scallop;

@@ -69,7 +69,7 @@ impl Job {
              blade wheel = disc {{\n  radius = 25 mm, thickness = 1 mm, depth = 12 mm, width = 20 mm, spin = 3000 rev/min\n  \
              body (1 mm, 8 mm) (60 mm, 25 mm)\n}}\n\n\
              rough auto {{\n  blade = dagger\n  rake = 60 deg\n  limits {{ scallop <= {scallop} mm }}\n  \
-             feed {{ cut = 10 m/min, {quick} }}\n  clearance = 10 mm\n  run_out = 0 mm\n  vcut {{ {vcut} }}\n  \
+             feed {{ cut = 10 m/min, {quick} }}\n  clearance = 10 mm\n  run_out = 0 mm\n  vcut {{ {vcut}\n redundant = keep }}\n  \
              rect {{ disc = wheel, {rect}, feed {{ free = {free} m/min }} }}\n}}\n\n{ROBOT}"
         )
     }

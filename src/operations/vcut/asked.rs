@@ -15,7 +15,7 @@ pub struct RoughVcut {
     /// The blade.
     pub blade: StraightBlade,
     /// Where the tips run, in the order in which they are cut; none for a lattice. Where they are given, `lattice`, `layer`
-    /// and `step` are what they come nearest to, `residual`, `avoid` and `sequence` have no say, and the swing is given.
+    /// and `step` are what they come nearest to, `residual`, `redundant`, `avoid` and `sequence` have no say, and the swing is given.
     pub tips: Option<Arc<Tips>>,
     /// How tips are laid out.
     pub lattice: Sourced<Auto<Lattice>>,
@@ -37,6 +37,8 @@ pub struct RoughVcut {
     pub allowance: Sourced<Length>,
     /// What becomes of tips that would cut the part.
     pub residual: Sourced<Auto<Residual>>,
+    /// What to do with redundant Vs.
+    pub redundant: Sourced<Auto<Redundant>>,
     /// How a V keeps out of the part and of what stands where it does not fit as it is. Default `lift`.
     pub avoid: Sourced<Avoid>,
     /// Order of the flanks.
@@ -172,6 +174,15 @@ pub enum Residual {
     Mixed,
 }
 
+/// What to do with a V without which every other chip comes free and no more material stays than the limit allows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Redundant {
+    /// It is cut.
+    Keep,
+    /// It is not cut.
+    Skip,
+}
+
 /// How a V that does not fit keeps out of the part and of what stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Avoid {
@@ -195,6 +206,7 @@ words! {
     Objective { Time = "time", Scallop = "scallop", Cuts = "cuts", BladeLoad = "blade_load" }
     Formulas { Paper = "paper", Exact = "exact" }
     Residual { Discard = "discard", Lift = "lift", Shift = "shift", Mixed = "mixed" }
+    Redundant { Keep = "keep", Skip = "skip" }
     Avoid { Lift = "lift", Swing = "swing" }
     Compensate { Nothing = "nothing", Forces = "forces" }
     Sequence { Rows = "rows", Boustrophedon = "boustrophedon", Nearest = "nearest" }

@@ -5,7 +5,9 @@ mod limits_block;
 mod tests;
 mod tips;
 
-use crate::asked::{Avoid, Compensate, Formulas, Lattice, Objective, Residual, RoughVcut, Sequence};
+use crate::asked::{
+    Avoid, Compensate, Formulas, Lattice, Objective, Redundant, Residual, RoughVcut, Sequence,
+};
 use crate::operation::NARROWEST_ALONG;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::number::show;
@@ -43,6 +45,9 @@ pub const SPEC: BlockSpec = BlockSpec {
         value("allowance", "0.5 mm").within(DISTANCE),
         value("residual", "auto")
             .takes(Takes::Words(|| words_of(Residual::WORDS)))
+            .or_auto(),
+        value("redundant", "auto")
+            .takes(Takes::Words(|| words_of(Redundant::WORDS)))
             .or_auto(),
         value("avoid", "lift").takes(Takes::Words(|| words_of(Avoid::WORDS))),
         value("order", "auto")
@@ -196,6 +201,7 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
     let formulas = reader.choice(&fields, "model", Formulas::WORDS);
     let allowance = reader.defaulted(&fields, "allowance", Length::ZERO);
     let residual = reader.auto_choice(&fields, "residual", Residual::WORDS);
+    let redundant = reader.auto_choice(&fields, "redundant", Redundant::WORDS);
     let avoid = reader.choice(&fields, "avoid", Avoid::WORDS);
     let order = reader.auto_choice(&fields, "order", Order::WORDS);
     let sequence = reader.auto_choice(&fields, "sequence", Sequence::WORDS);
@@ -216,6 +222,7 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
         limits: limits?,
         allowance: allowance?,
         residual: residual?,
+        redundant: redundant?,
         avoid: avoid?.unwrap_or(default(Avoid::Lift)),
         order: order?,
         sequence: sequence?,

@@ -17,6 +17,7 @@ mod finest;
 mod limits;
 mod narrowed;
 mod offers;
+mod redundant;
 mod route;
 #[cfg(test)]
 mod tests;
@@ -30,7 +31,7 @@ use crate::plan::parameters::{Refusal, VcutParameters};
 use crate::plan::refusal::Refused;
 use crate::plan::residual::Strategies;
 use crate::plan::{LaidOut, PARAMETERS, PlannedVcut, lay_out, parameters};
-use bench::{Bench, Figures};
+use bench::{Bench, Figures, MEASURED_TO};
 use complaints::Sought;
 use core::cmp::Ordering;
 use rayon::prelude::*;
@@ -154,8 +155,7 @@ impl Contender {
 
     /// Fails if it leaves more than that, or breaks one of the operation's limits on time and cuts.
     fn held_to(mut self, limit: Option<Length>, asked: &RoughVcut) -> Self {
-        // The search for the highest point works in floating point; a micrometre over the limit is no excess.
-        let excess = limit.filter(|&limit| self.figures.height > limit + Length::mm(1e-3));
+        let excess = limit.filter(|&limit| self.figures.height > limit + MEASURED_TO);
         if let (Standing::Takes(_), Some(limit)) = (self.standing, excess) {
             let height = self.figures.height;
             self.standing = Standing::Leaves { height, limit };
@@ -332,11 +332,34 @@ fn best_lattice(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Resul
         (_, Objective::Scallop | Objective::BladeLoad) if trial::is_searched(asked) => {
             finest::finest(bench, asked, cuts_left)
         }
+        (_, Objective::Cuts) if trial::is_searched(asked) => fewest(bench, asked, cuts_left),
         (Auto::Auto, Objective::Time) => compare_lattices(bench, asked, cuts_left),
         // The fewest cuts are none of the route's: all lattices are searched at once.
         (Auto::Given(_), _) | (Auto::Auto, Objective::Scallop | Objective::Cuts | Objective::BladeLoad) => {
             best_on(bench, asked, &parameters::open_lattices(asked), cuts_left)
         }
+    }
+}
+
+/// The operation with the fewest cuts: those that a search for them finds, or the fastest plan where that has fewer.
+fn fewest(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Unplanned> {
+    let searched = best_on(bench, asked, &parameters::open_lattices(asked), cuts_left);
+    let mut fast = asked.clone();
+    fast.objective.value = Objective::Time;
+    let fastest = best_lattice(bench, &fast, cuts_left).map(|mut laid| {
+        laid.vcut.asked.objective = asked.objective;
+        laid
+    });
+    let limit = asked.limits.scallop.map(|limit| limit.value);
+    let weighed = |laid: LaidOut| bench.weigh(laid).held_to(limit, asked);
+    match (searched, fastest) {
+        (Ok(searched), Ok(fastest)) => {
+            let (searched, fastest) = (weighed(searched), weighed(fastest));
+            let is_better = fastest.compare(&searched) == Ordering::Less;
+            Ok(if is_better { fastest.laid } else { searched.laid })
+        }
+        (Ok(laid), Err(_)) | (Err(_), Ok(laid)) => Ok(laid),
+        (Err(unplanned), Err(_)) => Err(unplanned),
     }
 }
 
@@ -488,12 +511,13 @@ fn best_residual(
         return Err(Unplanned::Refused(Vec::new()));
     }
     let first = lay_out(&bench.job, asked, found.clone(), cuts_left, bench.work())?;
+    let first = redundant::decided(bench, first, asked);
     let is_open = asked.residual.value == Auto::Auto && first.strategies == Strategies::Differing;
     let mut first = route::best(bench, first);
     if !is_open {
         return Ok(first);
     }
-    if first.vcut.cuts.len() > MOST_CUTS_COMPARED {
+    if first.vcut.laid_out() > MOST_CUTS_COMPARED {
         first
             .vcut
             .decisions
@@ -508,6 +532,7 @@ fn best_residual(
         asked.residual.value = Auto::Given(residual);
         let mut laid = lay_out(&bench.job, &asked, found.clone(), cuts_left, bench.work()).ok()?;
         laid.vcut.asked.residual.value = Auto::Auto;
+        let laid = redundant::decided(bench, laid, &asked);
         Some(bench.weigh(route::best(bench, laid)))
     };
     let (mixed, others): (Contender, Vec<(Residual, Option<Contender>)>) = rayon::join(

@@ -110,6 +110,7 @@ impl Operation for RoughVcut {
         self.formulas.forget_place(place);
         self.allowance.forget_place(place);
         self.residual.forget_place(place);
+        self.redundant.forget_place(place);
         self.avoid.forget_place(place);
         self.order.forget_place(place);
         self.sequence.forget_place(place);

@@ -10,6 +10,7 @@
 
 pub mod avoid;
 pub mod blade_reach;
+mod chip;
 mod complaints;
 pub mod decision;
 pub mod floor;
@@ -17,6 +18,7 @@ pub mod given;
 pub mod lattice;
 pub mod optimum;
 pub mod parameters;
+pub(crate) mod redundant;
 pub mod refusal;
 pub mod removable;
 pub mod residual;
@@ -29,7 +31,7 @@ pub(crate) mod tests;
 pub use vcutc_job::planned::TipOrigin;
 pub use vcutc_process::plan::MOST_CUTS;
 
-use crate::asked::{Residual, RoughVcut, Sequence, Tips};
+use crate::asked::{Redundant, Residual, RoughVcut, Sequence, Tips};
 use avoid::Swings;
 pub use complaints::beyond_the_stock;
 use complaints::{nothing_to_cut, too_many_cuts};
@@ -45,7 +47,7 @@ use vcutc_backend_api::units::{Duration, Length};
 use vcutc_geometry::cone;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
-use vcutc_job::{Order, PlanningJob};
+use vcutc_job::{Auto, Order, PlanningJob};
 use vcutc_simulation::prove::Compensation;
 use vcutc_simulation::surface::{Surface, Vee};
 
@@ -70,6 +72,8 @@ pub struct PlannedVcut {
     pub estimated_cuts: f64,
     /// The cuts, layer by layer, each layer from left to right.
     pub cuts: Vec<PlannedCut>,
+    /// How many redundant Vs were skipped.
+    pub skipped: usize,
     /// Which way layers go and what is not cut, where the job gives the tips.
     pub course: Option<Course>,
     /// In which order they are made: every cut in one run.
@@ -241,6 +245,7 @@ fn unplanned(job: &PlanningJob<'_>, asked: &RoughVcut, ground: Ground<'_>) -> Pl
         estimate: model.estimate(parameters.swing, parameters.layer, parameters.step),
         estimated_cuts: model.cuts(parameters.layer, parameters.step),
         cuts: Vec::new(),
+        skipped: 0,
         course: None,
         runs: Vec::new(),
         compensation: None,
@@ -293,6 +298,22 @@ impl PlannedVcut {
         let mut level = self.clone();
         level.asked.along = None;
         Cow::Owned(level)
+    }
+
+    /// What becomes of its redundant Vs.
+    #[must_use]
+    pub const fn redundant(&self) -> Redundant {
+        match self.asked.redundant.value {
+            Auto::Given(redundant) => redundant,
+            Auto::Auto if self.skipped > 0 => Redundant::Skip,
+            Auto::Auto => Redundant::Keep,
+        }
+    }
+
+    /// How many Vs it had before redundant ones were skipped.
+    #[must_use]
+    pub const fn laid_out(&self) -> usize {
+        self.cuts.len() + self.skipped
     }
 
     /// The swings of the Vs that have narrower flanks than the others.

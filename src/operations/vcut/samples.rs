@@ -78,6 +78,7 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
             limits: Limits::default(),
             allowance: mm(0.0),
             residual: given(Auto::Given(Residual::Mixed)),
+            redundant: given(Auto::Auto),
             avoid: given(Avoid::Lift),
             order: given(Auto::Given(Order::Point)),
             sequence: given(Auto::Given(Sequence::Rows)),

@@ -1,7 +1,7 @@
 //! What the plan of V-shaped roughing says of itself: lines of the summary, parameters for other programs, and the value of a
 //! field that was left open.
 
-use crate::asked::{Avoid, RoughVcut, WhyChosen};
+use crate::asked::{Avoid, Redundant, RoughVcut, WhyChosen};
 use crate::plan::PlannedVcut;
 use crate::plan::avoid::Swings;
 use crate::plan::decision::{Decision, Excess, Standing};
@@ -28,6 +28,16 @@ fn chosen_limit(asked: &RoughVcut) -> Option<String> {
     ))
 }
 
+/// How many Vs were skipped as redundant, where there are any or they are to be skipped.
+pub(crate) fn skipped(vcut: &PlannedVcut) -> Option<String> {
+    let (skipped, all) = (vcut.skipped, vcut.skipped + vcut.cuts.len());
+    match skipped {
+        0 if vcut.asked.redundant.value == Auto::Given(Redundant::Skip) => Some(format!("none of {all} Vs")),
+        0 => None,
+        _ => Some(format!("{skipped} of {all} Vs, which are redundant")),
+    }
+}
+
 /// What was chosen for an operation, what it came up against, and what it was compared with.
 pub(crate) fn summary(vcut: &PlannedVcut, report: &Report) -> Vec<(&'static str, String)> {
     let mut lines = Vec::new();
@@ -47,6 +57,7 @@ pub(crate) fn summary(vcut: &PlannedVcut, report: &Report) -> Vec<(&'static str,
             scallop_spent(vcut, report).map_or_else(String::new, |spent| format!("; scallop {spent}"));
         lines.push(("bound by", format!("{}{spent}", reasons.join(", "))));
     }
+    lines.extend(skipped(vcut).map(|skipped| ("skipped", skipped)));
     lines.extend(avoided(vcut).map(|avoided| ("avoid", avoided)));
     lines.extend(followed(&vcut.asked).map(|followed| ("follow", followed)));
     for decision in &vcut.decisions {
@@ -241,6 +252,7 @@ fn of_the_lattice(vcut: &PlannedVcut) -> Vec<ParameterFigure> {
         ParameterFigure::open("step", &asked.step, millimetres(found.step)),
         ParameterFigure::open("overlap", &asked.overlap, number(overlap(vcut), None)),
         ParameterFigure::open("residual", &asked.residual, word(vcut.strategy.word())),
+        ParameterFigure::open("redundant", &asked.redundant, word(vcut.redundant().word())),
         ParameterFigure::open("sequence", &asked.sequence, word(vcut.sequence.word())),
     ]
 }
@@ -291,6 +303,7 @@ fn chosen_value(planned: &PlannedVcut, field: &str) -> Option<String> {
     match field {
         "overlap" => Some(overlap_text(planned)),
         "residual" => Some(planned.strategy.word().to_owned()),
+        "redundant" => Some(planned.redundant().word().to_owned()),
         "order" => Some(planned.order.word().to_owned()),
         "sequence" => Some(planned.sequence.word().to_owned()),
         _ => None,
@@ -309,6 +322,9 @@ fn why_chosen(planned: &PlannedVcut, field: &str) -> String {
     let decision = planned.decisions.iter().find(|decision| decision.field == field);
     if let Some(decision) = decision {
         return compared(decision);
+    }
+    if field == "redundant" {
+        return skipped(planned).unwrap_or_default();
     }
     let reasons = planned.parameters.reasons(&planned.asked);
     let is_bound = matches!(field, "lattice" | "swing" | "layer" | "step" | "overlap");

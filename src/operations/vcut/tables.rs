@@ -2,7 +2,7 @@
 
 use crate::asked::{Avoid, Formulas, Objective, RoughVcut};
 use crate::plan::PlannedVcut;
-use crate::summary::compared;
+use crate::summary::{compared, skipped};
 use vcutc_backend_api::ir::Edges;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::number::show;
@@ -79,6 +79,10 @@ fn cut(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<ParameterRow> {
             }),
         ),
     ];
+    if let Some(skipped) = skipped(planned) {
+        let word = planned.redundant().word().to_owned();
+        rows.push(ParameterRow::open("redundant", &asked.redundant, word, skipped));
+    }
     if asked.avoid.value == Avoid::Swing {
         rows.push(ParameterRow::of("avoid", asked.avoid, |avoid| {
             avoid.word().to_owned()
@@ -97,7 +101,7 @@ fn as_laid_out(asked: &RoughVcut, rows: Vec<ParameterRow>) -> Vec<ParameterRow> 
 
 /// Rows that say something where tips are given.
 fn without_lattice(asked: &RoughVcut, mut rows: Vec<ParameterRow>) -> Vec<ParameterRow> {
-    const OF_A_LATTICE: [&str; 9] = [
+    const OF_A_LATTICE: [&str; 10] = [
         "objective",
         "model",
         "lattice",
@@ -105,6 +109,7 @@ fn without_lattice(asked: &RoughVcut, mut rows: Vec<ParameterRow>) -> Vec<Parame
         "step",
         "overlap",
         "residual",
+        "redundant",
         "avoid",
         "sequence",
     ];

@@ -69,7 +69,12 @@ impl Job {
     }
 
     fn known(&self, reached: &Reached, work: impl FnOnce(Known<'_>, Option<&Arms>)) {
-        let model = &self.checked.machine.as_ref().expect("the job has a machine").model;
+        let model = &self
+            .checked
+            .machine
+            .as_ref()
+            .expect("the job has a machine")
+            .model;
         let program = reached.program.program();
         let cell = program.cell.as_ref().expect("the program has a cell");
         let rigs = Rigs::of(model, cell, program);

@@ -4,7 +4,7 @@
 //! to: how tall the teeth are that a layer leaves, and how wide. The commonest distance of heights stands for the layer, the
 //! commonest distance of neighbours in a row for the step.
 
-use crate::asked::{Lattice, Limits, Residual, RoughVcut, Sequence, Tip, Tips};
+use crate::asked::{Lattice, Limits, Redundant, Residual, RoughVcut, Sequence, Tip, Tips};
 use core::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -31,7 +31,7 @@ pub(super) struct Given {
 }
 
 /// Fields that lay out a lattice or choose among several.
-const OF_A_LATTICE: [&str; 9] = [
+const OF_A_LATTICE: [&str; 10] = [
     "lattice",
     "layer",
     "step",
@@ -39,6 +39,7 @@ const OF_A_LATTICE: [&str; 9] = [
     "objective",
     "model",
     "residual",
+    "redundant",
     "avoid",
     "sequence",
 ];
@@ -153,6 +154,7 @@ pub(super) fn over(
     operation.layer = sourced(Auto::Given(given.layer), span);
     operation.step = sourced(Auto::Given(given.step), span);
     operation.residual = sourced(Auto::Given(Residual::Discard), span);
+    operation.redundant = sourced(Auto::Given(Redundant::Keep), span);
     operation.sequence = sourced(Auto::Given(Sequence::Rows), span);
     operation.tips = Some(Arc::new(given.tips));
     Ok(operation)

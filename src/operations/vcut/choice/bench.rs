@@ -1,12 +1,16 @@
 //! Ways to cut an operation, written down as programs of their own and measured.
 
 use super::Contender;
+use super::chosen::LITTLE;
 use crate::asked::{Objective, RoughVcut};
 use crate::plan::decision::Standing;
+use crate::plan::redundant::{Allowed, without_redundant};
+use crate::plan::removable::Removable;
 use crate::plan::{LaidOut, PlannedVcut, Work};
 use vcutc_backend_api::units::{Area, Duration, Length};
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_cancellation::Wanted;
+use vcutc_geometry::curve::Point2;
 use vcutc_geometry::offset::offset_up;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::PlannedOperation;
@@ -14,11 +18,15 @@ use vcutc_job::follow::Along;
 use vcutc_job::search::RouteSet;
 use vcutc_job::{CheckedJob, PlanningJob};
 use vcutc_process::lower::alone;
+use vcutc_simulation::body;
 use vcutc_simulation::contour::farthest;
 use vcutc_simulation::prove::{Bound, replay_on};
 use vcutc_simulation::report::area_under;
 use vcutc_simulation::surface::Surface;
 use vcutc_simulation::timing::{timing, total};
+
+/// How closely the most that is left is known.
+pub(super) const MEASURED_TO: Length = Length::mm(1e-3);
 
 /// What a plan comes to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,6 +101,53 @@ impl<'j> Bench<'j> {
         }
     }
 
+    /// An operation without its redundant Vs; none where it needs all, where it leaves more than it may, or where what a V leaves depends
+    /// on more than what is above it: beside narrower flanks, and on what stands steeper than its own.
+    pub(super) fn thinned(&self, laid: &LaidOut) -> Option<LaidOut> {
+        let (vcut, part): (_, &Profile) = (&laid.vcut, &self.job.profile);
+        if vcut.narrowed().next().is_some() || !self.before.is_final_for(vcut.parameters.flanks.slope) {
+            return None;
+        }
+        let allowed = self.allowed(laid)?;
+        let vcut = without_redundant(vcut, allowed, part, &self.before, self.job.stock)?;
+        let mut after = self.before.clone();
+        vcut.cuts.iter().for_each(|cut| after.release(cut.vee()));
+        self.clears_bodies(&vcut).then_some(LaidOut {
+            vcut,
+            after,
+            strategies: laid.strategies,
+        })
+    }
+
+    /// What may stay besides, where redundant Vs are skipped: up to the limit on the scallop, and little of what is to go. None where
+    /// an operation leaves more than it may as it is.
+    fn allowed(&self, laid: &LaidOut) -> Option<Allowed> {
+        let asked = &laid.vcut.asked;
+        let [found, left] =
+            [&self.before, &laid.after].map(|surface| surface.corners().collect::<Vec<Point2>>());
+        let height = farthest(&left, &*self.job.profile).height;
+        let limit = asked.limits.scallop.map(|limit| limit.value);
+        if limit.is_some_and(|limit| height > limit + MEASURED_TO) {
+            return None;
+        }
+        let removable = Removable::new(&self.job.profile, asked);
+        let room = removable.under(&found) * LITTLE - removable.under(&left);
+        Some(Allowed {
+            height: limit.unwrap_or(height + MEASURED_TO),
+            area: room.max(Area::ZERO),
+        })
+    }
+
+    /// Whether the body of the blade, where it is stated, stays out of the work.
+    fn clears_bodies(&self, vcut: &PlannedVcut) -> bool {
+        if vcut.asked.blade.body.is_none() {
+            return true;
+        }
+        let level = vcut.level();
+        program(&self.job, &level)
+            .is_some_and(|program| body::bodies(&program, &[bound_of(&level)]).contact.is_none())
+    }
+
     /// What comes of an operation.
     pub(super) fn weigh(&self, laid: LaidOut) -> Contender {
         let vcut = &laid.vcut;
@@ -112,12 +167,7 @@ impl<'j> Bench<'j> {
                 residual: Area::ZERO,
             };
         };
-        let bound = Bound {
-            drop: vcut.parameters.drop,
-            lower: vcut.parameters.flanks.lower,
-            ..PlannedOperation::bound(&*level)
-        };
-        let replay = replay_on(self.before.clone(), &program, &[bound]);
+        let replay = replay_on(self.before.clone(), &program, &[bound_of(&level)]);
         let time = as_long_as_its_way(vcut, &program);
         let failing = replay.findings.iter().map(|(count, _)| count).sum();
         let corners: Vec<_> = replay.surface.corners().collect();
@@ -145,6 +195,15 @@ impl<'j> Bench<'j> {
 fn bound(job: &PlanningJob<'_>, asked: &RoughVcut) -> Profile {
     let steepness = asked.along.as_ref().map_or(1.0, Along::steepness);
     offset_up(&job.profile, asked.allowance.value * steepness)
+}
+
+/// What the level cuts of an operation must stay out of, with all the room that cuts along a spine need.
+fn bound_of(level: &PlannedVcut) -> Bound<'_> {
+    Bound {
+        drop: level.parameters.drop,
+        lower: level.parameters.flanks.lower,
+        ..PlannedOperation::bound(level)
+    }
 }
 
 /// An operation as a program of its own.

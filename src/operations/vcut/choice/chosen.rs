@@ -5,11 +5,12 @@
 //! the mean depth of what is to go. Of a few shares the widest is taken under which at most a tenth of that stays.
 //!
 //! The limit that comes of it is a plain one, on a tenth of a millimetre. The operation is planned under it as if the job had
-//! set it, so that who writes it down gets the same program.
+//! set it, so that who writes it down gets the same program; or a faster one that leaves more, where redundant Vs were kept to
+//! leave little.
 
 use super::bench::Bench;
 use super::{Unplanned, within_limits};
-use crate::asked::{ChosenScallop, Formulas, Lattice, Objective, RoughVcut, WhyChosen};
+use crate::asked::{ChosenScallop, Formulas, Lattice, Objective, Redundant, RoughVcut, WhyChosen};
 use crate::plan::LaidOut;
 use crate::plan::blade_reach::{self, Flanks};
 use crate::plan::removable::{Removable, standoff};
@@ -69,6 +70,12 @@ pub(super) fn within_all_limits(
         if depths.share_left(&laid) <= LITTLE {
             return Ok(laid);
         }
+        // What is fast without its redundant Vs may leave more than what needs all.
+        if let Some(all) = with_all(bench, within, (limit, depths.chosen(why)), cuts_left)
+            && depths.share_left(&all) <= LITTLE
+        {
+            return Ok(all);
+        }
         kept.push(laid);
     }
     if let Some(mut widest) = kept.into_iter().next() {
@@ -79,6 +86,22 @@ pub(super) fn within_all_limits(
     let mut wider = depths.limits(&WIDER).into_iter();
     let found = wider.find_map(|limit| sound_under(bench, within, (limit, depths.chosen(why)), cuts_left));
     found.map_or_else(|| within_limits(bench, within, cuts_left), Ok)
+}
+
+/// The best operation under a limit with all its Vs, if it has nothing wrong; none where it keeps them anyway. What it asks for says
+/// so: planned again under that limit, it would leave more.
+fn with_all(
+    bench: &Bench<'_>,
+    within: &RoughVcut,
+    chosen: (Length, ChosenScallop),
+    cuts_left: usize,
+) -> Option<LaidOut> {
+    if within.redundant.value != Auto::Auto {
+        return None;
+    }
+    let mut keeping = within.clone();
+    keeping.redundant.value = Auto::Given(Redundant::Keep);
+    sound_under(bench, &keeping, chosen, cuts_left)
 }
 
 /// The best operation under a limit, if it has nothing wrong.

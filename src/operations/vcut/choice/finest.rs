@@ -93,7 +93,7 @@ pub(super) fn finest(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> 
         Err(refusal) => return Err(refusal.into()),
     };
     let fastest = within_limits(bench, &limited(asked, None), cuts_left)?;
-    if fastest.vcut.cuts.len() > MOST_CUTS_COMPARED {
+    if fastest.vcut.laid_out() > MOST_CUTS_COMPARED {
         return Ok(as_asked(fastest, asked));
     }
     let limit = asked.limits.scallop.map(|limit| limit.value);

@@ -21,6 +21,7 @@ mod tests;
 pub(super) use met::TurnedDown;
 
 use super::bench::{Bench, Figures};
+use super::redundant::Skipping;
 use super::{Contender, MOST_CUTS_COMPARED, Unplanned, limits, route};
 use crate::asked::{Avoid, Formulas, Lattice, Objective, Residual, RoughVcut};
 use crate::plan::decision::Standing;
@@ -28,6 +29,7 @@ use crate::plan::floor::Floor;
 use crate::plan::optimum::Bound;
 use crate::plan::parameters::{self, Refusal, VcutParameters};
 use crate::plan::{LaidOut, lay_out};
+use core::cmp::Ordering;
 use rayon::prelude::*;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_cancellation::Effort;
@@ -252,12 +254,12 @@ enum Outcome {
     /// There are no cuts, or too many.
     Impossible,
     /// More cuts than are compared.
-    TooLarge {
-        cuts: usize,
-    },
+    TooLarge { cuts: usize },
     Planned {
         standing: Standing,
         figures: Figures,
+        /// How many Vs it had before redundant ones were skipped.
+        laid_out: usize,
     },
 }
 
@@ -392,7 +394,7 @@ impl<'t> Trials<'t> {
         }
         let known = self.ahead.iter().find(|(planned, _)| *planned == found);
         let outcome = known.map_or_else(|| self.outcome(&found), |(_, outcome)| *outcome);
-        let (standing, figures) = match outcome {
+        let (standing, figures, laid_out) = match outcome {
             Outcome::Impossible => {
                 self.spend(MOST_CUTS_COMPARED - 1, 0);
                 return Some(self.note(found, Standing::Impossible));
@@ -401,9 +403,13 @@ impl<'t> Trials<'t> {
                 self.spend(cuts, cuts);
                 return None;
             }
-            Outcome::Planned { standing, figures } => (standing, figures),
+            Outcome::Planned {
+                standing,
+                figures,
+                laid_out,
+            } => (standing, figures, laid_out),
         };
-        self.spend(figures.cuts, figures.cuts);
+        self.spend(laid_out, laid_out);
         if standing.time().is_some() {
             self.keep(Sound {
                 parameters: found.clone(),
@@ -435,11 +441,41 @@ impl<'t> Trials<'t> {
             return Outcome::TooLarge { cuts };
         }
         let limit = self.asked.limits.scallop.map(|limit| limit.value);
-        let weighed = self.bench.weigh(self.along_its_route(laid));
+        let held = self.held_to();
+        let thinned = match Skipping::of(&self.bench.job, self.asked) {
+            Skipping::Never => None,
+            Skipping::IfBetter | Skipping::Always => self.bench.thinned(&laid),
+        };
+        let weighed = |laid| self.bench.weigh(self.along_its_route(laid)).held_to(limit, &held);
+        let thinned = thinned.map(weighed);
         let Contender {
             standing, figures, ..
-        } = weighed.held_to(limit, &self.held_to());
-        Outcome::Planned { standing, figures }
+        } = match thinned {
+            // Fewer Vs hardly ever take longer; what is chosen is compared again.
+            Some(thinned) if thinned.standing.time().is_some() && self.counts_vs() => thinned,
+            Some(thinned) => {
+                let all = weighed(laid);
+                if thinned.compare(&all) == Ordering::Less {
+                    thinned
+                } else {
+                    all
+                }
+            }
+            None => weighed(laid),
+        };
+        Outcome::Planned {
+            standing,
+            figures,
+            laid_out: cuts,
+        }
+    }
+
+    /// Whether fewer Vs are better.
+    const fn counts_vs(&self) -> bool {
+        match self.asked.objective.value {
+            Objective::Time | Objective::Cuts => true,
+            Objective::Scallop | Objective::BladeLoad => false,
+        }
     }
 
     /// Plans those that would be weighed next as far as can be seen, side by side.

@@ -6,6 +6,7 @@
 //! proof.
 
 use super::avoid::Swings;
+use super::chip::way;
 use super::lattice::Layout;
 use super::parameters::VcutParameters;
 use super::route::Heading;
@@ -111,7 +112,9 @@ impl Planner<'_> {
         let layer = u32::try_from(self.course.headings.len()).unwrap_or(u32::MAX);
         let mut before: Option<Point2> = None;
         for &tip in &kept {
-            let way = before.map_or(Way::Over, |before| self.way(before, tip));
+            let way = before.map_or(Way::Over, |before| {
+                way(self.parameters, self.surface, before, tip)
+            });
             self.cuts.push(PlannedCut {
                 layer,
                 tip,
@@ -124,17 +127,6 @@ impl Planner<'_> {
         let slope = self.parameters.flanks.slope;
         for tip in kept {
             self.surface.release(Vee::even(tip, slope));
-        }
-    }
-
-    /// How the blade gets from one cut to the next of its row.
-    fn way(&mut self, from: Point2, to: Point2) -> Way {
-        let highest = from.z.min(to.z) + self.parameters.clear_height.to_mm();
-        let mut between = self.surface.corners_between(from.x, to.x);
-        if between.all(|corner| corner.z <= highest) {
-            Way::Beside
-        } else {
-            Way::Over
         }
     }
 }

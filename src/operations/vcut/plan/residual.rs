@@ -14,6 +14,7 @@
 mod narrowed;
 
 use super::avoid::{Avoidance, Swings};
+use super::chip::{comes_free, way};
 use super::lattice::{Column, Layout, Parity, Row};
 use super::parameters::VcutParameters;
 use super::{Ground, PlannedCut, TipOrigin, Way, smallest_gain};
@@ -24,7 +25,7 @@ use vcutc_geometry::curve::Point2;
 use vcutc_geometry::grid;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::PlanningJob;
-use vcutc_simulation::surface::{Side, Surface, Vee};
+use vcutc_simulation::surface::{Surface, Vee};
 
 /// A tip of the lattice that would cut the part.
 #[derive(Clone, Copy)]
@@ -206,7 +207,9 @@ impl<'p> LayerPlanner<'p> {
         self.layers_cut += 1;
         let mut before: Option<Point2> = None;
         for &(tip, origin) in &tips {
-            let way = before.map_or(Way::Over, |before| self.way(before, tip));
+            let way = before.map_or(Way::Over, |before| {
+                way(self.parameters, self.surface, before, tip)
+            });
             self.cuts.push(PlannedCut {
                 layer: self.layers_cut,
                 tip,
@@ -219,16 +222,6 @@ impl<'p> LayerPlanner<'p> {
         for (tip, _) in tips {
             self.surface.release(self.vee(tip));
         }
-    }
-
-    /// How the blade gets from one cut to the next, judged before any chip of the layer is out.
-    fn way(&mut self, from: Point2, to: Point2) -> Way {
-        let highest = from.z.min(to.z) + self.parameters.clear_height.to_mm();
-        let clear = self
-            .surface
-            .corners_between(from.x, to.x)
-            .all(|corner| corner.z <= highest);
-        if clear { Way::Beside } else { Way::Over }
     }
 
     /// A tip whose V would enter the part.
@@ -331,27 +324,11 @@ impl<'p> LayerPlanner<'p> {
         Some((at(free), TipOrigin::Relieved))
     }
 
-    /// Whether both flanks come out within the blade's reach, with room for its body, and the chip is low enough for the blade
-    /// to turn beside it. What room a stated body needs is looked at where flanks may be narrower; the proof looks at it
-    /// anyway.
+    /// Whether a chip comes free, with room for a stated body where flanks may be narrower: elsewhere the proof looks at that.
     fn comes_free(&mut self, tip: Point2) -> bool {
-        let reach = self.parameters.flanks.reach.to_mm();
-        let vee = self.parameters.flanks.lowest(self.vee(tip));
-        let runs = [Side::Left, Side::Right].map(|side| self.surface.flank(vee, side));
-        if runs
-            .iter()
-            .any(|run| run.reach > reach || run.blocked_at.is_some())
-        {
-            return false;
-        }
-        let [left, right] = runs;
-        let highest = tip.z + self.parameters.clear_height.to_mm();
-        let is_low = self
-            .surface
-            .corners_between(left.exit.x, right.exit.x)
-            .all(|corner| corner.z <= highest);
         let avoidance = self.avoidance.as_ref();
-        is_low && avoidance.is_none_or(|avoidance| avoidance.bodies_clear(tip, self.surface))
+        comes_free(self.parameters, self.surface, tip)
+            && avoidance.is_none_or(|avoidance| avoidance.bodies_clear(tip, self.surface))
     }
 
     fn gains(&mut self, tip: Point2) -> bool {
