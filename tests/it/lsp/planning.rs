@@ -124,10 +124,10 @@ fn what_would_help_comes_after_the_plan() {
     let at_once = editor.server.finish(early.remove(0));
     assert!(!serde_json::to_string(&at_once).unwrap().contains("saves"));
     let at = editor.at(job, "job \"spoiler|_clarky\"");
-    let told = editor.ask("textDocument/hover", at.clone()).unwrap();
+    let hover = editor.ask("textDocument/hover", at.clone()).unwrap();
     assert!(
-        told["contents"]["value"].as_str().unwrap().contains("18 cuts"),
-        "the figures are there: {told}"
+        hover["contents"]["value"].as_str().unwrap().contains("18 cuts"),
+        "the figures are there: {hover}"
     );
 
     let messages = editor.server.finish(done);
