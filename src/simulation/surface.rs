@@ -46,14 +46,17 @@ use stack::{Ray, Stack};
 /// that passes exactly through an older tip, as interlaced lattices want it, would miss it by rounding.
 const TOUCH: f64 = 1e-6;
 
-/// The machined surface over `0 <= x <= width`.
+/// The machined surface over `0 <= x <= width`, or a part of it.
 #[derive(Clone, Debug)]
 pub struct Surface {
     /// Corners with x at or left of the place of work, nearest last; never empty.
     left: Stack,
     /// Corners right of the place of work, nearest last; never empty unless the place of work is the right side.
     right: Stack,
-    width: f64,
+    /// Its left side: 0 over the whole stock.
+    from: f64,
+    /// Its right side.
+    to: f64,
     top: f64,
     /// Slope of the steepest flank cut so far: flanks at least as steep can never meet material again.
     steepest: f64,
@@ -147,16 +150,41 @@ impl Surface {
         Self {
             left: Stack::of(Point2 { x: 0.0, z: top }),
             right: Stack::of(Point2 { x: width, z: top }),
-            width,
+            from: 0.0,
+            to: width,
             top,
             steepest: 0.0,
         }
     }
 
-    /// Width of the stock.
+    /// The part of it between two x, with nothing beyond these.
+    #[must_use]
+    pub fn part(&mut self, from: f64, to: f64) -> Self {
+        let (from, to) = (from.max(self.from), to.min(self.to));
+        let mut part = Self {
+            left: Stack::of(Point2 {
+                x: from,
+                z: self.height(from),
+            }),
+            right: Stack::of(Point2 {
+                x: to,
+                z: self.height(to),
+            }),
+            from,
+            to,
+            top: self.top,
+            steepest: self.steepest,
+        };
+        self.corners_between(from, to)
+            .filter(|corner| corner.x < to)
+            .for_each(|corner| part.left.push(corner));
+        part
+    }
+
+    /// Its right side: the width of the stock.
     #[must_use]
     pub const fn width(&self) -> f64 {
-        self.width
+        self.to
     }
 
     /// Height of the stock.
@@ -173,8 +201,7 @@ impl Surface {
 
     /// The highest of it between two places; that at the nearer side of the stock where both lie beyond it.
     pub fn highest(&mut self, from: f64, to: f64) -> f64 {
-        let width = self.width();
-        let (from, to) = (from.clamp(0.0, width), to.clamp(0.0, width));
+        let (from, to) = (from.clamp(self.from, self.to), to.clamp(self.from, self.to));
         let ends = self.height(from).max(self.height(to));
         self.corners_between(from, to)
             .map(|corner| corner.z)
@@ -370,7 +397,7 @@ impl Surface {
     /// The surface between two x: its corners there, and its points at both, as far as they are over the stock. Of a wall at
     /// either x it has the height within the stretch.
     pub fn stretch(&mut self, from: f64, to: f64) -> impl Iterator<Item = Point2> + '_ {
-        let (from, to) = (from.max(0.0), to.min(self.width));
+        let (from, to) = (from.max(self.from), to.min(self.to));
         self.go_to(from);
         let first = Point2 {
             x: from,
@@ -467,7 +494,7 @@ impl Surface {
             (Some(_), Some(_)) | (None, None) => return None,
         };
         let mut ray = vee.ray(side)?;
-        let x = ray.tip.x.clamp(0.0, self.width);
+        let x = ray.tip.x.clamp(self.from, self.to);
         let inwards = match side {
             Side::Left => x < ray.tip.x,
             Side::Right => x > ray.tip.x,
@@ -543,8 +570,8 @@ impl Surface {
     /// Whether the stock ends at x on that side.
     fn is_at_side(&self, x: f64, side: Side) -> bool {
         match side {
-            Side::Left => x <= TOUCH,
-            Side::Right => x >= self.width - TOUCH,
+            Side::Left => x <= self.from + TOUCH,
+            Side::Right => x >= self.to - TOUCH,
         }
     }
 

@@ -85,6 +85,39 @@ proptest! {
     }
 }
 
+/// Places in a stretch as shares of it.
+fn shares(count: usize) -> impl Strategy<Value = Vec<f64>> {
+    prop::collection::vec(0.0..=1.0_f64, count)
+}
+
+proptest! {
+    #[test]
+    fn a_part_of_it_is_the_same_there(
+        vees in prop::collection::vec(a_vee(), 0..30),
+        ends in [0.0..100.0_f64, 0.0..100.0],
+        later in prop::collection::vec((0.0..=1.0_f64, 1.0..40.0_f64), 0..8),
+        looked_at in shares(20),
+    ) {
+        let mut whole = Surface::flat(100.0, 40.0);
+        release_possible(&mut whole, &vees);
+        let [from, to] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        prop_assume!(to - from > 0.01);
+        let mut part = whole.part(from, to);
+        let at = |share: f64| from + share * (to - from);
+        // As steep as any: what such Vs take out here depends on nothing beyond.
+        for (share, z) in later {
+            let vee = Vee::even(Point2 { x: at(share), z }, 1.5);
+            whole.release(vee);
+            part.release(vee);
+        }
+        for share in looked_at {
+            let [one, other] = [&mut whole, &mut part].map(|surface| surface.height(at(share)));
+            prop_assert!((one - other).abs() < 1e-5, "{one} {other} at {}", at(share));
+        }
+        prop_assert!(part.corners().all(|corner| (from..=to).contains(&corner.x)));
+    }
+}
+
 #[test]
 fn cuts_at_the_sides_of_the_stock() {
     let mut surface = Surface::flat(10.0, 10.0);

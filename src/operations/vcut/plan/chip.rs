@@ -2,25 +2,60 @@
 
 use super::Way;
 use super::parameters::VcutParameters;
+use core::ops::RangeInclusive;
 use vcutc_geometry::curve::Point2;
 use vcutc_simulation::surface::{Side, Surface, Vee};
 
-/// Whether both flanks of a V come out within the blade's reach, with nothing in the way beyond, and its chip is low enough for the
-/// blade to turn beside it.
-pub(super) fn comes_free(parameters: &VcutParameters, surface: &mut Surface, tip: Point2) -> bool {
-    let flanks = &parameters.flanks;
-    let vee = flanks.lowest(Vee::even(tip, flanks.slope));
-    let runs = [Side::Left, Side::Right].map(|side| surface.flank(vee, side));
-    if runs
-        .iter()
-        .any(|run| run.reach > flanks.reach.to_mm() || run.blocked_at.is_some())
-    {
-        return false;
+/// The chip of a V, and what it takes to free it.
+pub(super) struct Chip {
+    /// As low as it may lie.
+    vee: Vee,
+    /// How far above its tip the blade reaches.
+    reach: f64,
+    /// How high the chip may stand for the blade to turn beside it.
+    highest: f64,
+}
+
+impl Chip {
+    pub(super) fn of(parameters: &VcutParameters, tip: Point2) -> Self {
+        let flanks = &parameters.flanks;
+        Self {
+            vee: flanks.lowest(Vee::even(tip, flanks.slope)),
+            reach: flanks.reach.to_mm(),
+            highest: tip.z + parameters.clear_height.to_mm(),
+        }
     }
-    let [left, right] = runs;
-    let highest = tip.z + parameters.clear_height.to_mm();
-    let mut chip = surface.corners_between(left.exit.x, right.exit.x);
-    chip.all(|corner| corner.z <= highest)
+
+    /// What of it lies over a stretch: where its tip lies beside that, it begins at the side.
+    pub(super) fn over(self, stretch: &RangeInclusive<f64>) -> Self {
+        let vee = entering(self.vee, stretch);
+        Self {
+            vee,
+            reach: self.reach - (vee.tip.z - self.vee.tip.z),
+            ..self
+        }
+    }
+
+    /// Whether both flanks come out within the blade's reach, with nothing in the way beyond, and the chip is low enough.
+    pub(super) fn comes_free(&self, surface: &mut Surface) -> bool {
+        let runs = [Side::Left, Side::Right].map(|side| surface.flank(self.vee, side));
+        if runs
+            .iter()
+            .any(|run| run.reach > self.reach || run.blocked_at.is_some())
+        {
+            return false;
+        }
+        let [left, right] = runs;
+        let mut chip = surface.corners_between(left.exit.x, right.exit.x);
+        chip.all(|corner| corner.z <= self.highest)
+    }
+}
+
+/// A V as far as it lies over a stretch: one whose tip lies beside that begins at its side.
+pub(super) fn entering(vee: Vee, stretch: &RangeInclusive<f64>) -> Vee {
+    let x = vee.tip.x.clamp(*stretch.start(), *stretch.end());
+    let tip = Point2 { x, z: vee.height(x) };
+    Vee { tip, ..vee }
 }
 
 /// How the blade gets from one cut of a layer to the next, judged before any chip of the layer is out.

@@ -115,6 +115,11 @@ impl Floor<'_> {
             .into_iter()
             .step_by(stride)
             .try_fold(Length::ZERO, |farthest, corner| {
+                // The nearest point is no farther than the one straight below, which is found faster.
+                let below = (corner.z - self.job.profile.height(corner.x)).abs();
+                if below <= farthest.to_mm() {
+                    return Some(farthest);
+                }
                 let distance = Length::mm(self.job.profile.nearest_distance(corner));
                 (distance <= most).then(|| farthest.max(distance))
             })

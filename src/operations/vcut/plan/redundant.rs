@@ -4,20 +4,24 @@
 //! A lattice is as fine everywhere as the part needs it somewhere. Its Vs are looked at one after the other, from the last layer
 //! up and each layer from the right, and each is skipped that the others do without. What it would have taken then stays between
 //! the points where its flanks would have come out, and nowhere else: where nothing is steeper than the flanks, one that runs
-//! out beyond that stretch meets the same point of the surface as before. So only Vs that can reach into the stretch are
-//! looked at again, and the contour there.
+//! out beyond that stretch meets the same point of the surface as before. So only the surface over the stretch is kept, and only Vs
+//! that can reach into it are looked at again.
 
-use super::chip::{comes_free, way};
+mod ridge;
+#[cfg(test)]
+mod tests;
+
+use super::chip::way;
 use super::parameters::VcutParameters;
 use super::{PlannedCut, PlannedVcut, Way};
-use core::ops::RangeInclusive;
+use ridge::Ridge;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{Area, Length};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 use vcutc_simulation::contour::farthest;
 use vcutc_simulation::report::area_under;
-use vcutc_simulation::surface::{Side, Surface, Vee};
+use vcutc_simulation::surface::{Surface, Vee};
 
 /// What may stay besides.
 #[derive(Clone, Copy, Debug)]
@@ -55,14 +59,6 @@ pub(crate) fn without_redundant(
     })
 }
 
-/// How many half widths of a V others may be away from a stretch and still affect the flanks that reach into it: such a flank runs
-/// out within two, and a V beyond that opens the surface within one more. What a V leaves that is not looked at stays in its own
-/// opening, so it does not come nearer from layer to layer.
-const AFFECTING: f64 = 3.0;
-
-/// Points of surfaces this close are the same, in mm.
-const ALIKE: f64 = 1e-9;
-
 struct Thinning<'p> {
     parameters: &'p VcutParameters,
     part: &'p Profile,
@@ -80,75 +76,55 @@ impl Thinning<'_> {
         }
         // The nearest last.
         let mut below: Vec<Vec<PlannedCut>> = Vec::new();
-        while let Some((surface, layer)) = above.pop() {
+        while let Some((mut surface, layer)) = above.pop() {
             let mut layer = layer.to_vec();
             for place in (0..layer.len()).rev() {
                 let skipped = layer.remove(place);
-                match self.left_without(&skipped, surface.clone(), &layer, &below) {
+                let ridge = Ridge::new(self.parameters, skipped.tip, &mut surface);
+                match self.left_standing(ridge, layer.split_at(place), &below) {
                     Some(left) if left <= room => room -= left,
                     Some(_) | None => layer.insert(place, skipped),
                 }
             }
-            below.push(layer);
+            if !layer.is_empty() {
+                below.push(layer);
+            }
         }
         below.reverse();
         below
     }
 
-    /// How much more stays in all without a V that finds this surface, with these others in its layer, and those below, in mm2; none
-    /// where it is needed.
-    fn left_without(
+    /// How much of a ridge stays in the end, with these others in its layer before and after it, and those below, in mm2; none where a
+    /// chip does not come free beside it, or too much stays.
+    fn left_standing(
         &self,
-        skipped: &PlannedCut,
-        mut surface: Surface,
-        others: &[PlannedCut],
+        mut ridge: Ridge<'_>,
+        (before, after): (&[PlannedCut], &[PlannedCut]),
         below: &[Vec<PlannedCut>],
     ) -> Option<f64> {
-        let stretch = self.opening(skipped, &mut surface);
-        self.release(&mut surface, self.near(others, &stretch, AFFECTING));
-        let mut cut = surface.clone();
-        cut.release(self.vee(skipped));
-        for layer in below.iter().rev() {
-            let reaching = self.near(layer, &stretch, 1.0);
-            let mut chips = reaching.iter().map(|cut| cut.tip);
-            if !chips.all(|tip| comes_free(self.parameters, &mut surface, tip)) {
-                return None;
-            }
-            for surface in [&mut surface, &mut cut] {
-                self.release(surface, self.near(layer, &stretch, AFFECTING));
-            }
-            if is_alike(&mut surface, &mut cut, &stretch) {
-                return Some(0.0);
+        // The neighbours first: they hardly ever leave anything to the others.
+        let (left, neighbour_left) = before.split_at(before.len().saturating_sub(1));
+        let (neighbour_right, right) = after.split_at(after.len().min(1));
+        for others in [neighbour_left, neighbour_right, left, right] {
+            let reaching = ridge.reached_by(others);
+            match ridge.after(reaching) {
+                Some(standing) => ridge = standing,
+                None => return Some(0.0),
             }
         }
-        let [left, before] = [&mut surface, &mut cut].map(|surface| {
-            surface
-                .stretch(*stretch.start(), *stretch.end())
-                .collect::<Vec<Point2>>()
-        });
-        let is_low = farthest(&left, self.part).height <= self.limit;
-        is_low.then(|| (area_under(&left) - area_under(&before)).max(0.0))
-    }
-
-    /// From where to where a V opens the surface.
-    fn opening(&self, cut: &PlannedCut, surface: &mut Surface) -> RangeInclusive<f64> {
-        let vee = self.vee(cut);
-        let [left, right] = [Side::Left, Side::Right].map(|side| surface.flank(vee, side).exit.x);
-        left..=right
-    }
-
-    /// The Vs of a layer whose tips are no farther from a stretch than so many half widths of the widest V.
-    fn near<'c>(
-        &self,
-        layer: &'c [PlannedCut],
-        stretch: &RangeInclusive<f64>,
-        half_widths: f64,
-    ) -> &'c [PlannedCut] {
-        let flanks = &self.parameters.flanks;
-        let within = half_widths * flanks.reach.to_mm() / flanks.slope;
-        let from = layer.partition_point(|cut| cut.tip.x + within < *stretch.start());
-        let to = layer.partition_point(|cut| cut.tip.x - within <= *stretch.end());
-        layer.get(from..to).unwrap_or_default()
+        for layer in below.iter().rev() {
+            let reaching = ridge.reached_by(layer);
+            if !ridge.lets_free(reaching.clone()) {
+                return None;
+            }
+            match ridge.after(reaching) {
+                Some(standing) => ridge = standing,
+                None => return Some(0.0),
+            }
+        }
+        let [standing, cut] = ridge.contours();
+        let is_low = farthest(&standing, self.part).height <= self.limit;
+        is_low.then(|| (area_under(&standing) - area_under(&cut)).max(0.0))
     }
 
     fn release(&self, surface: &mut Surface, cuts: &[PlannedCut]) {
@@ -183,20 +159,3 @@ impl Thinning<'_> {
         cuts
     }
 }
-
-/// Whether two surfaces are the same over a stretch.
-fn is_alike(one: &mut Surface, other: &mut Surface, stretch: &RangeInclusive<f64>) -> bool {
-    let (from, to) = (*stretch.start(), *stretch.end());
-    let is_near = |(a, b): (Point2, Point2)| (a.x - b.x).abs() <= ALIKE && (a.z - b.z).abs() <= ALIKE;
-    let (mut one, mut other) = (one.stretch(from, to), other.stretch(from, to));
-    loop {
-        match (one.next(), other.next()) {
-            (Some(a), Some(b)) if is_near((a, b)) => {}
-            (None, None) => return true,
-            (Some(_) | None, _) => return false,
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests;

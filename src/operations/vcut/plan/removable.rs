@@ -10,6 +10,7 @@ use vcutc_geometry::offset::offset_up;
 use vcutc_geometry::profile::Profile;
 
 /// The least that one operation leaves, whatever its plan.
+#[derive(Clone, Debug)]
 pub struct Removable {
     kept: Profile,
     contour: Length,

@@ -14,7 +14,7 @@
 mod narrowed;
 
 use super::avoid::{Avoidance, Swings};
-use super::chip::{comes_free, way};
+use super::chip::{Chip, way};
 use super::lattice::{Column, Layout, Parity, Row};
 use super::parameters::VcutParameters;
 use super::{Ground, PlannedCut, TipOrigin, Way, smallest_gain};
@@ -327,7 +327,7 @@ impl<'p> LayerPlanner<'p> {
     /// Whether a chip comes free, with room for a stated body where flanks may be narrower: elsewhere the proof looks at that.
     fn comes_free(&mut self, tip: Point2) -> bool {
         let avoidance = self.avoidance.as_ref();
-        comes_free(self.parameters, self.surface, tip)
+        Chip::of(self.parameters, tip).comes_free(self.surface)
             && avoidance.is_none_or(|avoidance| avoidance.bodies_clear(tip, self.surface))
     }
 

@@ -1,6 +1,6 @@
 //! Redundant Vs of random jobs: what is left is proven, as little as all of the section says, and needed to the last V.
 
-use super::super::chip::comes_free;
+use super::super::chip::Chip;
 use crate::PlannedVcut;
 use crate::asked::{Lattice, Redundant, Residual};
 use crate::plan::PlannedCut;
@@ -37,7 +37,7 @@ fn stays(vcut: &PlannedVcut, cuts: &[PlannedCut], plan: &PlannedJob, limit: Leng
     for layer in cuts.chunk_by(|one, next| one.layer == next.layer) {
         if !layer
             .iter()
-            .all(|cut| comes_free(&vcut.parameters, &mut surface, cut.tip))
+            .all(|cut| Chip::of(&vcut.parameters, cut.tip).comes_free(&mut surface))
         {
             return None;
         }
