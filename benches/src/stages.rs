@@ -4,7 +4,7 @@
 //! of them is inlined, so that profilers show them by their names.
 
 use vcutc::diagnostics::source::{LoadError, Loader, SourceMap};
-use vcutc::driver::{self, Outcome, Request, Typed};
+use vcutc::driver::{self, Outcome, Request, SearchEffort, Typed};
 use vcutc::job::CheckedJob;
 use vcutc::job::PlannedJob;
 use vcutc::job::sema;
@@ -96,6 +96,7 @@ pub fn compile(text: &str) -> Outcome {
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         operations: vcutc::registry::OPERATIONS,
         targets: &[],
     };

@@ -5,6 +5,7 @@ mod air;
 mod convert;
 mod examples;
 mod inner_form;
+mod overrides;
 mod pictures;
 mod tools;
 
@@ -12,12 +13,11 @@ mod tools;
 pub(super) use convert::ConvertArgs;
 
 pub(super) use air::AirArgs;
+pub(super) use overrides::Overrides;
 pub(super) use pictures::{PlotArgs, ReportArgs, What};
 pub(super) use tools::{ToolForm, ToolsArgs};
 
-use super::Targets;
 use super::console::Warnings;
-use super::files::Disk;
 use super::patience::{HelpBudget, help_budget};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
@@ -25,8 +25,6 @@ use examples::{EXAMPLES, FIRST_EXAMPLES};
 pub(super) use inner_form::InnerForm;
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Severity};
-use vcutc_driver::{Request, Typed};
-use vcutc_registry::OPERATIONS;
 
 /// The version of the package, with the commit where a release was built from one (`build.rs`).
 const VERSION: &str = env!("VCUTC_VERSION");
@@ -570,37 +568,6 @@ pub(super) struct OptimizeArgs {
 
     #[command(flatten)]
     pub(super) overrides: Overrides,
-}
-
-/// What the command line says over what the job says.
-#[derive(Debug, Args)]
-pub(super) struct Overrides {
-    /// Replace the value of a `let` of the job; can be given several times
-    ///
-    /// Write the value as in the job, with its unit: --set width=90mm, --set 'height = 2 in'.
-    #[arg(long = "set", value_name = "NAME=VALUE")]
-    pub(super) set: Vec<String>,
-
-    /// Use this machine of the job, regardless of its `cell` block
-    ///
-    /// For jobs that define or use several machines, such as all cells of a shop.
-    #[arg(long, value_name = "NAME")]
-    pub(super) machine: Option<String>,
-}
-
-impl Overrides {
-    /// To compile a job with them, whatever its target.
-    pub(super) fn request<'a>(&'a self, disk: &'a Disk, targets: &'a Targets) -> Request<'a> {
-        Request {
-            path: disk.job(),
-            loader: disk,
-            overrides: &self.set,
-            machine: self.machine.as_deref(),
-            options: Typed::default(),
-            operations: OPERATIONS,
-            targets,
-        }
-    }
 }
 
 /// What the command line says to the target, over what the machine's block says.

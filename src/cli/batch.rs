@@ -26,7 +26,7 @@ use vcutc_driver::numbers::Numbers;
 use vcutc_driver::numbers::baseline::{Name, Record};
 use vcutc_driver::summary::chosen::OperationFigures;
 use vcutc_driver::summary::times::TimeFigures;
-use vcutc_driver::{self as driver, Request, RequestError, Typed};
+use vcutc_driver::{self as driver, Request, RequestError, SearchEffort, Typed};
 use vcutc_registry::OPERATIONS;
 
 /// One program to make.
@@ -188,6 +188,7 @@ fn make(unit: &Unit, fate: Fate, targets: &Targets) -> Done {
             given: &unit.options,
             beside: &unit.beside,
         },
+        effort: SearchEffort::Normal,
         operations: OPERATIONS,
         targets,
     };

@@ -14,7 +14,7 @@ use vcutc_convert::{self as convert, Conversion, Refused};
 use vcutc_diagnostics::has_errors;
 use vcutc_diagnostics::source::{Entry, LoadError, Loader};
 use vcutc_driver::memory::Memory;
-use vcutc_driver::{Outcome, Request};
+use vcutc_driver::{Outcome, Request, SearchEffort};
 use vcutc_picture::Prefix;
 use vcutc_registry::OPERATIONS;
 use vcutc_report::{Material, pictures};
@@ -117,6 +117,7 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
         overrides: &[],
         machine: None,
         options: product.typed(),
+        effort: SearchEffort::Normal,
         operations: OPERATIONS,
         targets,
     };

@@ -33,6 +33,7 @@ pub use asked::{machine_words, misfits, understood};
 pub use emitting::{EmitFailure, emit, write};
 pub use refusal::{Patience, Unhurried};
 
+pub use vcutc_job::search::SearchEffort;
 pub use vcutc_job::sema::Typed;
 pub use vcutc_remedy::fallback::NotFollowed;
 
@@ -84,6 +85,8 @@ pub struct Request<'a> {
     pub machine: Option<&'a str>,
     /// Options of a target, over those of the job.
     pub options: Typed<'a>,
+    /// How hard the best of what the job leaves open is searched for.
+    pub effort: SearchEffort,
     /// The operations of the language.
     pub operations: Operations,
     /// Targets whose options the machine may hold.
@@ -96,6 +99,7 @@ impl<'a> Request<'a> {
             overrides: self.overrides,
             machine: self.machine,
             options: self.options,
+            effort: self.effort,
             operations: self.operations,
             surfaces: None,
         }

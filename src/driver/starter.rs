@@ -8,7 +8,7 @@
 mod places;
 mod text;
 
-use crate::{self as driver, Request, Typed};
+use crate::{self as driver, Request, SearchEffort, Typed};
 use places::{Place, Tool};
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::geometry::Frame;
@@ -175,6 +175,7 @@ fn compiled(asked: &Asked<'_>, text: &str) -> Result<driver::Outcome, (Vec<Diagn
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         operations: asked.operations,
         targets: asked.targets,
     };

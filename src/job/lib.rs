@@ -24,6 +24,7 @@ pub use sema::part::{Part, Shaded};
 pub use setup::Setup;
 pub use tools::{HeldChange, HeldTool, HeldTools};
 
+use search::SearchEffort;
 use std::sync::Arc;
 use vcutc_backend_api::ir::{AxisKind, AxisValues, MachineKind, PlacedFrame, Ready, Spindle, Stock};
 use vcutc_backend_api::profile::Profile as Habits;
@@ -75,6 +76,8 @@ pub struct CheckedJob {
     pub operations: Vec<Box<dyn Operation>>,
     /// Which of the operations may be done otherwise: each stands here in its first way.
     pub open: Vec<ways::OpenChoice>,
+    /// How hard the best of what it leaves open is searched for.
+    pub effort: SearchEffort,
     /// On what: the one that `cell` names, else the one in the job's own file, else the only one there is.
     pub machine: Option<Machine>,
 }

@@ -50,6 +50,7 @@ pub mod units;
 pub mod vocabulary;
 pub mod written;
 
+use crate::search::SearchEffort;
 use crate::ways::{OpenChoice, Ways};
 use crate::{Blade, BladeRef, CheckedJob, Machine, NamedRegion};
 use eval::Scope;
@@ -76,6 +77,8 @@ pub struct Choices<'a> {
     pub machine: Option<&'a str>,
     /// Options of a target, over those of its block in the machine.
     pub options: Typed<'a>,
+    /// How hard the best is searched for.
+    pub effort: SearchEffort,
     /// The operations of the language.
     pub operations: Operations,
     /// Surfaces of files that runs before have read, where there are such runs.
@@ -141,6 +144,7 @@ struct Said<'a> {
     machine: Option<&'a Spanned<String>>,
     options: options::Said<'a>,
     operations: Operations,
+    effort: SearchEffort,
 }
 
 /// What the files define, and what it is worth.
@@ -306,6 +310,7 @@ fn whole(
         cell_size,
         part,
         profile_span: place,
+        effort: said.effort,
         open: open.collect(),
         operations: ways.into_iter().map(|ways| ways.into_first().operation).collect(),
         machine,

@@ -13,7 +13,9 @@ use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap};
 use vcutc_driver::hints::{Hint, hints};
 use vcutc_driver::memory::Memory;
-use vcutc_driver::{self as driver, Outcome, Patience, Request, RequestError, Run, Typed, Unhurried};
+use vcutc_driver::{
+    self as driver, Outcome, Patience, Request, RequestError, Run, SearchEffort, Typed, Unhurried,
+};
 use vcutc_job::PlannedJob;
 use vcutc_job::sema::kind::Operations;
 use vcutc_job::sema::study::{Study, study};
@@ -270,6 +272,7 @@ impl Task {
             overrides: &[],
             machine: None,
             options: Typed::default(),
+            effort: SearchEffort::Normal,
             operations: self.operations,
             targets,
         };

@@ -157,6 +157,7 @@ fn prepare(
             overrides: request.overrides,
             machine: request.machine,
             options: request.options,
+            effort: request.effort,
             operations: request.operations,
             surfaces: None,
         },

@@ -9,6 +9,7 @@ use vcutc::diagnostics::render::{ColorChoice, render};
 use vcutc::diagnostics::source::{Entry, LoadError, Loader, SourceMap};
 use vcutc::diagnostics::{Code, Diagnostic, Fix, fix};
 use vcutc::job::CheckedJob;
+use vcutc::job::search::SearchEffort;
 use vcutc::job::sema::{Choices, Typed, check};
 
 /// The files of a folder, with one of them changed.
@@ -110,6 +111,7 @@ impl Case {
                 overrides: &self.overrides(),
                 machine: self.machine(),
                 options: Typed::default(),
+                effort: SearchEffort::Normal,
                 surfaces: None,
             },
             &mut sources,

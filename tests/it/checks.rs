@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use vcutc::diagnostics::Code;
 use vcutc::diagnostics::source::SourceMap;
 use vcutc::driver::checks::{Check, Outcome as Came};
-use vcutc::driver::{Compiled, Outcome, Typed};
+use vcutc::driver::{Compiled, Outcome, SearchEffort, Typed};
 use vcutc::job::CheckedJob;
 use vcutc::job::sema;
 use vcutc::machine::catalogue;
@@ -57,6 +57,7 @@ fn checked(text: &str) -> CheckedJob {
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         surfaces: None,
     };
     let (mut sources, mut diagnostics) = (SourceMap::default(), Vec::new());

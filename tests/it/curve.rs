@@ -7,7 +7,7 @@ use core::num::NonZeroU32;
 use glam::DQuat;
 use vcutc::diagnostics::source::Span;
 use vcutc::diagnostics::{Code, Diagnostic, has_errors};
-use vcutc::driver::{self, Outcome, Request, Typed};
+use vcutc::driver::{self, Outcome, Request, SearchEffort, Typed};
 use vcutc::geometry::curve::Point2;
 use vcutc::geometry::grid;
 use vcutc::geometry::profile::Profile;
@@ -330,6 +330,7 @@ fn compiled(depth: &str, machine: &str) -> Outcome {
         overrides: &[],
         machine: Some(machine),
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         operations: KNOWN,
         targets: &registry::backends(),
     };

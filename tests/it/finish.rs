@@ -4,7 +4,7 @@ use crate::pipeline::Files;
 use crate::rect::{is_same, machines, mended};
 use crate::repository::root;
 use vcutc::diagnostics::{Code, has_errors};
-use vcutc::driver::{self, Outcome, Request, Typed};
+use vcutc::driver::{self, Outcome, Request, SearchEffort, Typed};
 use vcutc::geometry::curve::Point2;
 use vcutc::registry;
 use vcutc::simulation::cross_section::Taken;
@@ -56,6 +56,7 @@ pub(crate) fn compiled_on(text: String, machine: Option<&str>) -> Outcome {
         overrides: &[],
         machine,
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         operations: registry::OPERATIONS,
         targets: &registry::backends(),
     };

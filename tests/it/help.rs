@@ -5,7 +5,7 @@ use vcutc::cancellation::Wanted;
 use vcutc::diagnostics::Diagnostic;
 use vcutc::diagnostics::source::SourceMap;
 use vcutc::driver::memory::Memory;
-use vcutc::driver::{self, Outcome, Patience, Request, Run, Stage, Typed};
+use vcutc::driver::{self, Outcome, Patience, Request, Run, SearchEffort, Stage, Typed};
 use vcutc::registry;
 
 const JOB: &str = "job.vcut";
@@ -43,6 +43,7 @@ pub(crate) fn patiently(text: &str, wanted: Wanted) -> (Outcome, Vec<Diagnostic>
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         operations: vcutc::registry::OPERATIONS,
         targets: &registry::backends(),
     };

@@ -4,7 +4,7 @@ use crate::pipeline::Files;
 use crate::rect::{codes, job, machines, planned};
 use crate::repository::root;
 use vcutc::diagnostics::Code;
-use vcutc::driver::{self, Outcome, Request, Typed};
+use vcutc::driver::{self, Outcome, Request, SearchEffort, Typed};
 use vcutc::registry;
 
 /// A floor at 20 mm beside a plateau of some height, with a straight blade whose body begins 40 mm above the tip.
@@ -64,6 +64,7 @@ fn proven(text: String) -> Outcome {
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         operations: registry::OPERATIONS,
         targets: &registry::backends(),
     };

@@ -30,6 +30,7 @@ mod convert;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod curve;
 mod drawn;
+mod effort;
 #[cfg(feature = "krl")]
 mod examples;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use vcutc::diagnostics::source::{LoadError, Loader};
 use vcutc::diagnostics::{Code, has_errors};
-use vcutc::driver::{EmitFailure, Request, Typed, compile, emit};
+use vcutc::driver::{EmitFailure, Request, SearchEffort, Typed, compile, emit};
 use vcutc_backend_api::bundle::Bundle;
 
 const JOB: &str = "page.vcut";
@@ -32,6 +32,7 @@ fn codes(job: &str) -> BTreeSet<Code> {
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         operations: vcutc::registry::OPERATIONS,
         targets: &vcutc::registry::backends(),
     };

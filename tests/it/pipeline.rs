@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use vcutc::diagnostics::render::{ColorChoice, render};
 use vcutc::diagnostics::source::{LoadError, Loader};
 use vcutc::diagnostics::{Diagnostic, Fix, fix};
-use vcutc::driver::{self, EmitFailure, Outcome, Request, Typed};
+use vcutc::driver::{self, EmitFailure, Outcome, Request, SearchEffort, Typed};
 use vcutc::registry;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::bundle::Bundle;
@@ -57,6 +57,7 @@ pub(crate) fn compile_on(machine: Option<&str>, path: &str, files: &Files) -> Ou
         overrides: &[],
         machine,
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         operations: vcutc::registry::OPERATIONS,
         targets: &vcutc::registry::backends(),
     };

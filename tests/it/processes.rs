@@ -6,7 +6,7 @@ use crate::pipeline::Files;
 use crate::repository::root;
 use vcutc::diagnostics::{Code, has_errors};
 use vcutc::driver::ways::{Came, ComparedWay};
-use vcutc::driver::{self, Outcome, Request, Typed};
+use vcutc::driver::{self, Outcome, Request, SearchEffort, Typed};
 use vcutc::optimize;
 use vcutc::process::comparison::{Faster, PlanTime};
 use vcutc::process::plan::plan;
@@ -106,6 +106,7 @@ fn request(files: &Files) -> Request<'_> {
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         operations: registry::OPERATIONS,
         targets: &[],
     }

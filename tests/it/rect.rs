@@ -3,7 +3,7 @@
 use crate::pipeline::Files;
 use crate::repository::root;
 use vcutc::diagnostics::{Code, Diagnostic, Fix, fix, has_errors};
-use vcutc::driver::{self, Outcome, Request, Typed};
+use vcutc::driver::{self, Outcome, Request, SearchEffort, Typed};
 use vcutc::picture::Prefix;
 use vcutc::process::verdict::bounds;
 use vcutc::readback::{Fresh, Reference};
@@ -88,6 +88,7 @@ fn compiled(text: String, machine: &str) -> Outcome {
         overrides: &[],
         machine: Some(machine),
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         operations: registry::OPERATIONS,
         targets: &registry::backends(),
     };

@@ -10,7 +10,7 @@ use serde_json::json;
 use vcutc::diagnostics::source::Span;
 use vcutc::diagnostics::{Code, Diagnostic, has_errors};
 use vcutc::driver::memory::Memory;
-use vcutc::driver::{self, Outcome, Request, Typed};
+use vcutc::driver::{self, Outcome, Request, SearchEffort, Typed};
 use vcutc::geometry::curve::Point2;
 use vcutc::geometry::grid;
 use vcutc::geometry::profile::Profile;
@@ -356,6 +356,7 @@ fn compiled(depth: &str, machine: &str) -> Outcome {
         overrides: &[],
         machine: Some(machine),
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         operations: KNOWN,
         targets: &registry::backends(),
     };

@@ -6,7 +6,7 @@ use crate::repository::root;
 use core::num::NonZeroU32;
 use vcutc::diagnostics::source::Span;
 use vcutc::diagnostics::{Code, Diagnostic, has_errors};
-use vcutc::driver::{self, Outcome, Request, Typed};
+use vcutc::driver::{self, Outcome, Request, SearchEffort, Typed};
 use vcutc::geometry::curve::Point2;
 use vcutc::geometry::profile::Profile;
 use vcutc::job::description::{ParameterRow, ParameterTable, length_text};
@@ -278,6 +278,7 @@ fn compiled(text: String, machine: &str) -> Outcome {
         overrides: &[],
         machine: Some(machine),
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         operations: KNOWN,
         targets: &registry::backends(),
     };

@@ -2,7 +2,7 @@
 
 use crate::pipeline::Files;
 use vcutc::diagnostics::Code;
-use vcutc::driver::{EmitFailure, Outcome, Request, Typed, compile, emit};
+use vcutc::driver::{EmitFailure, Outcome, Request, SearchEffort, Typed, compile, emit};
 use vcutc_backend_api::backend::{
     Backend, BackendIssue, Emission, EmitError, OptionKind, OptionSpec, Options,
 };
@@ -85,6 +85,7 @@ fn compiled(option: &str) -> Outcome {
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         operations: vcutc::registry::OPERATIONS,
         targets: &[&ABLE],
     };

@@ -1,7 +1,7 @@
 //! Hints are tried: applied, a job takes the time that they state.
 
 use super::*;
-use crate::{Outcome, Request, Typed, compile};
+use crate::{Outcome, Request, SearchEffort, Typed, compile};
 use vcutc_diagnostics::source::{LoadError, Loader};
 use vcutc_job::sema::kind::Operations;
 use vcutc_process::plan::plan;
@@ -52,6 +52,7 @@ fn outcome(text: &str) -> Outcome {
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         operations: Operations(&[&vcutc_vcut::Vcut]),
         targets: &[],
     };

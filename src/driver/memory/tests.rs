@@ -1,7 +1,9 @@
 //! Compiling with a memory against compiling afresh, over random edits of a job: outcome and files must be the same to the byte.
 
 use super::*;
-use crate::{Outcome, Request, RequestError, Run, Stage, Typed, Unhurried, compile, compile_in, write};
+use crate::{
+    Outcome, Request, RequestError, Run, SearchEffort, Stage, Typed, Unhurried, compile, compile_in, write,
+};
 use proptest::prelude::*;
 use vcutc_backend_api::backend::Backend;
 use vcutc_cancellation::{Needless, Wanted};
@@ -95,6 +97,7 @@ fn request<'a>(text: &'a Text, targets: &'a [&'static dyn Backend]) -> Request<'
         overrides: &[],
         machine: None,
         options: Typed::default(),
+        effort: SearchEffort::Normal,
         operations: Operations(&[&vcutc_vcut::Vcut]),
         targets,
     }

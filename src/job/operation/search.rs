@@ -4,6 +4,26 @@ use super::planned::PlannedJob;
 use crate::Order;
 use vcutc_backend_api::units::Angle;
 
+/// How hard the best of what a job leaves open is searched for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SearchEffort {
+    #[default]
+    Normal,
+    /// Up to ten times as many plans.
+    High,
+}
+
+impl SearchEffort {
+    /// How many times as many plans as usual may be made.
+    #[must_use]
+    pub const fn times(self) -> usize {
+        match self {
+            Self::Normal => 1,
+            Self::High => 10,
+        }
+    }
+}
+
 /// Which routes are considered where the job leaves them open. Fast ones turn the blade more at the work and retract it less,
 /// which not every machine can follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,6 +14,7 @@ use super::quantity::{Quantity, number};
 use super::report::{Checked, Reports};
 use super::session::Session;
 use super::{Choices, Part, Said, cell, cut_short, options, understand, units};
+use crate::search::SearchEffort;
 use crate::{BladeKind, CheckedJob};
 use vcutc_diagnostics::source::{FileId, LoadError, Loader, SourceMap, Spanned};
 use vcutc_diagnostics::{Diagnostic, has_errors};
@@ -80,6 +81,10 @@ pub fn study(
     let files = files::load(root, &mut session)?;
     let overrides = overrides::read(choices.overrides, choices.options.given, &mut session);
     let wanted = cell::wanted(choices.machine, &mut session);
+    if choices.effort == SearchEffort::High {
+        // Part of what a program was made from.
+        session.sources.add("--effort high".to_owned(), "high".to_owned());
+    }
     let (job, definitions) = match files.first() {
         Some(root) => {
             let said = Said {
@@ -90,6 +95,7 @@ pub fn study(
                     read: &overrides.options,
                 },
                 operations: choices.operations,
+                effort: choices.effort,
             };
             understand(root, &files, part, said, &mut session)
         }

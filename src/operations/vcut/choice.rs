@@ -35,13 +35,13 @@ use bench::{Bench, Figures, MEASURED_TO};
 use complaints::Sought;
 use core::cmp::Ordering;
 use rayon::prelude::*;
-use trial::{Finalist, Found, FoundBy};
+use trial::{Found, FoundBy};
 use vcutc_backend_api::units::{Area, Duration, Length};
 use vcutc_cancellation::Effort;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_job::Auto;
 use vcutc_job::operation::{self, Ground};
-use vcutc_job::search::RouteSet;
+use vcutc_job::search::{RouteSet, SearchEffort};
 use vcutc_simulation::surface::Surface;
 
 /// Most cuts of an operation for which other ways to cut it are planned. Larger ones take days; minutes are not what they
@@ -68,7 +68,7 @@ pub(crate) fn plan<'j>(
     } = ground;
     let within = narrowed::within(asked, space.swing);
     let bench = Bench::new(job, asked, before, space.routes).while_wanted(&wanted);
-    match chosen::within_all_limits(&bench, asked, &within, cuts_left) {
+    match searched(&bench, asked, &within, cuts_left) {
         Ok(LaidOut { mut vcut, after, .. }) => {
             if let Some(swing) = narrowed::narrowed(asked, space.swing) {
                 narrowed::told(&mut vcut, asked.limits.swing, swing, bench.job.machine.as_ref());
@@ -81,6 +81,33 @@ pub(crate) fn plan<'j>(
             cuts_left,
             unplanned,
         })),
+    }
+}
+
+/// The best operation that a search with the bench's effort finds. Where that is more than usual, what is found as usual stands unless
+/// something better is found: more plans lead other ways, not always to better ends.
+fn searched(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    within: &RoughVcut,
+    cuts_left: usize,
+) -> Result<LaidOut, Unplanned> {
+    let search = |bench: &Bench<'_>| chosen::within_all_limits(bench, asked, within, cuts_left);
+    let found = search(bench);
+    match bench.effort {
+        SearchEffort::Normal => found,
+        SearchEffort::High => match (found, search(&bench.with_effort(SearchEffort::Normal))) {
+            (Ok(found), Ok(usual)) => {
+                let [found, usual] = [found, usual].map(|laid| {
+                    let limit = laid.vcut.asked.limits.scallop.map(|limit| limit.value);
+                    bench.weigh(laid).held_to(limit, within)
+                });
+                let is_better = found.compare(&usual) == Ordering::Less;
+                Ok(if is_better { found.laid } else { usual.laid })
+            }
+            (Ok(laid), Err(_)) | (Err(_), Ok(laid)) => Ok(laid),
+            (Err(unplanned), Err(_)) => Err(unplanned),
+        },
     }
 }
 
@@ -314,13 +341,11 @@ fn any_within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> 
     let mut effort = Effort::OF_A_PROBE;
     let (parameters, _) = offers::any(bench, asked, &lattices, cuts_left, &mut effort, &mut Vec::new())?;
     let found = Found {
-        finalists: vec![Finalist {
-            parameters,
-            found: FoundBy::Simulation,
-        }],
+        parameters,
+        by: FoundBy::Simulation,
         by_formulas: None,
     };
-    let laid = best_finalist(bench, asked, found, cuts_left).ok()?;
+    let laid = best_found(bench, asked, found, cuts_left).ok()?;
     limits::broken(&bench.job, asked, &laid.vcut)
         .is_none()
         .then_some(laid)
@@ -370,66 +395,41 @@ fn best_on(
     lattices: &[Lattice],
     cuts_left: usize,
 ) -> Result<LaidOut, Unplanned> {
-    let found = trial::parameters(bench, asked, lattices, cuts_left)?;
-    best_finalist(bench, asked, found, cuts_left)
+    let found = trial::parameters(bench, asked, lattices, None, cuts_left)?;
+    best_found(bench, asked, found, cuts_left)
 }
 
-/// The operation with the best of a few parameters.
-fn best_finalist(
+/// The operation with the parameters that a search came to.
+fn best_found(
     bench: &Bench<'_>,
     asked: &RoughVcut,
     found: Found,
     cuts_left: usize,
 ) -> Result<LaidOut, Unplanned> {
-    let limit = asked.limits.scallop.map(|limit| limit.value);
-    if let [only] = &found.finalists[..]
-        && only.found == FoundBy::Formulas
-    {
-        return best_residual(bench, asked, &only.parameters, cuts_left);
-    }
-    let outcome = |finalist: &Finalist| {
-        let laid = best_residual(bench, asked, &finalist.parameters, cuts_left)?;
-        Ok((finalist.found, bench.weigh(laid).held_to(limit, asked)))
-    };
-    let outcomes: Vec<Result<(FoundBy, Contender), Unplanned>> =
-        found.finalists.par_iter().map(outcome).collect();
-    let mut compared: Vec<(FoundBy, Contender)> = Vec::new();
-    let mut refused = Unplanned::Refused(Vec::new());
-    for outcome in outcomes {
-        match outcome {
-            Ok(contender) => compared.push(contender),
-            Err(unplanned) => refused = unplanned,
-        }
-    }
-    // A stable sort: among equals the first one stands.
-    compared.sort_by(|(_, one), (_, other)| one.compare(other));
-    let mut compared = compared.into_iter();
-    let Some((by, best)) = compared.next() else {
-        return Err(refused);
-    };
-    let decision = match by {
-        FoundBy::Formulas => None,
+    let laid = best_residual(bench, asked, &found.parameters, cuts_left)?;
+    match found.by {
+        FoundBy::Formulas => Ok(laid),
         FoundBy::Simulation => {
-            let formulas = compared.find(|(by, _)| *by == FoundBy::Formulas);
-            let standing = found.by_formulas.or(formulas.map(|(_, one)| one.standing));
-            Some(Decision {
+            let limit = asked.limits.scallop.map(|limit| limit.value);
+            let best = bench.weigh(laid).held_to(limit, asked);
+            let candidate = |by: FoundBy, standing| Candidate {
+                what: by.words().to_owned(),
+                standing,
+            };
+            let decision = Decision {
                 field: PARAMETERS,
-                taken: best.candidate(by.words()),
-                others: standing
+                taken: candidate(FoundBy::Simulation, best.standing),
+                others: found
+                    .by_formulas
                     .into_iter()
-                    .map(|standing| Candidate {
-                        what: FoundBy::Formulas.words().to_owned(),
-                        standing,
-                    })
+                    .map(|standing| candidate(FoundBy::Formulas, standing))
                     .collect(),
-            })
+            };
+            let mut laid = best.laid;
+            laid.vcut.decisions.insert(0, decision);
+            Ok(laid)
         }
-    };
-    let mut laid = best.laid;
-    if let Some(decision) = decision {
-        laid.vcut.decisions.insert(0, decision);
     }
-    Ok(laid)
 }
 
 fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Unplanned> {
@@ -453,12 +453,13 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> R
             contest.rule_out(what, Standing::ByModel(time));
             continue;
         }
-        match trial::parameters(bench, asked, &[lattice], cuts_left) {
+        let rival = best.and_then(|best| best.standing.time());
+        match trial::parameters(bench, asked, &[lattice], rival, cuts_left) {
             Ok(found) if found.is_large(&bench.job, asked) => {
                 contest.rule_out(what, Standing::NotCompared);
                 large.get_or_insert((what, found));
             }
-            found => match found.and_then(|found| best_finalist(bench, asked, found, cuts_left)) {
+            found => match found.and_then(|found| best_found(bench, asked, found, cuts_left)) {
                 Ok(laid) => {
                     let limit = asked.limits.scallop.map(|limit| limit.value);
                     contest.enter(what, bench.weigh(laid).held_to(limit, asked));
@@ -475,7 +476,7 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> R
         (Some(best), None) => Ok(best.laid),
         (Some(best), Some(_)) if best.standing.time().is_some() => Ok(best.laid),
         (_, Some((what, found))) => {
-            let mut laid = best_finalist(bench, asked, found, cuts_left)?;
+            let mut laid = best_found(bench, asked, found, cuts_left)?;
             laid.vcut
                 .decisions
                 .insert(0, not_compared("lattice", what.to_owned()));

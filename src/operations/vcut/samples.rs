@@ -12,6 +12,7 @@ use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_geometry::curve::Point2;
 use vcutc_job::follow::Follow;
+use vcutc_job::search::SearchEffort;
 use vcutc_job::{Auto, CheckedJob, Direction, Order, Part, PlannedJob, Setup, Sourced, StraightBlade};
 
 /// A value that the job gives, at no place.
@@ -87,6 +88,7 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
             compensate: given(Compensate::Nothing),
             along: None,
         })],
+        effort: SearchEffort::Normal,
         machine: None,
     }
 }

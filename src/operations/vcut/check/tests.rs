@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Entry, LoadError, Loader, SourceMap, entries_among};
 use vcutc_diagnostics::{Code, Diagnostic, fix};
+use vcutc_job::search::SearchEffort;
 use vcutc_job::sema::kind::Operations;
 use vcutc_job::sema::{Choices, Typed, check};
 use vcutc_job::{Auto, CheckedJob, Part, Sourced};
@@ -31,6 +32,7 @@ impl Files {
             overrides: &overrides,
             machine: None,
             options: Typed::default(),
+            effort: SearchEffort::Normal,
             operations: VCUT,
             surfaces: None,
         })
@@ -41,6 +43,7 @@ impl Files {
             overrides: &[],
             machine: Some(machine),
             options: Typed::default(),
+            effort: SearchEffort::Normal,
             operations: VCUT,
             surfaces: None,
         })

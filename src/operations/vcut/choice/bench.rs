@@ -15,7 +15,7 @@ use vcutc_geometry::offset::offset_up;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::PlannedOperation;
 use vcutc_job::follow::Along;
-use vcutc_job::search::RouteSet;
+use vcutc_job::search::{RouteSet, SearchEffort};
 use vcutc_job::{CheckedJob, PlanningJob};
 use vcutc_process::lower::alone;
 use vcutc_simulation::body;
@@ -58,7 +58,10 @@ pub(super) struct Bench<'j> {
     before: Surface,
     /// The part with the operation's allowance.
     bound: Profile,
+    pub(super) removable: Removable,
     pub(super) latitude: RouteSet,
+    /// How hard the best is searched for.
+    pub(super) effort: SearchEffort,
     /// Plans that nobody wants any more are not made.
     pub(super) wanted: Wanted,
 }
@@ -67,6 +70,8 @@ impl<'j> Bench<'j> {
     pub(super) fn new(job: PlanningJob<'j>, asked: &RoughVcut, before: Surface, latitude: RouteSet) -> Self {
         Self {
             bound: bound(&job, asked),
+            removable: Removable::new(&job.profile, asked),
+            effort: job.effort,
             job,
             before,
             latitude,
@@ -82,13 +87,23 @@ impl<'j> Bench<'j> {
         }
     }
 
+    /// The same, searched with another effort.
+    pub(super) fn with_effort(&self, effort: SearchEffort) -> Self {
+        Self {
+            effort,
+            ..self.for_whom(&self.wanted)
+        }
+    }
+
     /// The same work for someone else.
     pub(super) fn for_whom(&self, wanted: &Wanted) -> Self {
         Self {
             job: self.job.clone(),
             before: self.before.clone(),
             bound: self.bound.clone(),
+            removable: self.removable.clone(),
             latitude: self.latitude,
+            effort: self.effort,
             wanted: wanted.clone(),
         }
     }
@@ -130,8 +145,8 @@ impl<'j> Bench<'j> {
         if limit.is_some_and(|limit| height > limit + MEASURED_TO) {
             return None;
         }
-        let removable = Removable::new(&self.job.profile, asked);
-        let room = removable.under(&found) * LITTLE - removable.under(&left);
+        let [found, left] = [found, left].map(|contour| self.removable.under(&contour));
+        let room = found * LITTLE - left;
         Some(Allowed {
             height: limit.unwrap_or(height + MEASURED_TO),
             area: room.max(Area::ZERO),

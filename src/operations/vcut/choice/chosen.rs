@@ -125,8 +125,8 @@ fn sound_under(
 }
 
 /// What limits are reckoned from.
-struct Depths {
-    removable: Removable,
+struct Depths<'b> {
+    removable: &'b Removable,
     /// In mm2, of what the operation finds.
     whole: f64,
     depth: Length,
@@ -136,9 +136,9 @@ struct Depths {
     coarsest: Length,
 }
 
-impl Depths {
-    fn of(bench: &Bench<'_>, asked: &RoughVcut) -> Self {
-        let removable = Removable::new(&bench.job.profile, asked);
+impl<'b> Depths<'b> {
+    fn of(bench: &'b Bench<'_>, asked: &RoughVcut) -> Self {
+        let removable = &bench.removable;
         let found: Vec<Point2> = bench.work().before.corners().collect();
         let widest = asked.limits.swing.most.map_or(USUAL, |most| most.value);
         let swing = asked.swing.value.or(if widest < USUAL { widest } else { USUAL });

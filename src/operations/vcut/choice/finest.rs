@@ -7,8 +7,8 @@
 //! searched for. What was found is then changed for as long as it leaves less. The formulas' choice is compared with it.
 
 use super::bench::{Bench, Figures};
-use super::trial::{self, Finalist, Found, FoundBy, TurnedDown};
-use super::{Contender, MOST_CUTS_COMPARED, Unplanned, best_finalist, best_on, offers, route, within_limits};
+use super::trial::{self, Found, FoundBy, TurnedDown};
+use super::{Contender, MOST_CUTS_COMPARED, Unplanned, best_found, best_on, offers, route, within_limits};
 use crate::asked::{Lattice, Objective, RoughVcut};
 use crate::plan::optimum::Bound;
 use crate::plan::parameters::{self, VcutParameters};
@@ -125,10 +125,11 @@ pub(super) fn finest(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> 
     let (parameters, kept) = narrowed(&FINE, start, |lattice, next| search.fastest(lattice, next));
     let assumed = under(asked, Some(kept));
     let found = Found {
-        finalists: search.changed(&assumed, parameters),
+        parameters: search.changed(&assumed, parameters),
+        by: FoundBy::Simulation,
         by_formulas,
     };
-    best_finalist(bench, &assumed, found, cuts_left).map(|laid| as_asked(laid, asked))
+    best_found(bench, &assumed, found, cuts_left).map(|laid| as_asked(laid, asked))
 }
 
 /// A plan with the job's own limits.
@@ -214,7 +215,7 @@ impl Search<'_> {
     }
 
     /// The best that come of changing parameters, with what they came up against: the limits that the job sets.
-    fn changed(self, assumed: &RoughVcut, start: VcutParameters) -> Vec<Finalist> {
+    fn changed(self, assumed: &RoughVcut, start: VcutParameters) -> VcutParameters {
         let objective = self.asked.objective.value;
         let is_assumed = |bound: Bound| match objective {
             Objective::Scallop => bound == Bound::Scallop,
@@ -223,16 +224,12 @@ impl Search<'_> {
         };
         let mut turned_down = self.turned_down;
         turned_down.retain(|other| !is_assumed(other.bound));
-        let mut finalists = trial::from(self.bench, assumed, &start, self.cuts_left, turned_down);
-        for finalist in &mut finalists {
-            finalist.parameters.binding.retain(|&bound| !is_assumed(bound));
+        match trial::from(self.bench, assumed, &start, self.cuts_left, turned_down) {
+            Some(mut best) => {
+                best.binding.retain(|&bound| !is_assumed(bound));
+                best
+            }
+            None => start,
         }
-        if finalists.is_empty() {
-            finalists.push(Finalist {
-                parameters: start,
-                found: FoundBy::Simulation,
-            });
-        }
-        finalists
     }
 }

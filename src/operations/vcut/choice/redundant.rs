@@ -1,12 +1,12 @@
 //! Redundant Vs: cut or skipped, as the operation asks, or as is better where that is open (`docs/process.md`, "Redundant Vs").
 
 use super::bench::Bench;
-use super::{MOST_CUTS_COMPARED, route};
+use super::{Contender, MOST_CUTS_COMPARED, route};
 use crate::asked::{Avoid, Compensate, Formulas, Objective, Redundant, RoughVcut};
 use crate::plan::LaidOut;
 use core::cmp::Ordering;
 use vcutc_backend_api::ir::MachineKind;
-use vcutc_job::{Auto, BladeRef, CheckedJob};
+use vcutc_job::{Auto, BladeRef, CheckedJob, Order};
 
 /// When the redundant Vs of an operation are skipped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,13 +78,32 @@ pub(super) fn decided(bench: &Bench<'_>, all: LaidOut, asked: &RoughVcut) -> Lai
         return thinned;
     }
     let limit = asked.limits.scallop.map(|limit| limit.value);
-    let weighed = |laid: &LaidOut| {
-        bench
-            .weigh(route::usual(bench, laid.clone()))
-            .held_to(limit, asked)
+    let weighed = |laid| {
+        let laid = route::usual(bench, laid, Order::Point);
+        bench.weigh(laid).held_to(limit, asked)
     };
-    match weighed(&thinned).compare(&weighed(&all)) {
-        Ordering::Less => thinned,
-        Ordering::Equal | Ordering::Greater => all,
+    better(asked, [thinned, all], weighed).laid
+}
+
+/// The better one of an operation without its redundant Vs and the same with all of them.
+pub(super) fn better(
+    asked: &RoughVcut,
+    [thinned, all]: [LaidOut; 2],
+    weigh: impl Fn(LaidOut) -> Contender,
+) -> Contender {
+    let thinned = weigh(thinned);
+    let is_less_work = match asked.objective.value {
+        // Fewer Vs hardly ever take longer.
+        Objective::Time | Objective::Cuts => thinned.standing.time().is_some(),
+        Objective::Scallop | Objective::BladeLoad => false,
+    };
+    if is_less_work {
+        return thinned;
+    }
+    let all = weigh(all);
+    if thinned.compare(&all) == Ordering::Less {
+        thinned
+    } else {
+        all
     }
 }

@@ -31,7 +31,7 @@ pub(super) fn best(bench: &Bench<'_>, laid: LaidOut) -> LaidOut {
         .into_iter()
         .filter(|&route| allows(bench.latitude, &vcut.asked, route))
         .collect();
-    let usual = usual_route(bench.latitude, &vcut.asked);
+    let usual = usual_route(bench.latitude, &vcut.asked, Order::Point);
     let vcut = match (open, &routes[..]) {
         (Open::Nothing, _) => along(vcut, usual),
         (Open::Something(field), [only]) => match bench.latitude {
@@ -53,23 +53,23 @@ pub(super) fn best(bench: &Bench<'_>, laid: LaidOut) -> LaidOut {
     }
 }
 
-/// The operation along the route that is taken where nothing is compared.
-pub(super) fn usual(bench: &Bench<'_>, mut laid: LaidOut) -> LaidOut {
-    let (sequence, order) = usual_route(bench.latitude, &laid.vcut.asked);
+/// The operation along the route that is taken where nothing is compared, with the flanks in this order where that is open.
+pub(super) fn usual(bench: &Bench<'_>, mut laid: LaidOut, order: Order) -> LaidOut {
+    let (sequence, order) = usual_route(bench.latitude, &laid.vcut.asked, order);
     laid.vcut = laid
         .vcut
         .along(order, sequence, bench.work().before, bench.job.stock);
     laid
 }
 
-fn usual_route(latitude: RouteSet, asked: &RoughVcut) -> Route {
+fn usual_route(latitude: RouteSet, asked: &RoughVcut, order: Order) -> Route {
     let sequence = match latitude {
         RouteSet::Full | RouteSet::ByPoint | RouteSet::ByLayer => Sequence::Boustrophedon,
         RouteSet::RowsByPoint | RouteSet::RowsByLayer => Sequence::Rows,
     };
     (
         asked.sequence.value.or(sequence),
-        asked.order.value.or(latitude.order().unwrap_or(Order::Point)),
+        asked.order.value.or(latitude.order().unwrap_or(order)),
     )
 }
 

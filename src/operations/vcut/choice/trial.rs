@@ -2,17 +2,16 @@
 //!
 //! The formulas hold a lattice's scallop bound [Cui 12] against the limit. That is always sound, and often far from what a
 //! planned program leaves, for its residual strategy puts tips onto the part. So the search for parameters is repeated with
-//! laxer limits on scallop, and with swings and layers beside the best ones; each outcome is planned, written down and
-//! replayed. Only what leaves no more than the job's own limit, with every chip free, is sound. Where none of these is sound,
-//! smaller swings and layers are tried until one is ([`spread`]). The best few sound ones are the [`Finalist`]s: they
-//! are compared again along the routes and with the residual strategies that they would be cut by.
+//! laxer limits on scallop ([`climb`]), over all swings, layers and steps ([`spread`]) in the order of what is forecast of them
+//! ([`forecast`]), and beside the best ones ([`around`]); each outcome is planned, written down and replayed. Only what leaves no
+//! more than the job's own limit, with every chip free, is sound.
 //!
 //! Soundness does not grow or shrink steadily with a parameter, so this is a search, not a proof of least time: the best of a
 //! bounded number of plans.
 
-mod anew;
 mod around;
 mod climb;
+mod forecast;
 mod met;
 mod spread;
 #[cfg(test)]
@@ -21,7 +20,7 @@ mod tests;
 pub(super) use met::TurnedDown;
 
 use super::bench::{Bench, Figures};
-use super::redundant::Skipping;
+use super::redundant::{self, Skipping};
 use super::{Contender, MOST_CUTS_COMPARED, Unplanned, limits, route};
 use crate::asked::{Avoid, Formulas, Lattice, Objective, Residual, RoughVcut};
 use crate::plan::decision::Standing;
@@ -29,7 +28,6 @@ use crate::plan::floor::Floor;
 use crate::plan::optimum::Bound;
 use crate::plan::parameters::{self, Refusal, VcutParameters};
 use crate::plan::{LaidOut, lay_out};
-use core::cmp::Ordering;
 use rayon::prelude::*;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_cancellation::Effort;
@@ -42,17 +40,11 @@ const PLANS: [(usize, usize); 3] = [(500, 48), (2_000, 24), (MOST_CUTS_COMPARED,
 /// small parts the model is far from what is planned.
 const BEYOND: f64 = 1.5;
 
-/// A candidate that by the model takes this many times as long as the best one is not planned.
-const BEHIND: f64 = 1.15;
+/// One beside the best that by the model takes this many times as long as that is not planned.
+const BEHIND: f64 = 1.3;
 
-/// Most finalists of operations of up to so many cuts.
-const FINALISTS: [(usize, usize); 2] = [(2_000, 3), (MOST_CUTS_COMPARED, 2)];
-
-/// Parameters that are to be compared along the routes that they would be cut by.
-pub(super) struct Finalist {
-    pub(super) parameters: VcutParameters,
-    pub(super) found: FoundBy,
-}
+/// Lattices are given up after so many plans of the spread, if the best of them takes this many times as long as the best plan on another lattice.
+const GIVEN_UP: (usize, f64) = (8, 1.5);
 
 /// How parameters were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,31 +66,28 @@ impl FoundBy {
 
 /// What the search came to.
 pub(super) struct Found {
-    /// The best ones; at least one.
-    pub(super) finalists: Vec<Finalist>,
-    /// What came of the formulas' parameters, where they are no finalist.
+    /// The best.
+    pub(super) parameters: VcutParameters,
+    pub(super) by: FoundBy,
+    /// What came of the formulas' parameters, where others are better.
     pub(super) by_formulas: Option<Standing>,
 }
 
 impl Found {
     /// Whether the formulas' choice stands, with more cuts by the model than are compared.
     pub(super) fn is_large(&self, job: &PlanningJob<'_>, asked: &RoughVcut) -> bool {
-        match &self.finalists[..] {
-            [only] if only.found == FoundBy::Formulas => {
-                let found = &only.parameters;
-                let model = found.time_model(job, asked);
-                model.cuts(found.layer, found.step) > MOST_CUTS_COMPARED as f64
-            }
-            _ => false,
-        }
+        let found = &self.parameters;
+        let model = found.time_model(job, asked);
+        self.by == FoundBy::Formulas && model.cuts(found.layer, found.step) > MOST_CUTS_COMPARED as f64
     }
 }
 
-/// The best parameters on one of these lattices.
+/// The best parameters on one of these lattices. `rival` is the time of the best plan on others, which it is to beat.
 pub(super) fn parameters(
     bench: &Bench<'_>,
     asked: &RoughVcut,
     lattices: &[Lattice],
+    rival: Option<Duration>,
     cuts_left: usize,
 ) -> Result<Found, Unplanned> {
     let by_bound = match parameters::resolve_on(&bench.job, &of_model(asked), lattices.to_vec()) {
@@ -108,26 +97,17 @@ pub(super) fn parameters(
         Err(refusal) => return Err(refusal.into()),
     };
     let mut trials = Trials::new(bench, asked, lattices, cuts_left);
-    let first = trials.search(by_bound.as_ref().ok());
-    let mut finalists = trials.finalists(by_bound.as_ref().ok());
-    if finalists.is_empty() {
-        return by_bound.map(plain).map_err(Unplanned::from);
+    trials.rival = rival;
+    let by_formulas = trials.search(by_bound.as_ref().ok());
+    match (trials.best(), by_bound) {
+        (None, by_bound) => by_bound.map(plain).map_err(Unplanned::from),
+        (Some(best), Ok(bound)) if alike(&bound, &best) => Ok(plain(bound)),
+        (Some(parameters), Ok(_) | Err(_)) => Ok(Found {
+            parameters,
+            by: FoundBy::Simulation,
+            by_formulas,
+        }),
     }
-    trials.anew();
-    let is_new = |one: &Finalist| {
-        let known = finalists.iter();
-        !known
-            .into_iter()
-            .any(|known| alike(&known.parameters, &one.parameters))
-    };
-    let found_anew = trials.finalists(by_bound.as_ref().ok());
-    let found_anew: Vec<Finalist> = found_anew.into_iter().filter(is_new).collect();
-    finalists.extend(found_anew);
-    let is_in = finalists.iter().any(|one| one.found == FoundBy::Formulas);
-    Ok(Found {
-        finalists,
-        by_formulas: first.filter(|_| !is_in),
-    })
 }
 
 /// Whether simulation may find something where the formulas find nothing.
@@ -170,30 +150,36 @@ pub(super) fn any(
     (found, trials.effort)
 }
 
-/// Parameters and the best that come of changing them, for as long as they become better by the objective.
+/// The best that come of changing parameters, for as long as they become better by the objective.
 pub(super) fn from(
     bench: &Bench<'_>,
     asked: &RoughVcut,
     start: &VcutParameters,
     cuts_left: usize,
     turned_down: Vec<TurnedDown>,
-) -> Vec<Finalist> {
+) -> Option<VcutParameters> {
     let lattices = [start.lattice];
     let mut trials = Trials::new(bench, asked, &lattices, cuts_left);
     trials.turned_down = turned_down;
     trials.weigh(start.clone());
     trials.wander();
     trials.comb();
-    trials.finalists(None)
+    trials.best()
+}
+
+/// How much goes with an operation of so many cuts.
+fn by_cuts(table: &[(usize, usize)], cuts: usize) -> usize {
+    table
+        .iter()
+        .find(|(below, _)| cuts < *below)
+        .map_or(1, |&(_, most)| most)
 }
 
 /// What the formulas say.
-fn plain(parameters: VcutParameters) -> Found {
+const fn plain(parameters: VcutParameters) -> Found {
     Found {
-        finalists: vec![Finalist {
-            parameters,
-            found: FoundBy::Formulas,
-        }],
+        parameters,
+        by: FoundBy::Formulas,
         by_formulas: None,
     }
 }
@@ -292,6 +278,12 @@ struct Trials<'t> {
     passed_over: Option<Duration>,
     goal: Goal,
     effort: Effort,
+    /// The time of the best plan on other lattices, where that is to be beaten.
+    rival: Option<Duration>,
+    /// How many plans were made before the spread, once that has begun.
+    spread_from: Option<usize>,
+    /// How many plans were made since the best one.
+    since_best: usize,
 }
 
 impl<'t> Trials<'t> {
@@ -311,6 +303,9 @@ impl<'t> Trials<'t> {
             passed_over: None,
             goal: Goal::Best,
             effort: Effort::UNBOUNDED,
+            rival: None,
+            spread_from: None,
+            since_best: 0,
         }
     }
 
@@ -326,42 +321,32 @@ impl<'t> Trials<'t> {
         first
     }
 
-    /// Whether nothing more is to be known, or nobody wants to know.
+    /// Whether nothing more is to be known, nothing better is to be expected, or nobody wants to know.
     fn is_answered(&self) -> bool {
         let is_found = match self.goal {
             Goal::Best => false,
             Goal::Any => !self.sound.is_empty(),
         };
-        is_found || self.effort.is_spent() || self.bench.wanted.is_needless()
+        is_found || self.is_far_behind() || self.effort.is_spent() || self.bench.wanted.is_needless()
     }
 
-    /// The best few, the best first, and the formulas' parameters if they are sound.
-    fn finalists(&self, by_bound: Option<&VcutParameters>) -> Vec<Finalist> {
-        let Some(best) = self.sound.first() else {
-            return Vec::new();
+    /// How many times as many plans as usual may be made.
+    const fn times(&self) -> usize {
+        self.bench.effort.times()
+    }
+
+    /// Whether the best plan so far is far behind that on other lattices.
+    fn is_far_behind(&self) -> bool {
+        let (plans, as_long) = GIVEN_UP;
+        let (Some(rival), Some(best), Some(from)) = (self.rival, self.sound.first(), self.spread_from) else {
+            return false;
         };
-        let most = FINALISTS.iter().find(|(below, _)| best.figures.cuts < *below);
-        let most = most.map_or(1, |&(_, count)| count);
-        let is_by_bound = |sound: &Sound| by_bound.is_some_and(|bound| alike(bound, &sound.parameters));
-        self.sound
-            .iter()
-            .enumerate()
-            .filter(|(rank, sound)| *rank < most || (most > 1 && is_by_bound(sound)))
-            .map(|(_, sound)| match by_bound {
-                Some(bound) if alike(bound, &sound.parameters) => Finalist {
-                    parameters: bound.clone(),
-                    found: FoundBy::Formulas,
-                },
-                Some(_) | None => Finalist {
-                    parameters: self.held_by_simulation(sound),
-                    found: FoundBy::Simulation,
-                },
-            })
-            .collect()
+        self.tried.len() >= from + plans * self.times() && best.figures.time > rival * as_long
     }
 
-    /// Parameters with what they came up against, and by what the limit on scallop was held against them.
-    fn held_by_simulation(&self, sound: &Sound) -> VcutParameters {
+    /// The best parameters, with what they came up against, and by what the limit on scallop was held against them.
+    fn best(&self) -> Option<VcutParameters> {
+        let sound = self.sound.first()?;
         let mut parameters = sound.parameters.clone().found_by_simulation(self.asked);
         parameters.binding = met::binding(self.asked, sound, &self.turned_down);
         let is_faster = self.passed_over.is_some_and(|model| model < sound.model);
@@ -370,7 +355,7 @@ impl<'t> Trials<'t> {
             parameters.binding.sort_unstable();
             parameters.binding.dedup();
         }
-        parameters
+        Some(parameters)
     }
 
     fn may_go_on(&self) -> bool {
@@ -447,34 +432,17 @@ impl<'t> Trials<'t> {
             Skipping::IfBetter | Skipping::Always => self.bench.thinned(&laid),
         };
         let weighed = |laid| self.bench.weigh(self.along_its_route(laid)).held_to(limit, &held);
-        let thinned = thinned.map(weighed);
-        let Contender {
-            standing, figures, ..
-        } = match thinned {
-            // Fewer Vs hardly ever take longer; what is chosen is compared again.
-            Some(thinned) if thinned.standing.time().is_some() && self.counts_vs() => thinned,
-            Some(thinned) => {
-                let all = weighed(laid);
-                if thinned.compare(&all) == Ordering::Less {
-                    thinned
-                } else {
-                    all
-                }
-            }
+        let outcome = match thinned {
+            Some(thinned) => redundant::better(self.asked, [thinned, laid], weighed),
             None => weighed(laid),
         };
+        let Contender {
+            standing, figures, ..
+        } = outcome;
         Outcome::Planned {
             standing,
             figures,
             laid_out: cuts,
-        }
-    }
-
-    /// Whether fewer Vs are better.
-    const fn counts_vs(&self) -> bool {
-        match self.asked.objective.value {
-            Objective::Time | Objective::Cuts => true,
-            Objective::Scallop | Objective::BladeLoad => false,
         }
     }
 
@@ -485,9 +453,7 @@ impl<'t> Trials<'t> {
             return;
         }
         let is_new = |found: &&VcutParameters| {
-            !self.is_behind(self.model(found))
-                && !self.tried.iter().any(|tried| alike(&tried.parameters, found))
-                && self.may_be_sound(found)
+            !self.tried.iter().any(|tried| alike(&tried.parameters, found)) && self.may_be_sound(found)
         };
         let worth: Vec<&VcutParameters> = next.into_iter().filter(is_new).collect();
         let planned = worth
@@ -520,7 +486,8 @@ impl<'t> Trials<'t> {
                 route::best(self.bench, laid)
             }
             (Goal::Best, Objective::Time, Some(_)) | (Goal::Best | Goal::Any, _, None) => {
-                route::usual(self.bench, laid)
+                let order = self.faster_order(&laid.vcut);
+                route::usual(self.bench, laid, order)
             }
         }
     }
@@ -548,16 +515,19 @@ impl<'t> Trials<'t> {
     fn keep(&mut self, sound: Sound) {
         let merit = |sound: &Sound| sound.figures.merit(self.asked.objective.value);
         let rank = self.sound.partition_point(|other| merit(other) <= merit(&sound));
+        if rank == 0 {
+            self.since_best = 0;
+        }
         self.sound.insert(rank, sound);
     }
 
     /// Counts a plan as one of an operation of so many cuts, of which so many were laid out.
     fn spend(&mut self, cuts: usize, laid_out: usize) {
         self.effort.spend(laid_out);
-        let left = self.plans_left.unwrap_or_else(|| {
-            let fitting = self.most_plans.iter().find(|(below, _)| cuts < *below);
-            fitting.map_or(1, |&(_, plans)| plans)
-        });
+        self.since_best += 1;
+        let left = self
+            .plans_left
+            .unwrap_or_else(|| by_cuts(self.most_plans, cuts) * self.times());
         self.plans_left = Some(left.saturating_sub(1));
     }
 
@@ -627,10 +597,13 @@ impl<'t> Trials<'t> {
 
     /// Whether a plan must leave too much.
     fn must_leave_too_much(&self, found: &VcutParameters) -> bool {
+        self.is_bound_to_columns() && self.asked.limits.scallop.is_some() && self.least_left(found).is_none()
+    }
+
+    /// Whether no plan reaches below the lowest tips of regular Vs in their columns, as narrower flanks and moved tips do.
+    fn is_bound_to_columns(&self) -> bool {
         let moves_tips = self.asked.residual.value == Auto::Given(Residual::Shift);
-        // Narrower flanks reach below the floor of regular ones.
-        let is_bound = self.asked.avoid.value == Avoid::Lift && !moves_tips;
-        is_bound && self.asked.limits.scallop.is_some() && self.least_left(found).is_none()
+        self.asked.avoid.value == Avoid::Lift && !moves_tips
     }
 }
 

@@ -1,6 +1,6 @@
 //! Parameters around the best ones: changed by factors, the coarse ones first, for as long as something better comes of it.
 
-use super::{AHEAD, MOST_OVERLAP, Trials, thousandths};
+use super::{AHEAD, MOST_OVERLAP, Trials, alike, thousandths};
 use crate::choice::MOST_CUTS_COMPARED;
 use crate::plan::parameters::{Swung, VcutParameters};
 use vcutc_backend_api::units::{Angle, Length};
@@ -28,6 +28,9 @@ pub(super) const MOVES: [Move; 11] = [
 /// A change of swing, layer and overlap: up, down or not at all.
 pub(super) type Move = [i32; 3];
 
+/// How many of the best ones are changed.
+const STARTS: usize = 4;
+
 /// How many larger layers than the best one are tried closely, and by which factor they are apart.
 const TEETH: i32 = 10;
 const APART: f64 = 1.02;
@@ -36,31 +39,45 @@ const APART: f64 = 1.02;
 const TEETH_PLANNED: [(usize, usize); 3] = [(500, 10), (2_000, 5), (MOST_CUTS_COMPARED, 1)];
 
 impl Trials<'_> {
-    /// From the best on, changes swing and layer for as long as something better comes of it.
+    /// From the best ones on, changes swing, layer and overlap for as long as something better comes of it.
     pub(super) fn wander(&mut self) {
+        let starts: Vec<VcutParameters> = self
+            .sound
+            .iter()
+            .take(STARTS * self.times())
+            .map(|sound| sound.parameters.clone())
+            .collect();
+        for start in starts {
+            self.wander_from(start);
+        }
+    }
+
+    fn wander_from(&mut self, mut from: VcutParameters) {
         for factor in FACTORS {
             while self.may_go_on() {
-                let Some(best) = self.sound.first() else { return };
-                let objective = self.asked.objective.value;
-                let (from, merit) = (best.parameters.clone(), best.figures.merit(objective));
-                let is_better = MOVES.chunks(AHEAD).any(|moves| {
+                let Some(merit) = self.merit_of(&from) else { return };
+                let better = MOVES.chunks(AHEAD).find_map(|moves| {
                     let found: Vec<VcutParameters> = moves
                         .iter()
                         .filter_map(|&moved| self.beside(&from, factor, moved))
+                        .filter(|found| !self.is_behind(self.model(found)))
                         .collect();
                     self.plan_ahead(&found);
-                    found.into_iter().any(|found| {
-                        self.weigh_if_promising(found);
-                        self.sound
-                            .first()
-                            .is_some_and(|best| best.figures.merit(objective) < merit)
+                    found.into_iter().find(|found| {
+                        self.weigh(found.clone());
+                        self.merit_of(found).is_some_and(|other| other < merit)
                     })
                 });
-                if !is_better {
-                    break;
-                }
+                let Some(better) = better else { break };
+                from = better;
             }
         }
+    }
+
+    /// What the objective comes to for parameters whose plan is sound.
+    fn merit_of(&self, found: &VcutParameters) -> Option<f64> {
+        let sound = self.sound.iter().find(|sound| alike(&sound.parameters, found))?;
+        Some(sound.figures.merit(self.asked.objective.value))
     }
 
     /// Goes over layers a little larger than the best one. Right at a wall, which of them are sound changes with every tip that

@@ -8,19 +8,23 @@
 //! and of each swing the widest steps that do not are found, before anything is planned.
 
 use super::around::{FACTORS, MOVES};
-use super::{AHEAD, MOST_OVERLAP, Trials, thousandths};
+use super::forecast::Forecast;
+use super::{AHEAD, Goal, MOST_OVERLAP, Trials, alike, thousandths};
 use crate::asked::Lattice;
 use crate::choice::MOST_CUTS_COMPARED;
 use crate::plan::decision::Standing;
 use crate::plan::parameters::{Swung, VcutParameters};
 use crate::plan::residual::least_gain;
 use core::cmp::Ordering;
-use vcutc_backend_api::units::{Angle, Duration, Length};
+use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::grid;
 use vcutc_job::Auto;
 
 /// Most plans of the spread, by the number of cuts of the first one: below the first number the second.
 const PLANS: [(usize, usize); 3] = [(500, 72), (2_000, 36), (MOST_CUTS_COMPARED, 12)];
+
+/// After more plans than this since the best one, others are not planned.
+const PATIENCE: usize = 16;
 
 /// Most plans in turns where nothing of the spread is sound, in the same way.
 const IN_TURNS: [(usize, usize); 3] = [(500, 72), (2_000, 24), (MOST_CUTS_COMPARED, 6)];
@@ -82,34 +86,28 @@ enum Outlook {
     Open,
 }
 
-/// Parameters of the spread.
-pub(super) struct Spot {
-    pub(super) parameters: VcutParameters,
-    model: Duration,
-}
-
 impl Trials<'_> {
-    /// Goes over the spread as far as it may be better than what is known, and on until something is sound.
+    /// Goes over the spread until no better one has come for a while, and on until something is sound.
     pub(super) fn spread(&mut self) {
         (self.plans_left, self.most_plans) = (None, &PLANS);
-        let spots = self.spots();
-        // What is likely to be sound first, until something is: what is faster is then known to be worth a plan or not.
-        for Spot { parameters, .. } in &spots {
+        self.spread_from = Some(self.tried.len());
+        let forecasts = self.forecasts();
+        // What is likely to be sound first, until something is.
+        for one in &forecasts {
             if !self.sound.is_empty() {
                 break;
             }
-            if self.outlook(parameters) == Outlook::Good {
-                self.weigh_if_promising(parameters.clone());
+            if self.outlook(&one.parameters) == Outlook::Good {
+                self.weigh_if_promising(one.parameters.clone());
             }
         }
-        for next in spots.chunks(AHEAD) {
-            self.plan_ahead(next.iter().map(|spot| &spot.parameters));
-            for spot in next {
-                self.weigh_if_promising(spot.parameters.clone());
-            }
+        self.in_order(&forecasts, Self::is_likely_sound);
+        // Where that filter knows too little.
+        if self.sound.is_empty() || !self.is_bound_to_columns() {
+            self.in_order(&forecasts, Self::may_be_sound_anyhow);
         }
         if self.sound.is_empty() {
-            self.in_turns(&spots);
+            self.in_turns(&forecasts);
         }
         while self.sound.is_empty() && self.may_go_on() {
             if !self.has_better_neighbour() {
@@ -119,12 +117,55 @@ impl Trials<'_> {
         (self.plans_left, self.most_plans) = (None, &super::PLANS);
     }
 
-    /// Swing after swing, the narrowest first, one plan of each and then the next of each, until something is sound: the fastest by
-    /// the model all have wide swings, and beside a wall none of those may do.
-    fn in_turns(&mut self, spots: &[Spot]) {
+    /// One after the other, until no better one has come for a while.
+    fn in_order(&mut self, forecasts: &[Forecast], is_likely: fn(&Self, &Forecast) -> bool) {
+        self.since_best = 0;
+        let mut next = forecasts.iter().peekable();
+        while next.peek().is_some() && self.may_go_on() {
+            if !self.sound.is_empty() && self.since_best > PATIENCE * self.times() {
+                return;
+            }
+            let mut worth: Vec<&Forecast> = Vec::new();
+            while worth.len() < AHEAD
+                && let Some(one) = next.next()
+            {
+                let is_twice = worth
+                    .iter()
+                    .any(|other| alike(&other.parameters, &one.parameters));
+                if !is_twice && self.is_worth_a_plan(one) && is_likely(self, one) {
+                    worth.push(one);
+                }
+            }
+            self.plan_ahead(worth.iter().map(|one| &one.parameters));
+            for one in worth {
+                self.weigh(one.parameters.clone());
+            }
+        }
+    }
+
+    fn is_worth_a_plan(&self, one: &Forecast) -> bool {
+        let is_promising = match self.goal {
+            Goal::Best => true,
+            Goal::Any => !self.is_behind(self.model(&one.parameters)),
+        };
+        let is_known = self
+            .tried
+            .iter()
+            .any(|tried| alike(&tried.parameters, &one.parameters));
+        is_promising && !is_known
+    }
+
+    /// Whether more may be sound than what leaves little by its columns.
+    fn may_be_sound_anyhow(&self, one: &Forecast) -> bool {
+        !self.is_bound_to_columns() || self.leaves_little(one)
+    }
+
+    /// Swing after swing, the narrowest first, one plan of each and then the next of each, until something is sound: those
+    /// that are forecast to be best all have wide swings, and beside a wall none of those may do.
+    fn in_turns(&mut self, forecasts: &[Forecast]) {
         (self.plans_left, self.most_plans) = (None, &IN_TURNS);
         let mut by_swing: Vec<(Angle, Vec<&VcutParameters>)> = Vec::new();
-        for Spot { parameters, .. } in spots {
+        for Forecast { parameters, .. } in forecasts {
             match by_swing.iter_mut().find(|(swing, _)| *swing == parameters.swing) {
                 Some((_, of_swing)) => of_swing.push(parameters),
                 None => by_swing.push((parameters.swing, vec![parameters])),
@@ -144,8 +185,8 @@ impl Trials<'_> {
         }
     }
 
-    /// All parameters of the spread, the fastest by the model first.
-    pub(super) fn spots(&self) -> Vec<Spot> {
+    /// All parameters of the spread.
+    pub(super) fn spots(&self) -> Vec<VcutParameters> {
         let mut spots = Vec::new();
         for &lattice in self.lattices {
             for swing in self.swings() {
@@ -163,7 +204,6 @@ impl Trials<'_> {
                 }
             }
         }
-        spots.sort_by(|one, other| one.model.total_cmp(&other.model));
         spots
     }
 
@@ -227,7 +267,7 @@ impl Trials<'_> {
     }
 
     /// The largest layer that the blade reaches, and smaller ones, each with its widest step.
-    fn spots_by_reach(&self, swung: &Swung<'_>, spots: &mut Vec<Spot>) {
+    fn spots_by_reach(&self, swung: &Swung<'_>, spots: &mut Vec<VcutParameters>) {
         let layers: Vec<Length> = match self.asked.layer.value {
             Auto::Given(layer) => vec![layer],
             Auto::Auto => shares(swung.largest_layer()),
@@ -240,7 +280,7 @@ impl Trials<'_> {
     }
 
     /// The largest layers at some overlaps, and smaller ones.
-    fn spots_by_overlap(&self, swung: &Swung<'_>, spots: &mut Vec<Spot>) {
+    fn spots_by_overlap(&self, swung: &Swung<'_>, spots: &mut Vec<VcutParameters>) {
         let overlaps: Vec<f64> = match self.asked.overlap.value {
             Auto::Given(overlap) => vec![overlap],
             Auto::Auto if self.has_open_overlap() => OVERLAPS.to_vec(),
@@ -265,7 +305,7 @@ impl Trials<'_> {
     }
 
     /// The widest steps that can leave no more than the limit, and their layers.
-    fn spots_by_step(&self, swung: &Swung<'_>, spots: &mut Vec<Spot>) {
+    fn spots_by_step(&self, swung: &Swung<'_>, spots: &mut Vec<VcutParameters>) {
         if !self.has_open_overlap() {
             return;
         }
@@ -275,7 +315,7 @@ impl Trials<'_> {
     }
 
     /// The largest layer at a step, on the grid, and smaller ones.
-    pub(super) fn spots_of_step(&self, swung: &Swung<'_>, step: Length, spots: &mut Vec<Spot>) {
+    pub(super) fn spots_of_step(&self, swung: &Swung<'_>, step: Length, spots: &mut Vec<VcutParameters>) {
         if !self.has_open_overlap() {
             return;
         }
@@ -347,13 +387,8 @@ impl Trials<'_> {
     }
 
     /// Adds parameters that keep what the job asks of them.
-    fn add(&self, found: Option<VcutParameters>, spots: &mut Vec<Spot>) {
-        if let Some(parameters) = found.filter(|found| self.is_within(found)) {
-            spots.push(Spot {
-                model: self.model(&parameters),
-                parameters,
-            });
-        }
+    fn add(&self, found: Option<VcutParameters>, spots: &mut Vec<VcutParameters>) {
+        spots.extend(found.filter(|found| self.is_within(found)));
     }
 
     fn outlook(&self, found: &VcutParameters) -> Outlook {

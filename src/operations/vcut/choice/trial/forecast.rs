@@ -1,25 +1,25 @@
-//! The spread once more, ranked by what its cuts would come to.
+//! What is forecast of the parameters of the spread, so that the best come first.
 //!
 //! The mean-value model reckons with the mean depth and with a turn of the blade at every V. Thick layers of close columns, cut
 //! layer by layer, it sees as slow, and the plans that may be made are then spent on others. Counting the visits of every
-//! column costs next to nothing, and tells such lattices apart. What comes of it is compared with what was found before, so
-//! nothing is lost by it.
+//! column costs next to nothing, and tells such lattices apart. Where redundant Vs are skipped, the distance of the tips counts
+//! besides ([`SHARE`]).
 
-use super::spread::Spot;
-use super::{AHEAD, Trials, alike};
-use crate::asked::{Lattice, Objective};
-use crate::choice::MOST_CUTS_COMPARED;
+use super::Trials;
+use crate::PlannedVcut;
+use crate::asked::{Lattice, Objective, Residual};
+use crate::choice::redundant::Skipping;
 use crate::plan::lattice::{Column, Layout, Parity, Row};
 use crate::plan::parameters::{Swung, VcutParameters};
 use crate::plan::residual::least_gain;
-use vcutc_backend_api::units::Angle;
+use vcutc_backend_api::units::{Angle, Duration};
 use vcutc_geometry::cone;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::{Auto, Order};
 
-/// Most plans, by the number of cuts of the best one, as [`PLANS`](super::PLANS); and most lattices that are looked at for them.
-const PLANS: [(usize, usize); 3] = [(500, 48), (2_000, 16), (MOST_CUTS_COMPARED, 2)];
-const LOOKED_AT: [(usize, usize); 3] = [(500, 1_500), (2_000, 200), (MOST_CUTS_COMPARED, 10)];
+/// How much what is cut with all its Vs counts for what is cut without the redundant ones; the rest counts how far the tips are
+/// apart.
+const SHARE: f64 = 0.4;
 
 /// Steps, as shares of the one that leaves as much as may stay on a level part.
 const STEPS: [f64; 6] = [1.0, 0.88, 0.77, 0.68, 0.56, 0.45];
@@ -55,10 +55,11 @@ impl Ends {
     }
 }
 
-/// Parameters, and what the objective comes to by the count of their cuts.
-struct Reckoned {
-    parameters: VcutParameters,
+/// Parameters with what is forecast of them.
+pub(super) struct Forecast {
+    pub(super) parameters: VcutParameters,
     ends: Ends,
+    /// The smaller, the better.
     merit: f64,
 }
 
@@ -68,55 +69,9 @@ struct Visits {
     depth: f64,
 }
 
-/// How much goes with so many cuts.
-fn by_cuts(table: &[(usize, usize)], cuts: usize) -> usize {
-    table
-        .iter()
-        .find(|(below, _)| cuts < *below)
-        .map_or(1, |&(_, most)| most)
-}
-
 impl Trials<'_> {
-    /// Plans what by the count of its cuts is better than the best one and leaves little enough, the best first, and goes on from
-    /// there as before.
-    pub(super) fn anew(&mut self) {
-        let Some(best) = self.sound.first() else { return };
-        if self.asked.limits.scallop.is_none() {
-            return;
-        }
-        let looked_at = by_cuts(&LOOKED_AT, best.figures.cuts);
-        (self.plans_left, self.most_plans) = (None, &PLANS);
-        let before = self.best_merit();
-        let mut reckoned = self.reckoned();
-        reckoned.sort_by(|one, other| one.merit.total_cmp(&other.merit));
-        reckoned.retain(|one| {
-            !self
-                .tried
-                .iter()
-                .any(|tried| alike(&tried.parameters, &one.parameters))
-        });
-        let mut next = reckoned.into_iter().take(looked_at).peekable();
-        while next.peek().is_some() && self.may_go_on() {
-            let mut worth: Vec<Reckoned> = Vec::new();
-            while worth.len() < AHEAD
-                && let Some(one) = next.next()
-            {
-                worth.extend(Some(one).filter(|one| self.is_promised(one.merit) && self.leaves_little(one)));
-            }
-            self.plan_ahead(worth.iter().map(|one| &one.parameters));
-            for one in worth {
-                self.weigh(one.parameters);
-            }
-        }
-        if self.best_merit() < before {
-            (self.plans_left, self.most_plans) = (None, &super::PLANS);
-            self.wander();
-            self.comb();
-        }
-    }
-
-    /// Whether what is reckoned with leaves no more than it may.
-    fn leaves_little(&self, one: &Reckoned) -> bool {
+    /// Whether a lattice leaves no more than it may, by its last tips.
+    pub(super) fn leaves_little(&self, one: &Forecast) -> bool {
         let Some(limit) = self.asked.limits.scallop else {
             return true;
         };
@@ -132,52 +87,54 @@ impl Trials<'_> {
             .is_some()
     }
 
-    fn best_merit(&self) -> f64 {
-        let best = self.sound.first();
-        best.map_or(f64::INFINITY, |best| {
-            best.figures.merit(self.asked.objective.value)
-        })
+    /// Whether it does so with last tips where the residual strategy may put them: `discard` puts none onto the part.
+    pub(super) fn is_likely_sound(&self, one: &Forecast) -> bool {
+        let discards = self.asked.residual.value == Auto::Given(Residual::Discard);
+        (one.ends == Ends::None || !discards) && self.leaves_little(one)
     }
 
-    /// Whether what is reckoned is better than the best one reckoned in the same way.
-    fn is_promised(&self, reckoned: f64) -> bool {
-        self.sound.first().is_none_or(|best| {
-            let found = &best.parameters;
-            let clearance = self.clearance(found);
-            let layout = Layout::new(self.bench.job.stock, found.lattice, found, &clearance);
-            reckoned < self.merit(found, &layout, best.figures.cuts as f64)
-        })
-    }
-
-    /// Parameters that are reckoned to be better than the best.
-    fn reckoned(&self) -> Vec<Reckoned> {
+    /// All parameters of the spread, those first of which the best is forecast.
+    pub(super) fn forecasts(&self) -> Vec<Forecast> {
         let mut spots = self.spots();
         spots.extend(self.closer_spots());
-        let mut found: Vec<Reckoned> = Vec::new();
+        let mut found: Vec<Forecast> = Vec::new();
         let mut clearance: Option<(Angle, Profile)> = None;
-        spots.sort_by(|one, other| one.parameters.swing.total_cmp(&other.parameters.swing));
-        for Spot { parameters, .. } in spots {
+        spots.sort_by(|one, other| one.swing.total_cmp(&other.swing));
+        for parameters in spots {
             let is_same = |(swing, _): &(Angle, Profile)| *swing == parameters.swing;
             if !clearance.as_ref().is_some_and(is_same) {
                 clearance = Some((parameters.swing, self.clearance(&parameters)));
             }
             let Some((_, of_swing)) = &clearance else { continue };
             for &ends in Ends::of(parameters.lattice) {
-                let merit = self.reckon(&parameters, of_swing, ends);
-                let parameters = parameters.clone();
-                found.push(Reckoned {
-                    parameters,
+                let with_all = self.reckon(&parameters, of_swing, ends);
+                found.push(Forecast {
+                    merit: self.forecast(&parameters, with_all),
+                    parameters: parameters.clone(),
                     ends,
-                    merit,
                 });
             }
         }
+        found.sort_by(|one, other| one.merit.total_cmp(&other.merit));
         found
+    }
+
+    /// What is forecast, from what the objective comes to with all Vs. Without the redundant ones as many remain as the scallop
+    /// needs, on the part, and as the blade's reach needs above it: close steps and thick layers lose most.
+    fn forecast(&self, found: &VcutParameters, with_all: f64) -> f64 {
+        if Skipping::of(&self.bench.job, self.asked) == Skipping::Never {
+            return with_all;
+        }
+        let apart = match found.lattice {
+            Lattice::Interlaced => found.step / 2.0,
+            Lattice::Orthogonal | Lattice::Free => found.step,
+        };
+        libm::pow(with_all, SHARE) * libm::pow(apart.to_mm(), SHARE - 1.0)
     }
 
     /// Close columns in the thickest layers, and some thinner ones: on interlaced lattices each row alone may have to leave little
     /// enough, where it is visited once only.
-    fn closer_spots(&self) -> Vec<Spot> {
+    fn closer_spots(&self) -> Vec<VcutParameters> {
         let mut spots = Vec::new();
         let Some(limit) = self.asked.limits.scallop else {
             return spots;
@@ -272,14 +229,20 @@ impl Trials<'_> {
         }
     }
 
+    /// The order of the flanks by which an operation is reckoned to be faster.
+    pub(super) fn faster_order(&self, vcut: &PlannedVcut) -> Order {
+        let layers = vcut.cuts.last().map_or(0, |cut| cut.layer);
+        let [by_point, by_layer] = self.by_order(&vcut.parameters, vcut.cuts.len() as f64, f64::from(layers));
+        if by_layer < by_point {
+            Order::Layer
+        } else {
+            Order::Point
+        }
+    }
+
     /// The time of so many cuts along the better of the orders that are open.
     fn seconds(&self, found: &VcutParameters, cuts: f64, layers: f64) -> f64 {
-        let model = found.time_model(&self.bench.job, self.asked);
-        let turn = Angle::rad(2.0 * libm::acos(found.swing.cos() * model.rake.sin())) / model.reorient_rate;
-        let passes = (2.0 * model.depth + 4.0 * model.extension) / model.cut_feed;
-        let across = found.step / model.travel_feed;
-        let by_point = (passes + turn + turn.max(across)) * cuts;
-        let by_layer = (passes + across + across) * cuts + turn * (2.0 * layers);
+        let [by_point, by_layer] = self.by_order(found, cuts, layers);
         let order = match (self.asked.order.value, self.bench.latitude.order()) {
             (Auto::Given(order), _) => Some(order),
             (Auto::Auto, only) => only,
@@ -289,5 +252,16 @@ impl Trials<'_> {
             Some(Order::Layer) => by_layer.to_s(),
             None => by_point.min(by_layer).to_s(),
         }
+    }
+
+    /// The time of so many cuts by point and by layer.
+    fn by_order(&self, found: &VcutParameters, cuts: f64, layers: f64) -> [Duration; 2] {
+        let model = found.time_model(&self.bench.job, self.asked);
+        let turn = Angle::rad(2.0 * libm::acos(found.swing.cos() * model.rake.sin())) / model.reorient_rate;
+        let passes = (2.0 * model.depth + 4.0 * model.extension) / model.cut_feed;
+        let across = found.step / model.travel_feed;
+        let by_point = (passes + turn + turn.max(across)) * cuts;
+        let by_layer = (passes + across + across) * cuts + turn * (2.0 * layers);
+        [by_point, by_layer]
     }
 }
