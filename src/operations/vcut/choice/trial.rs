@@ -321,7 +321,7 @@ impl<'t> Trials<'t> {
         first
     }
 
-    /// Whether nothing more is to be known, nothing better is to be expected, or nobody wants to know.
+    /// Whether the search may end: its answer is found, nothing better is to be expected, or the answer is not wanted.
     fn is_answered(&self) -> bool {
         let is_found = match self.goal {
             Goal::Best => false,
@@ -335,7 +335,7 @@ impl<'t> Trials<'t> {
         self.bench.effort.times()
     }
 
-    /// Whether the best plan so far is far behind that on other lattices.
+    /// Whether the best plan so far takes far longer than the best one on other lattices.
     fn is_far_behind(&self) -> bool {
         let (plans, as_long) = GIVEN_UP;
         let (Some(rival), Some(best), Some(from)) = (self.rival, self.sound.first(), self.spread_from) else {
@@ -344,7 +344,7 @@ impl<'t> Trials<'t> {
         self.tried.len() >= from + plans * self.times() && best.figures.time > rival * as_long
     }
 
-    /// The best parameters, with what they came up against, and by what the limit on scallop was held against them.
+    /// The best parameters, with the bounds that keep them from being better.
     fn best(&self) -> Option<VcutParameters> {
         let sound = self.sound.first()?;
         let mut parameters = sound.parameters.clone().found_by_simulation(self.asked);

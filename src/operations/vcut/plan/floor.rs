@@ -115,7 +115,7 @@ impl Floor<'_> {
             .into_iter()
             .step_by(stride)
             .try_fold(Length::ZERO, |farthest, corner| {
-                // The nearest point is no farther than the one straight below, which is found faster.
+                // The point straight below is found faster, and the nearest one is no farther away.
                 let below = (corner.z - self.job.profile.height(corner.x)).abs();
                 if below <= farthest.to_mm() {
                     return Some(farthest);

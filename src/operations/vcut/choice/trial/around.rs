@@ -90,7 +90,11 @@ impl Trials<'_> {
             .filter_map(|tooth| self.beside(&from, libm::pow(APART, f64::from(tooth)), [0, 1, 0]))
             .collect();
         for next in teeth.chunks(AHEAD) {
-            self.plan_ahead(next);
+            let worth: Vec<&VcutParameters> = next
+                .iter()
+                .filter(|found| !self.is_behind(self.model(found)))
+                .collect();
+            self.plan_ahead(worth);
             for found in next {
                 self.weigh_if_promising(found.clone());
             }
