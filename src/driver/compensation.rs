@@ -5,6 +5,7 @@
 //! planned, and as it is written, where it must stay out of the part whatever of the forces pushes it.
 
 use super::dynamics;
+use super::reaching::CarriedOut;
 use super::refusal::{NotCarriedOut, NotTaken, Refused};
 use super::routes::{Ended, Made, along_its_routes};
 use super::{Run, Stage, compiled, internal, reaching, rules_broken};
@@ -80,7 +81,7 @@ fn compensated<'j>(
         return Ended::Refused(Refused::Unsound(Box::new(plan), Box::new(proven)));
     }
     match reaching::reach(job, proven.program, Changes::InTheAir, run, progress) {
-        Ok(program) => {
+        Ok(CarriedOut { program, .. }) => {
             let not_followed = made.compiled.not_followed;
             let mut compiled = compiled(job, program, &plan, proven.report, sources);
             compiled.not_followed = not_followed;
@@ -88,6 +89,7 @@ fn compensated<'j>(
                 plan: Box::new(plan),
                 warnings: made.warnings,
                 compiled: Box::new(compiled),
+                slowed: None,
             })
         }
         Err(_) if run.wanted.is_needless() => Ended::Cancelled,

@@ -373,6 +373,7 @@ fn plan_and_prove(
             plan,
             warnings,
             compiled,
+            ..
         }) => {
             let compile = |changed: &CheckedJob| {
                 let (plan, compiled) = compile_checked(changed, run.wanted)?;

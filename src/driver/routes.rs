@@ -1,11 +1,14 @@
 //! The stages from the plan on, along the routes that a job may take.
 //!
-//! The fastest routes ask the most of a machine: where it does not follow, fewer routes and narrower swings are planned
-//! ([`Fallback`]). Slower routes come first, since they leave the lattice as it is. But a narrower swing may let the machine follow
-//! the faster route, and cost less than the slower one: that is compiled too, and the faster is taken.
+//! The fastest routes and the widest swings ask the most of a machine. Where it does not follow, even with slower turns
+//! ([`reaching`]), plans are compared on the machine, and then fewer routes and narrower swings are planned ([`Fallback`]). Plans are
+//! compared on the machine also where slower turns cost time. Slower routes come before narrower swings, since they leave the
+//! lattice as it is. But a narrower swing may let the machine follow the faster route, and cost less than the slower one: that is
+//! compiled too, and the faster is taken.
 
+use super::reaching::{CarriedOut, Slowed};
 use super::refusal::{NotCarriedOut, Refused};
-use super::{Compiled, Run, Stage, axis_moves, compiled, internal, reaching, rules_broken};
+use super::{Compiled, Finished, Run, Stage, axis_moves, compiled, internal, reaching, rules_broken};
 use vcutc_backend_api::units::Duration;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
@@ -13,11 +16,15 @@ use vcutc_diagnostics::{Diagnostic, has_errors};
 use vcutc_job::operation::Aim;
 use vcutc_job::search::SearchSpace;
 use vcutc_job::{CheckedJob, PlannedJob};
-use vcutc_motion::solve::Changes;
+use vcutc_motion::ceiling;
+use vcutc_motion::solve::{Changes, Unreached};
 use vcutc_process::plan;
 use vcutc_process::verdict::{self, Proven};
 use vcutc_remedy::fallback::Fallback;
 use vcutc_remedy::farther_out;
+
+/// Slower turns make a program slow where they take this share of its time.
+const SLOW: f64 = 0.01;
 
 /// How far a job came.
 pub(super) enum Ended<'j> {
@@ -33,6 +40,8 @@ pub(super) struct Made {
     pub(super) plan: Box<PlannedJob>,
     pub(super) warnings: Vec<Diagnostic>,
     pub(super) compiled: Box<Compiled>,
+    /// None where the machine follows all turns at the rate that the job states.
+    pub(super) slowed: Option<Box<Slowed>>,
 }
 
 impl Made {
@@ -142,10 +151,11 @@ impl<'j> Search<'j, '_, '_> {
             return Ok(before.unwrap_or(this));
         }
         let is_usual = self.fallback.is_usual();
-        let swing = self.fallback.space().swing;
+        let before_it = self.fallback.space();
         let goes_on = self.fallback.narrow(&this.plan, &this.unreached);
         // What little is left depends on the swing: with another one the limit is chosen anew.
-        if self.fallback.space().swing != swing {
+        let space = self.fallback.space();
+        if (space.swing, space.machine) != (before_it.swing, before_it.machine) {
             self.settled = None;
         }
         let mut reported = match before {
@@ -165,6 +175,9 @@ impl<'j> Search<'j, '_, '_> {
         if operations.all(|operation| operation.aim() == Aim::Time) {
             // Limits that the compiler chose are kept: what leaves more on the part is not faster.
             let within = plan::settled(self.job, &best.plan).unwrap_or_else(|| self.job.clone());
+            if let Some(found) = self.on_machine(&best, &within) {
+                best = found;
+            }
             while let Some(space) = self.fallback.narrow_for_a_faster_route() {
                 match self.faster(best.time(), &within, space) {
                     Narrower::Faster(found) => {
@@ -181,6 +194,20 @@ impl<'j> Search<'j, '_, '_> {
         }
         best.compiled.not_followed = self.fallback.into_first();
         Ended::Compiled(best)
+    }
+
+    /// A faster plan of those that are compared on the machine, where slower turns make this one slow.
+    fn on_machine(&mut self, best: &Made, within: &CheckedJob) -> Option<Made> {
+        let slowed = best.slowed.as_ref()?;
+        let slower = best.compiled.program.reached()?.report.slower?;
+        if slower.longer < best.time() * SLOW {
+            return None;
+        }
+        let space = self.fallback.search_on_machine(&best.plan, &slowed.unreachable)?;
+        match self.faster(best.time(), within, space) {
+            Narrower::Faster(found) => Some(found),
+            Narrower::Slower | Narrower::NotFollowed => None,
+        }
     }
 
     fn faster(&mut self, than: Duration, within: &CheckedJob, space: SearchSpace) -> Narrower {
@@ -222,6 +249,13 @@ impl<'j> Search<'j, '_, '_> {
         })
     }
 
+    /// Whether a plan keeps its limits on time with slower turns too.
+    fn keeps_limits(&self, plan: &PlannedJob, program: &Finished, slowed: &Slowed) -> bool {
+        let program = program.verified().program();
+        let longer = |operation| ceiling::longer_in(&slowed.stated, program, operation);
+        verdict::limits_broken_by(self.job, plan, longer).is_empty()
+    }
+
     /// Puts a plan to the machine.
     fn carried_out(&mut self, sound: Sound, changes: Changes) -> Result<Made, Box<NotCarriedOut>> {
         let Sound {
@@ -230,7 +264,16 @@ impl<'j> Search<'j, '_, '_> {
             mut warnings,
         } = sound;
         match reaching::reach(self.job, proven.program, changes, self.run, self.progress) {
-            Ok(program) => {
+            Ok(CarriedOut {
+                program,
+                slowed: Some(slowed),
+            }) if !self.keeps_limits(&plan, &program, &slowed) => Err(Box::new(NotCarriedOut {
+                plan,
+                told: warnings,
+                unreached: Unreached::Unreachable(Box::new(slowed.unreachable)),
+                cut_short: None,
+            })),
+            Ok(CarriedOut { program, slowed }) => {
                 let reached = program.reached();
                 warnings.extend(reached.and_then(|reached| axis_moves::many(self.job, reached)));
                 let compiled = compiled(self.job, program, &plan, proven.report, self.sources);
@@ -238,6 +281,7 @@ impl<'j> Search<'j, '_, '_> {
                     plan: Box::new(plan),
                     warnings,
                     compiled: Box::new(compiled),
+                    slowed,
                 })
             }
             Err(unreached) => Err(Box::new(NotCarriedOut {

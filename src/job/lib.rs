@@ -118,6 +118,17 @@ pub enum Order {
     Layer,
 }
 
+impl Order {
+    /// The one that this one is not.
+    #[must_use]
+    pub const fn other(self) -> Self {
+        match self {
+            Self::Point => Self::Layer,
+            Self::Layer => Self::Point,
+        }
+    }
+}
+
 /// Direction of the cuts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {

@@ -5,6 +5,7 @@
 //! axes follow it.
 
 pub mod axis_range;
+pub mod ceiling;
 pub mod critical;
 pub mod demand;
 pub mod describe;

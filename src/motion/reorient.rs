@@ -77,7 +77,7 @@ fn rounded_down(rate: AngularSpeed, share: f64) -> AngularSpeed {
 }
 
 /// The number of a rate, which is added to the table where it is not there yet. None where the table is full.
-fn known_or_new(rates: &mut Vec<AngularSpeed>, rate: AngularSpeed) -> Option<RateId> {
+pub(super) fn known_or_new(rates: &mut Vec<AngularSpeed>, rate: AngularSpeed) -> Option<RateId> {
     let place = rates
         .iter()
         .position(|known| *known == rate)

@@ -38,6 +38,7 @@ use vcutc_backend_api::ir::{Action, Axis, AxisValues, OpId, Program, ToolId};
 use vcutc_backend_api::motion::{Branch, Motion, MotionFault, MotionRule, ReachableProgram, Stretch};
 use vcutc_backend_api::segments::Path;
 use vcutc_backend_api::state::TipPose;
+use vcutc_backend_api::units::{AngularSpeed, Duration};
 use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
 use vcutc_cancellation::Wanted;
 use vcutc_machine::Model;
@@ -92,6 +93,23 @@ pub struct ReachReport {
     pub demand: Demand,
     /// The smallest margin (see [`super::demand`]).
     pub margin: f64,
+    /// What turns more slowly than the job allows; none where its axes follow all turns as they are stated.
+    pub slower: Option<SlowerTurns>,
+}
+
+/// How many motions turn the blade more slowly than the job allows, because axes are too slow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlowerTurns {
+    /// How many are slower.
+    pub slower: usize,
+    /// How many motions turn the blade.
+    pub turning: usize,
+    /// The lowest rate, and the first op that has it.
+    pub lowest: (AngularSpeed, OpId),
+    /// How much longer they take in all.
+    pub longer: Duration,
+    /// The axis, from 0, that was too slow for the rates of the job, and how fast it would have to move, in rad/s or mm/s.
+    pub too_slow: (usize, f64),
 }
 
 /// Why a program is not carried out.
@@ -556,6 +574,7 @@ fn solved(survey: &Survey<'_>, stations: &[Station], ways: &Ways<'_>, way: &[usi
             first,
             demand,
             margin,
+            slower: None,
         },
     }
 }

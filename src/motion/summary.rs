@@ -3,9 +3,9 @@
 use crate::axis_range::axis_margin;
 use crate::demand::Extreme;
 use crate::describe::{branch_words, kuka_status, site_words};
-use crate::solve::Reached;
+use crate::solve::{Reached, SlowerTurns};
 use serde::{Serialize, Serializer};
-use vcutc_backend_api::ir::{Axis, AxisKind, Maker, Program};
+use vcutc_backend_api::ir::{Axis, AxisKind, Maker, OpId, Program};
 use vcutc_backend_api::motion::{Branch, Stretch};
 use vcutc_diagnostics::number::show;
 
@@ -25,6 +25,9 @@ pub struct ReachFigures {
     pub axes: Vec<AxisFigure>,
     /// How near the arm comes to its singular poses; nothing for a machine without such poses.
     pub singular: Vec<SingularFigure>,
+    /// The turns that are slower than the job allows; none where the axes follow all of them as they are stated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slower: Option<SlowerFigure>,
     /// How many times the inverse kinematics was solved to prove it.
     pub solves: u64,
 }
@@ -109,6 +112,30 @@ pub struct SingularFigure {
     pub at: PlaceFigure,
 }
 
+/// How many motions turn the blade more slowly than the job allows, and why.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SlowerFigure {
+    /// How many do.
+    pub motions: usize,
+    /// How many motions turn the blade.
+    pub of: usize,
+    /// The lowest rate of turning, in deg/s.
+    #[serde(serialize_with = "rounded")]
+    pub lowest: f64,
+    /// The first motion that has it.
+    pub at: PlaceFigure,
+    /// The axis that was too slow.
+    pub axis: String,
+    /// `deg` or `mm`.
+    pub unit: &'static str,
+    /// How fast it would have to move, in units a second.
+    #[serde(serialize_with = "rounded")]
+    pub needed: f64,
+    /// Its highest rate by its maker.
+    #[serde(serialize_with = "rounded_if_known")]
+    pub limit: Option<f64>,
+}
+
 /// To a ten thousandth, of a degree, a millimetre or a share: what is less is noise of the arithmetic.
 fn rounded<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_f64(ten_thousandths(*value))
@@ -153,7 +180,7 @@ pub fn figures(reached: &Reached) -> ReachFigures {
                 _ => nearest.value,
             },
             share,
-            at: place(program, *nearest),
+            at: place(program, nearest.op),
         })
         .collect();
     let axis_shares = axes
@@ -180,9 +207,44 @@ pub fn figures(reached: &Reached) -> ReachFigures {
         changes: reached.report.changes.len(),
         margin: reached.report.margin,
         least,
+        slower: reached
+            .report
+            .slower
+            .and_then(|slower| slower_figure(program, &slower)),
         axes,
         singular,
         solves: demand.solves,
+    }
+}
+
+fn slower_figure(program: &Program, slower: &SlowerTurns) -> Option<SlowerFigure> {
+    let (index, needed) = slower.too_slow;
+    let axis = program.cell.as_ref()?.axes.get(index)?;
+    let (lowest, op) = slower.lowest;
+    Some(SlowerFigure {
+        motions: slower.slower,
+        of: slower.turning,
+        lowest: lowest.to_deg_per_s(),
+        at: place(program, op),
+        axis: axis.name.clone(),
+        unit: unit(axis.kind),
+        needed: shown(axis.kind, needed),
+        limit: axis.rate.map(|rate| shown(axis.kind, rate)),
+    })
+}
+
+const fn unit(kind: AxisKind) -> &'static str {
+    match kind {
+        AxisKind::Rotary => "deg",
+        AxisKind::Linear => "mm",
+    }
+}
+
+/// A value of an axis in its unit.
+fn shown(kind: AxisKind, value: f64) -> f64 {
+    match kind {
+        AxisKind::Rotary => value.to_degrees(),
+        AxisKind::Linear => value,
     }
 }
 
@@ -203,10 +265,7 @@ fn branches(stretches: &[Stretch], ops: usize, is_kuka: bool) -> Vec<BranchFigur
 }
 
 fn axis_figure(program: &Program, axis: &Axis, low: Extreme, high: Extreme, rate: Extreme) -> AxisFigure {
-    let shown = |value: f64| match axis.kind {
-        AxisKind::Rotary => value.to_degrees(),
-        AxisKind::Linear => value,
-    };
+    let shown = |value: f64| shown(axis.kind, value);
     let nearest = if low.value - axis.min < axis.max - high.value {
         low
     } else {
@@ -214,31 +273,25 @@ fn axis_figure(program: &Program, axis: &Axis, low: Extreme, high: Extreme, rate
     };
     AxisFigure {
         name: axis.name.clone(),
-        unit: match axis.kind {
-            AxisKind::Rotary => "deg",
-            AxisKind::Linear => "mm",
-        },
+        unit: unit(axis.kind),
         low: shown(low.value),
         high: shown(high.value),
         min: shown(axis.min),
         max: shown(axis.max),
         margin: axis_margin(axis, low.value, high.value),
-        margin_at: place(program, nearest),
+        margin_at: place(program, nearest.op),
         rate: shown(rate.value),
         rate_limit: axis.rate.map(shown),
-        rate_at: place(program, rate),
+        rate_at: place(program, rate.op),
     }
 }
 
-fn place(program: &Program, extreme: Extreme) -> PlaceFigure {
+fn place(program: &Program, op: OpId) -> PlaceFigure {
     let words = program
         .ops
-        .get(extreme.op.0 as usize)
+        .get(op.0 as usize)
         .map_or_else(String::new, |op| site_words(program, op.site));
-    PlaceFigure {
-        op: extreme.op.0,
-        words,
-    }
+    PlaceFigure { op: op.0, words }
 }
 
 impl AxisFigure {
@@ -270,7 +323,35 @@ pub fn lines(figures: &ReachFigures) -> Vec<(&'static str, String)> {
         ("singular", text)
     }));
     lines.extend(rates_line(figures).map(|line| ("rates", line)));
+    lines.extend(
+        figures
+            .slower
+            .as_ref()
+            .map(|slower| ("turns", turns_line(slower))),
+    );
     lines
+}
+
+/// `2 of 90 motions that turn the blade are slower than `reorient`, the slowest at 66 deg/s at layer 1, cut 2; ...`.
+fn turns_line(slower: &SlowerFigure) -> String {
+    let SlowerFigure {
+        motions,
+        of,
+        lowest,
+        at,
+        axis,
+        unit,
+        needed,
+        limit,
+    } = slower;
+    let verb = if *motions == 1 { "is" } else { "are" };
+    let limit = limit.map_or_else(String::new, |limit| format!(" of {limit:.1} {unit}/s"));
+    format!(
+        "{motions} of {of} motions that turn the blade {verb} slower than `reorient`, the slowest at {} deg/s at {}; without, {axis} would \
+         need up to {needed:.1} {unit}/s{limit}",
+        show(*lowest),
+        at.words,
+    )
 }
 
 fn reach_line(figures: &ReachFigures) -> String {
@@ -424,6 +505,7 @@ mod tests {
             },
             axes: vec![axis("A1", Some(100.0)), axis("A2", None), axis("A3", Some(60.0))],
             singular: Vec::new(),
+            slower: None,
             solves: 7,
         };
         assert_eq!(

@@ -475,9 +475,23 @@ pub fn much_stays(
 /// The limits on time and cuts that a plan breaks, which was made without them, with what the plan keeps.
 #[must_use]
 pub fn broken_limits(job: &CheckedJob, plan: &PlannedJob) -> Vec<Diagnostic> {
+    limits_broken_by(job, plan, |_| Duration::ZERO)
+}
+
+/// The same of a plan whose operations take so much longer than by themselves.
+#[must_use]
+pub fn limits_broken_by(
+    job: &CheckedJob,
+    plan: &PlannedJob,
+    longer: impl Fn(OperationId) -> Duration,
+) -> Vec<Diagnostic> {
     let operations = job.operations.iter().zip(&plan.operations);
-    operations
-        .filter_map(|(asked, planned)| planned.broken_limits(&**asked, time_alone(job, &**planned)?))
+    (0..)
+        .map(OperationId)
+        .zip(operations)
+        .filter_map(|(operation, (asked, planned))| {
+            planned.broken_limits(&**asked, time_alone(job, &**planned)? + longer(operation))
+        })
         .collect()
 }
 

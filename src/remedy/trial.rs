@@ -7,7 +7,8 @@ use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_job::PlannedJob;
 use vcutc_job::{CheckedJob, Machine};
-use vcutc_motion::critical::motions::CriticalMotions;
+use vcutc_motion::ceiling::at_their_slowest;
+use vcutc_motion::critical::motions::{CriticalMotions, as_followed};
 use vcutc_motion::rig::Rig;
 use vcutc_motion::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve_while};
 use vcutc_process::lower;
@@ -16,14 +17,27 @@ use vcutc_process::verdict;
 /// Most extensions that are tried in turn for one change, as turns of a five-axis machine need them.
 const MOST_EXTENSIONS: usize = 3;
 
-/// Whether the machine of a plan follows its critical motions. What cannot be asked is promising.
+/// Whether the machine of a plan follows its critical motions, with the slowest turns that are allowed. What cannot be asked is
+/// promising.
 #[must_use]
 pub fn looks_promising(plan: &PlannedJob) -> bool {
     let program = verify(lower::lower(plan, &SourceMap::default()));
     match (&plan.machine, program) {
-        (Some(machine), Ok(program)) => follows(machine, program.program()),
+        (Some(machine), Ok(program)) => {
+            let program = program.program();
+            let slowest = at_their_slowest(program);
+            follows(machine, slowest.as_ref().unwrap_or(program))
+        }
         (None, _) | (_, Err(_)) => true,
     }
+}
+
+/// What a machine makes of a program, as far as its critical motions show.
+pub(crate) fn on_machine(machine: &Machine, program: &Program) -> Option<Program> {
+    if program.blades.len() > 1 {
+        return Some(program.clone());
+    }
+    as_followed(&Rig::of(machine), program)
 }
 
 /// For a program with several blades, which this look does not distinguish, only the proof answers.

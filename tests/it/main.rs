@@ -12,8 +12,9 @@ mod air;
 mod auto;
 mod backends_page;
 mod blade_changes;
-mod check;
 #[cfg(feature = "krl")]
+mod ceiling;
+mod check;
 mod checks;
 #[cfg(all(unix, feature = "cli", feature = "gcode", feature = "krl", feature = "rapid"))]
 mod chromium;

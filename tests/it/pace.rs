@@ -6,15 +6,16 @@ use vcutc::driver::{Compiled, Finished};
 use vcutc::simulation::timing::op_times;
 use vcutc_backend_api::units::Duration;
 
-/// The cut block on a KUKA whose sheet has these lines more: some below `[limits]`, some at its end. The swing is given, so that
-/// all sheets get one plan.
+/// The cut block on a KUKA whose sheet has these lines more: some below `[limits]`, some at its end. The swing is given, and turns are
+/// slow, so that all sheets get one plan.
 fn compiled(limits: &str, end: &str) -> Compiled {
     let sheet = read("src/machine/robots/kuka/kr210_r3100_ultra.toml");
     assert!(!sheet.contains("accelerations_deg_s2"));
     let sheet = sheet.replacen("speeds_deg_s", &format!("{limits}\nspeeds_deg_s"), 1) + end;
     let job = read("examples/block_cui.vcut").replace("kuka/kr210_r3100_ultra", "arm.toml");
     let job = job.replace("swing     = auto", "swing     = 40 deg");
-    assert!(job.contains("swing     = 40 deg"));
+    let job = job.replace("reorient = 90 deg/s", "reorient = 45 deg/s");
+    assert!(job.contains("swing     = 40 deg") && job.contains("reorient = 45 deg/s"));
     let files = Files::default().with("job.vcut", job).with("arm.toml", sheet);
     let outcome = compile("job.vcut", &files);
     outcome

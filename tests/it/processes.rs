@@ -369,7 +369,7 @@ const SLOW: Job = Job {
 
 #[test]
 fn the_faster_process_is_taken() {
-    for (depth, first) in [(300.0, "vcut"), (600.0, "rect")] {
+    for (depth, first) in [(300.0, "vcut"), (800.0, "rect")] {
         let outcome = Job {
             size: [60.0, depth, 70.0],
             ..SLOW
@@ -493,7 +493,7 @@ fn a_process_may_have_what_is_shared_otherwise() {
 #[test]
 fn optimising_reports_what_has_no_formulas_and_both_processes() {
     let text = Job {
-        size: [60.0, 600.0, 70.0],
+        size: [60.0, 800.0, 70.0],
         ..SLOW
     }
     .text();

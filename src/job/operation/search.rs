@@ -1,7 +1,8 @@
 //! Which part of what a job leaves open is searched: all of it, or less where the machine does not follow.
 
 use super::planned::PlannedJob;
-use crate::Order;
+use crate::{Machine, Order};
+use vcutc_backend_api::ir::Program;
 use vcutc_backend_api::units::Angle;
 
 /// How hard the best of what a job leaves open is searched for.
@@ -102,18 +103,45 @@ pub enum Lack {
     Clearance,
 }
 
+/// What a machine makes of a program, as far as a few of its motions show: the program with turns that the axes follow, or nothing
+/// where they do not follow it however slowly the blade turns.
+#[derive(Clone, Copy, Debug)]
+pub struct OnMachine(pub fn(&Machine, &Program) -> Option<Program>);
+
+impl PartialEq for OnMachine {
+    fn eq(&self, other: &Self) -> bool {
+        core::ptr::fn_addr_eq(self.0, other.0)
+    }
+}
+
+/// Plans are compared as a machine carries them out, for it does not follow the best one as that is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Followed {
+    pub by: OnMachine,
+    /// The widest of the swings of that plan that are open, if any is.
+    pub refused: Option<Angle>,
+    /// What the machine lacked for it.
+    pub lack: Lack,
+}
+
 /// What is considered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchSpace {
     pub routes: RouteSet,
     /// The swings; none where all that the job allows are considered.
     pub swing: Option<Narrowed>,
+    /// What the machine follows; none where the plan does not depend on it.
+    pub machine: Option<Followed>,
 }
 
 impl SearchSpace {
     /// All routes of a kind, and all swings.
     #[must_use]
     pub const fn along(routes: RouteSet) -> Self {
-        Self { routes, swing: None }
+        Self {
+            routes,
+            swing: None,
+            machine: None,
+        }
     }
 }

@@ -5,8 +5,9 @@
 //! proven there: those between the same two ways to hold the blade, at the same speed, with their ends farthest out.
 
 use super::poses::outermost;
+use crate::ceiling;
 use crate::moves::path_of;
-use crate::path::{Course, prove};
+use crate::path::{Course, Refuted, prove, refuted};
 use crate::rig::Rig;
 use crate::solve::LEAST_CLEARANCE;
 use crate::survey::middles;
@@ -14,13 +15,16 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{FeedId, OpId, OrientationId, Program, RateId};
 use vcutc_backend_api::segments::{LimitedBy, LinearSegment, Path, Segment};
-use vcutc_machine::kinematics::{Mechanism, Solution, newton};
+use vcutc_machine::kinematics::{Joints, Mechanism, Solution, newton};
 
 /// Critical motions of a program: of every kind those that lie farthest out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CriticalMotions {
     courses: Vec<Course>,
 }
+
+/// By how much an axis may be faster at its fastest than on average between two samples, as a factor.
+const BETWEEN_SAMPLES: f64 = 1.02;
 
 /// Most motions that are proven at a place.
 const MOST: usize = 96;
@@ -38,27 +42,108 @@ fn kind(segment: &Segment<'_>, line: &LinearSegment) -> Option<Kind> {
     })
 }
 
+/// The motions of a program that take time, kind by kind.
+fn kinds(program: &Program) -> Vec<Vec<(OpId, LinearSegment)>> {
+    let mut kinds: BTreeMap<Kind, Vec<(OpId, LinearSegment)>> = BTreeMap::new();
+    for segment in program.segments() {
+        if let Path::Linear(line) = segment.path()
+            && let Some(kind) = kind(&segment, &line)
+        {
+            kinds.entry(kind).or_default().push((segment.id, line));
+        }
+    }
+    kinds.into_values().collect()
+}
+
+/// Those of some motions whose ends lie farthest out.
+fn farthest_out(motions: &[(OpId, LinearSegment)]) -> Vec<&(OpId, LinearSegment)> {
+    let tips: Vec<DVec3> = motions
+        .iter()
+        .map(|(_, line)| DVec3::new(line.to.tip.x, line.to.tip.y, line.to.tip.z))
+        .collect();
+    let chosen = outermost(&tips).into_iter();
+    chosen.filter_map(|index| motions.get(index)).collect()
+}
+
+/// A program with its turns as fast as the axes follow the critical motions on the branch where they take the least time; none where
+/// there is no branch on which the axes follow all of them, however slowly the blade turns.
+#[must_use]
+pub fn as_followed(rig: &Rig<'_>, program: &Program) -> Option<Program> {
+    let kinds = kinds(program);
+    let first = kinds.first().and_then(|motions| motions.first());
+    let Some(course) = first.and_then(|(_, line)| Course::of(program, line)) else {
+        return Some(program.clone());
+    };
+    let branches = rig.mechanism.all(&rig.flange_in_root(&course.from));
+    let paced = branches.iter().filter_map(|begin| {
+        let shares: Option<Vec<f64>> = kinds
+            .iter()
+            .map(|motions| highest_share(rig, program, motions, begin))
+            .collect();
+        let shares = shares?;
+        let longer = kinds
+            .iter()
+            .zip(&shares)
+            .map(|(motions, &share)| longer(motions, share));
+        Some((longer.sum::<f64>(), shares))
+    });
+    let (_, shares) = paced.min_by(|(one, _), (other, _)| one.total_cmp(other))?;
+    let mut slower = program.clone();
+    for (motions, share) in kinds.iter().zip(shares) {
+        for &(op, line) in motions {
+            if share < 1.0 {
+                ceiling::set(&mut slower, op, ceiling::at(&line, share)?)?;
+            }
+        }
+    }
+    Some(slower)
+}
+
+/// The highest share of its rate at which the axes follow the critical motions of a kind on the branch of a solution.
+fn highest_share(
+    rig: &Rig<'_>,
+    program: &Program,
+    motions: &[(OpId, LinearSegment)],
+    begin: &Solution,
+) -> Option<f64> {
+    let mut highest = 1.0;
+    for (_, line) in farthest_out(motions) {
+        let course = Course::of(program, line)?;
+        let start = start_of(rig, &course, begin)?;
+        // What samples show is enough here, and found far sooner.
+        let refuted = refuted(rig, &course, begin.branch, &start);
+        let slow_enough = |line: &LinearSegment| match (rig.mechanism, refuted) {
+            (_, Some(Refuted::Pose)) => false,
+            (_, Some(Refuted::TooFast(times))) => {
+                line.duration().to_s() >= course.duration * times * BETWEEN_SAMPLES
+            }
+            (Mechanism::OrthoParallel(_) | Mechanism::Mounted(_), None) => true,
+            (Mechanism::Serial(_) | Mechanism::FiveAxis(_), None) => {
+                Course::of(program, line).is_some_and(|course| follows(rig, &course, begin))
+            }
+        };
+        highest = ceiling::highest(line, highest, slow_enough)?;
+    }
+    Some(highest)
+}
+
+/// How much longer motions take at a share of their rates, in s.
+fn longer(motions: &[(OpId, LinearSegment)], share: f64) -> f64 {
+    let each = motions
+        .iter()
+        .map(|(_, line)| ceiling::lengthened(line, share).to_s());
+    each.sum()
+}
+
 impl CriticalMotions {
     /// The critical motions of a program.
     #[must_use]
     pub fn of(program: &Program) -> Self {
-        let mut kinds: BTreeMap<Kind, Vec<LinearSegment>> = BTreeMap::new();
-        for segment in program.segments() {
-            if let Path::Linear(line) = segment.path()
-                && let Some(kind) = kind(&segment, &line)
-            {
-                kinds.entry(kind).or_default().push(line);
-            }
-        }
-        let critical = kinds.values().flat_map(|lines| {
-            let tips: Vec<DVec3> = lines
-                .iter()
-                .map(|line| DVec3::new(line.to.tip.x, line.to.tip.y, line.to.tip.z))
-                .collect();
-            let chosen = outermost(&tips);
-            chosen.into_iter().filter_map(|index| lines.get(index))
-        });
-        let courses: Vec<Course> = critical.filter_map(|line| Course::of(program, line)).collect();
+        let kinds = kinds(program);
+        let critical = kinds.iter().flat_map(|motions| farthest_out(motions));
+        let courses: Vec<Course> = critical
+            .filter_map(|(_, line)| Course::of(program, line))
+            .collect();
         let step = courses.len().div_ceil(MOST).max(1);
         Self {
             courses: courses.into_iter().step_by(step).collect(),
@@ -98,6 +183,12 @@ impl CriticalMotions {
 
 /// Whether the axes follow a course on the branch of a solution, begun with each of them nearest to the middle of its range.
 fn follows(rig: &Rig<'_>, course: &Course, solution: &Solution) -> bool {
+    start_of(rig, course, solution)
+        .is_some_and(|start| prove(rig, course, solution.branch, &start, &LEAST_CLEARANCE).is_ok())
+}
+
+/// The axes at the start of a course on the branch of a solution, each of them nearest to the middle of its range.
+fn start_of(rig: &Rig<'_>, course: &Course, solution: &Solution) -> Option<Joints> {
     let flange_in_root = rig.flange_in_root(&course.from);
     let middles = middles(rig.axes);
     let near = match rig.mechanism {
@@ -105,7 +196,5 @@ fn follows(rig: &Rig<'_>, course: &Course, solution: &Solution) -> bool {
         // Its branches are those of the axes that it is followed from.
         Mechanism::Serial(_) => newton::within_half_a_turn(&solution.joints, &middles),
     };
-    rig.mechanism
-        .on_branch(&flange_in_root, solution.branch, &near)
-        .is_some_and(|start| prove(rig, course, solution.branch, &start, &LEAST_CLEARANCE).is_ok())
+    rig.mechanism.on_branch(&flange_in_root, solution.branch, &near)
 }

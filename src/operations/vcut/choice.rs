@@ -67,11 +67,21 @@ pub(crate) fn plan<'j>(
         wanted,
     } = ground;
     let within = narrowed::within(asked, space.swing);
-    let bench = Bench::new(job, asked, before, space.routes).while_wanted(&wanted);
+    let followed = space.machine.map(|machine| machine.by);
+    let bench = Bench::new(job, asked, before, space.routes)
+        .on_machine(followed)
+        .while_wanted(&wanted);
     match searched(&bench, asked, &within, cuts_left) {
         Ok(LaidOut { mut vcut, after, .. }) => {
-            if let Some(swing) = narrowed::narrowed(asked, space.swing) {
-                narrowed::told(&mut vcut, asked.limits.swing, swing, bench.job.machine.as_ref());
+            let machine = bench.job.machine.as_ref();
+            let narrowed = narrowed::narrowed(asked, space.swing);
+            if narrowed.is_some() {
+                narrowed::restore(&mut vcut, asked.limits.swing);
+            }
+            match (space.machine, narrowed) {
+                (Some(followed), _) => narrowed::told_on_machine(&mut vcut, followed, machine),
+                (None, Some(swing)) => narrowed::told(&mut vcut, swing, machine),
+                (None, None) => {}
             }
             Ok((vcut, after))
         }
@@ -278,7 +288,7 @@ const OTHERS: [Residual; 3] = [Residual::Discard, Residual::Lift, Residual::Shif
 /// The best operation that keeps its limits on time and cuts when it is planned.
 fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Unplanned> {
     let first = best_lattice(bench, asked, cuts_left)?;
-    let Some(broken) = limits::broken(&bench.job, asked, &first.vcut) else {
+    let Some(broken) = limits::broken(bench, asked, &first.vcut) else {
         return Ok(first);
     };
     if trial::is_searched(asked) {
@@ -291,7 +301,7 @@ fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Resu
             break;
         };
         laid.vcut.asked.limits = asked.limits;
-        match limits::broken(&bench.job, asked, &laid.vcut) {
+        match limits::broken(bench, asked, &laid.vcut) {
             Some(still) => by = still,
             None => return Ok(laid),
         }
@@ -317,9 +327,7 @@ fn kept_by_any(
         laid.vcut.asked.limits = asked.limits;
         is_sound.then_some(laid)
     });
-    let still = free
-        .as_ref()
-        .map(|laid| limits::broken(&bench.job, asked, &laid.vcut));
+    let still = free.as_ref().map(|laid| limits::broken(bench, asked, &laid.vcut));
     if let (Some(laid), Some(None)) = (&free, &still) {
         return Ok(laid.clone());
     }
@@ -346,9 +354,7 @@ fn any_within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> 
         by_formulas: None,
     };
     let laid = best_found(bench, asked, found, cuts_left).ok()?;
-    limits::broken(&bench.job, asked, &laid.vcut)
-        .is_none()
-        .then_some(laid)
+    limits::broken(bench, asked, &laid.vcut).is_none().then_some(laid)
 }
 
 /// The operation on the best lattice, or on the one that it asks for.

@@ -152,8 +152,10 @@ fn scallop_spent(vcut: &PlannedVcut, report: &Report) -> Option<String> {
 
 /// `interlaced 1 min 52.0 s; orthogonal 1 min 58.3 s; free leaves 11.2 mm (limit 10 mm)`: what was taken comes first.
 pub(crate) fn compared(decision: &Decision) -> String {
-    if decision.taken.standing == Standing::Narrowed {
-        return narrowed(decision);
+    match decision.taken.standing {
+        Standing::Narrowed => return narrowed(decision, "the machine cannot follow a wider one"),
+        Standing::OnMachine => return narrowed(decision, "the best found on the machine"),
+        _ => {}
     }
     let all = core::iter::once(&decision.taken).chain(&decision.others);
     let words: Vec<String> = all
@@ -163,13 +165,9 @@ pub(crate) fn compared(decision: &Decision) -> String {
 }
 
 /// `at most 24.8 deg: the machine cannot follow a wider one (A4 would need 242.0 deg/s of 179.0 deg/s at 40 deg)`.
-fn narrowed(decision: &Decision) -> String {
+fn narrowed(decision: &Decision, why: &str) -> String {
     let lacks: Vec<&str> = decision.others.iter().map(|other| other.what.as_str()).collect();
-    format!(
-        "{}: the machine cannot follow a wider one ({})",
-        decision.taken.what,
-        lacks.join("; ")
-    )
+    format!("{}: {why} ({})", decision.taken.what, lacks.join("; "))
 }
 
 fn standing(standing: Standing) -> String {
@@ -191,6 +189,7 @@ fn standing(standing: Standing) -> String {
         Standing::Impossible => " cuts nothing".to_owned(),
         Standing::ByModel(duration) => format!(" {} by formula, not planned", time(duration)),
         Standing::Last => ", because the machine cannot follow the others".to_owned(),
+        Standing::OnMachine => ", the best found on the machine".to_owned(),
         Standing::Narrowed => ", the widest tried that the machine can follow".to_owned(),
         Standing::NotFollowed => ": the machine cannot follow it".to_owned(),
         Standing::LeftOut => ": not possible, the machine cannot follow it".to_owned(),

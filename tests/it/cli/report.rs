@@ -318,7 +318,7 @@ fn a_sheet_of_several_blades_says_how_they_are_changed() {
 #[test]
 fn the_page_says_what_would_help() {
     let page = |budget: &str| {
-        let job = "examples/spoiler_clarky.vcut";
+        let job = "examples/rib_dxf.vcut";
         let run = vcutc(root(), &["report", "-q", job, "-o", "-", "--help-budget", budget]);
         assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
         run.stdout
@@ -330,7 +330,7 @@ fn the_page_says_what_would_help() {
     assert!(block.contains("which saves "), "{block}");
     // It says what to write, and leads to the line of the base.
     assert!(block.contains("<code>base = frame(x = "), "{block}");
-    let (_, link) = block.split_once("<a href=\"#text-").unwrap();
+    let (_, link) = block.rsplit_once("<a href=\"#text-").unwrap();
     let (_, line) = link.split_once("<code>").unwrap();
     assert!(line.starts_with("base "), "{line}");
     assert_eq!(

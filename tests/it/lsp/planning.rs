@@ -99,18 +99,18 @@ fn a_refusal_is_told_before_help_is_looked_for() {
 #[test]
 fn what_would_help_comes_after_the_plan() {
     let names = [
-        "spoiler_clarky.vcut",
+        "rib_dxf.vcut",
         "shop/blades.vcut",
         "shop/cells.vcut",
         "shop/speeds.vcut",
         "shop/gantry.toml",
         "shop/knife_gantry.toml",
-        "airfoils/clarky.dat",
+        "drawings/rib.dxf",
     ];
     let texts = names.map(|name| (name, read(&format!("examples/{name}"))));
     let files: Vec<(&str, &str)> = texts.iter().map(|(name, text)| (*name, text.as_str())).collect();
     let mut editor = Editor::with(&files);
-    let job = "/shop/spoiler_clarky.vcut";
+    let job = "/shop/rib_dxf.vcut";
     editor.open(job);
     let task = editor.server.task().unwrap();
     let mut early = Vec::new();
@@ -123,10 +123,10 @@ fn what_would_help_comes_after_the_plan() {
     assert_eq!(early.len(), 1, "the plan is told before hints are looked for");
     let at_once = editor.server.finish(early.remove(0));
     assert!(!serde_json::to_string(&at_once).unwrap().contains("saves"));
-    let at = editor.at(job, "job \"spoiler|_clarky\"");
+    let at = editor.at(job, "job \"rib|_dxf\"");
     let hover = editor.ask("textDocument/hover", at.clone()).unwrap();
     assert!(
-        hover["contents"]["value"].as_str().unwrap().contains("18 cuts"),
+        hover["contents"]["value"].as_str().unwrap().contains("14 cuts"),
         "the figures are there: {hover}"
     );
 
@@ -147,7 +147,7 @@ fn what_would_help_comes_after_the_plan() {
     assert_eq!(edit["range"], hint["range"]);
     assert!(edit["newText"].as_str().unwrap().starts_with("frame("), "{edit}");
 
-    editor.replace(job, "chord = 300 mm", "chord = 290 mm");
+    editor.replace(job, "limits    { swing", "limits  { swing");
     assert_eq!(hint_told(&editor), None, "of another text nothing is known");
 }
 
@@ -155,7 +155,11 @@ fn what_would_help_comes_after_the_plan() {
 fn hint_told(editor: &Editor) -> Option<(String, Value)> {
     editor.told.iter().find_map(|(uri, told)| {
         let mut all = told["diagnostics"].as_array()?.iter();
-        let hint = all.find(|one| one["message"].as_str().is_some_and(|text| text.contains("saves")))?;
+        let hint = all.find(|one| {
+            one["message"]
+                .as_str()
+                .is_some_and(|text| text.contains("which saves"))
+        })?;
         Some((uri.clone(), hint.clone()))
     })
 }

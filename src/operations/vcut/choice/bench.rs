@@ -15,7 +15,7 @@ use vcutc_geometry::offset::offset_up;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::PlannedOperation;
 use vcutc_job::follow::Along;
-use vcutc_job::search::{RouteSet, SearchEffort};
+use vcutc_job::search::{OnMachine, RouteSet, SearchEffort};
 use vcutc_job::{CheckedJob, PlanningJob};
 use vcutc_process::lower::alone;
 use vcutc_simulation::body;
@@ -62,6 +62,8 @@ pub(super) struct Bench<'j> {
     pub(super) latitude: RouteSet,
     /// How hard the best is searched for.
     pub(super) effort: SearchEffort,
+    /// What the machine makes of a program; none where plans are compared without it.
+    pub(super) followed: Option<OnMachine>,
     /// Plans that nobody wants any more are not made.
     pub(super) wanted: Wanted,
 }
@@ -75,6 +77,7 @@ impl<'j> Bench<'j> {
             job,
             before,
             latitude,
+            followed: None,
             wanted: Wanted::ALWAYS,
         }
     }
@@ -85,6 +88,11 @@ impl<'j> Bench<'j> {
             wanted: wanted.clone(),
             ..self
         }
+    }
+
+    /// The same, with plans compared as the machine carries them out.
+    pub(super) fn on_machine(self, followed: Option<OnMachine>) -> Self {
+        Self { followed, ..self }
     }
 
     /// The same, searched with another effort.
@@ -104,6 +112,7 @@ impl<'j> Bench<'j> {
             removable: self.removable.clone(),
             latitude: self.latitude,
             effort: self.effort,
+            followed: self.followed,
             wanted: wanted.clone(),
         }
     }
@@ -183,17 +192,17 @@ impl<'j> Bench<'j> {
             };
         };
         let replay = replay_on(self.before.clone(), &program, &[bound_of(&level)]);
-        let time = as_long_as_its_way(vcut, &program);
         let failing = replay.findings.iter().map(|(count, _)| count).sum();
         let corners: Vec<_> = replay.surface.corners().collect();
         let part = self.job.profile.area_below(0.0, self.job.stock.width.to_mm());
         let height = farthest(&corners, &*self.job.profile).height;
+        let (standing, time) = match failing {
+            0 => self.timed_as(vcut, &program),
+            _ => (Standing::Fails(failing), as_long_as_its_way(vcut, &program)),
+        };
         Contender {
             laid,
-            standing: match failing {
-                0 => Standing::Takes(time),
-                _ => Standing::Fails(failing),
-            },
+            standing,
             figures: Figures {
                 time,
                 cuts,
@@ -201,6 +210,28 @@ impl<'j> Bench<'j> {
                 edge: replay.longest_edge,
             },
             residual: Area::mm2(area_under(&corners)) - part,
+        }
+    }
+
+    /// How long an operation takes, and what comes of it, on the machine where plans are compared on it; none where the compiler is at
+    /// fault, which the proof of the whole then shows.
+    pub(super) fn timed(&self, vcut: &PlannedVcut) -> Option<(Standing, Duration)> {
+        let program = program(&self.job, &vcut.level())?;
+        Some(self.timed_as(vcut, &program))
+    }
+
+    fn timed_as(&self, vcut: &PlannedVcut, level: &VerifiedProgram) -> (Standing, Duration) {
+        let (Some(OnMachine(followed)), Some(machine)) = (self.followed, &self.job.machine) else {
+            let time = as_long_as_its_way(vcut, level);
+            return (Standing::Takes(time), time);
+        };
+        let carried_out = followed(machine, level.program()).and_then(|program| verify(program).ok());
+        match carried_out {
+            Some(carried_out) => {
+                let time = as_long_as_its_way(vcut, &carried_out);
+                (Standing::Takes(time), time)
+            }
+            None => (Standing::NotFollowed, as_long_as_its_way(vcut, level)),
         }
     }
 }

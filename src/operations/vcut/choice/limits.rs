@@ -5,7 +5,7 @@
 //! choose keeps them by the model, and is chosen again with tighter ones where its plan does not. What no plan keeps in the end
 //! is refused, with the value that the plan would keep.
 
-use super::bench;
+use super::bench::Bench;
 use crate::asked::{Objective, RoughVcut};
 use crate::plan::PlannedVcut;
 use crate::plan::decision::Excess;
@@ -14,7 +14,6 @@ use vcutc_backend_api::units::Duration;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_job::CheckedJob;
 
 /// How often limits are tightened for the model.
 pub(super) const MOST_TIGHTENED: u32 = 4;
@@ -31,11 +30,12 @@ pub(super) fn of_plans(asked: &RoughVcut) -> RoughVcut {
 }
 
 /// Which of an operation's limits on time and cuts a plan breaks.
-pub(super) fn broken(job: &CheckedJob, asked: &RoughVcut, vcut: &PlannedVcut) -> Option<Excess> {
+pub(super) fn broken(bench: &Bench<'_>, asked: &RoughVcut, vcut: &PlannedVcut) -> Option<Excess> {
     if asked.limits.time.is_none() && asked.limits.cuts.is_none() {
         return None;
     }
-    excess(asked, bench::time(job, vcut)?, vcut.cuts.len())
+    let (_, time) = bench.timed(vcut)?;
+    excess(asked, time, vcut.cuts.len())
 }
 
 /// Which of its limits a plan of so many cuts breaks that takes this time.

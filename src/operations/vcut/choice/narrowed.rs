@@ -7,7 +7,7 @@ use crate::plan::optimum::Bound;
 use vcutc_backend_api::ir::AxisKind;
 use vcutc_backend_api::units::Angle;
 use vcutc_diagnostics::number::show;
-use vcutc_job::search::{Lack, Narrowed};
+use vcutc_job::search::{Followed, Lack, Narrowed};
 use vcutc_job::{Auto, Bounds, Machine, Sourced};
 
 /// What the swing of an operation is held within besides the job's limits.
@@ -32,32 +32,50 @@ pub(super) fn within(asked: &RoughVcut, swing: Option<Narrowed>) -> RoughVcut {
     asked
 }
 
-/// Gives a planned operation the job's own limits back, and says what narrowed its swing.
-pub(super) fn told(
-    vcut: &mut PlannedVcut,
-    limits: Bounds<Angle>,
-    swing: Narrowed,
-    machine: Option<&Machine>,
-) {
+/// Gives a planned operation the job's own limits on the swing back.
+pub(super) fn restore(vcut: &mut PlannedVcut, limits: Bounds<Angle>) {
     vcut.asked.limits.swing = limits;
     vcut.parameters.binding.retain(|&bound| bound != Bound::SwingMost);
-    let degrees = |swing: Angle| format!("{} deg", show(swing.to_deg()));
-    let decision = Decision {
+}
+
+/// Says what narrowed the swing of a planned operation.
+pub(super) fn told(vcut: &mut PlannedVcut, swing: Narrowed, machine: Option<&Machine>) {
+    let most = format!("at most {}", degrees(swing.widest));
+    let decision = decision((most, Standing::Narrowed), (swing.lack, swing.refused), machine);
+    vcut.decisions.insert(0, decision);
+}
+
+/// Says why the swing of a planned operation is narrower than the best one without a machine, where plans were compared on the machine.
+pub(super) fn told_on_machine(vcut: &mut PlannedVcut, followed: Followed, machine: Option<&Machine>) {
+    let is_open = vcut.asked.swing.value == Auto::Auto;
+    let swing = vcut.parameters.swing;
+    if let Some(refused) = followed.refused.filter(|&refused| is_open && swing < refused) {
+        let decision = decision(
+            (degrees(swing), Standing::OnMachine),
+            (followed.lack, refused),
+            machine,
+        );
+        vcut.decisions.insert(0, decision);
+    }
+}
+
+fn decision(
+    (what, standing): (String, Standing),
+    (lack, refused): (Lack, Angle),
+    machine: Option<&Machine>,
+) -> Decision {
+    Decision {
         field: "swing",
-        taken: Candidate {
-            what: format!("at most {}", degrees(swing.widest)),
-            standing: Standing::Narrowed,
-        },
+        taken: Candidate { what, standing },
         others: vec![Candidate {
-            what: format!(
-                "{} at {}",
-                lack_in_words(swing.lack, machine),
-                degrees(swing.refused)
-            ),
+            what: format!("{} at {}", lack_in_words(lack, machine), degrees(refused)),
             standing: Standing::NotFollowed,
         }],
-    };
-    vcut.decisions.insert(0, decision);
+    }
+}
+
+fn degrees(swing: Angle) -> String {
+    format!("{} deg", show(swing.to_deg()))
 }
 
 /// `A4 too slow`, with how fast it would have to be.

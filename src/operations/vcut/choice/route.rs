@@ -1,6 +1,6 @@
 //! Order of the flanks and sequence of the Vs: all that the job leaves open, the fastest taken.
 
-use super::bench::{self, Bench};
+use super::bench::Bench;
 use super::{MOST_CUTS_COMPARED, RouteSet, not_compared};
 use crate::asked::{RoughVcut, Sequence};
 use crate::plan::decision::{Candidate, Decision, Standing};
@@ -73,6 +73,11 @@ fn usual_route(latitude: RouteSet, asked: &RoughVcut, order: Order) -> Route {
     )
 }
 
+/// Whether both orders of the flanks are considered.
+pub(super) fn is_order_open(bench: &Bench<'_>, asked: &RoughVcut) -> bool {
+    asked.order.value == Auto::Auto && bench.latitude.order().is_none()
+}
+
 /// Whether a route is one of those that are considered.
 pub(super) fn allows(latitude: RouteSet, asked: &RoughVcut, (sequence, order): Route) -> bool {
     let is_ordered = latitude
@@ -118,15 +123,15 @@ fn fastest(
     let mut timed: Vec<(Candidate, PlannedVcut, Duration)> = different
         .into_par_iter()
         .filter_map(|(route, planned)| {
-            let time = bench::time(&bench.job, &planned)?;
+            let (standing, time) = bench.timed(&planned)?;
             let candidate = Candidate {
                 what: words(&vcut.asked, route),
-                standing: Standing::Takes(time),
+                standing,
             };
             Some((candidate, planned, time))
         })
         .collect();
-    timed.sort_by(|(.., a), (.., b)| a.total_cmp(b));
+    timed.sort_by(|(one, _, a), (other, _, b)| one.standing.compare(&other.standing).then(a.total_cmp(b)));
     let mut timed = timed.into_iter();
     let Some((taken, planned, _)) = timed.next() else {
         return vcut;
@@ -142,12 +147,8 @@ fn fastest(
 /// The order that is not considered because the machine does not follow the best plan that has it.
 fn left_out(latitude: RouteSet, asked: &RoughVcut) -> Option<Candidate> {
     let only = latitude.order().filter(|_| asked.order.value == Auto::Auto)?;
-    let other = match only {
-        Order::Point => Order::Layer,
-        Order::Layer => Order::Point,
-    };
     Some(Candidate {
-        what: format!("by {}", other.word()),
+        what: format!("by {}", only.other().word()),
         standing: Standing::LeftOut,
     })
 }

@@ -28,6 +28,7 @@ use crate::plan::floor::Floor;
 use crate::plan::optimum::Bound;
 use crate::plan::parameters::{self, Refusal, VcutParameters};
 use crate::plan::{LaidOut, lay_out};
+use core::cmp::Ordering;
 use rayon::prelude::*;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_cancellation::Effort;
@@ -368,7 +369,7 @@ impl<'t> Trials<'t> {
         if let Some(known) = known {
             return Some(known.standing);
         }
-        if !self.may_go_on() || self.is_too_large(&found) {
+        if !self.may_go_on() || self.is_too_large(&found) || self.is_beyond_the_machine(&found) {
             return None;
         }
         let model = self.model(&found);
@@ -431,7 +432,7 @@ impl<'t> Trials<'t> {
             Skipping::Never => None,
             Skipping::IfBetter | Skipping::Always => self.bench.thinned(&laid),
         };
-        let weighed = |laid| self.bench.weigh(self.along_its_route(laid)).held_to(limit, &held);
+        let weighed = |laid| self.weighed(laid).held_to(limit, &held);
         let outcome = match thinned {
             Some(thinned) => redundant::better(self.asked, [thinned, laid], weighed),
             None => weighed(laid),
@@ -464,7 +465,21 @@ impl<'t> Trials<'t> {
 
     /// Whether parameters are worth a plan, as far as is known before.
     fn may_be_sound(&self, found: &VcutParameters) -> bool {
-        !self.is_too_large(found) && !self.must_leave_too_much(found)
+        !self.is_too_large(found) && !self.must_leave_too_much(found) && !self.is_beyond_the_machine(found)
+    }
+
+    /// Whether the machine refused a plan of this swing or a narrower one, and followed none of this swing or a wider one.
+    fn is_beyond_the_machine(&self, found: &VcutParameters) -> bool {
+        let is_refused =
+            |tried: &Tried| tried.parameters.swing <= found.swing && tried.standing == Standing::NotFollowed;
+        let is_followed = |tried: &Tried| {
+            tried.parameters.swing >= found.swing
+                && matches!(
+                    tried.standing,
+                    Standing::Takes(_) | Standing::Exceeds(_) | Standing::Leaves { .. }
+                )
+        };
+        self.tried.iter().any(is_refused) && !self.tried.iter().any(is_followed)
     }
 
     /// Whether there will be far more cuts than are compared, by the model: to lay them out takes long.
@@ -478,16 +493,25 @@ impl<'t> Trials<'t> {
         cuts > most * MOST_CUTS_COMPARED as f64 || self.effort.is_less_than(cuts)
     }
 
-    /// The operation along its usual route, or along the fastest one where its time is limited and something else made small.
-    fn along_its_route(&self, laid: LaidOut) -> LaidOut {
+    /// What comes of an operation along its usual route, or along the fastest one where its time is limited and something else made
+    /// small.
+    fn weighed(&self, laid: LaidOut) -> Contender {
         match (self.goal, self.asked.objective.value, self.asked.limits.time) {
             (Goal::Any, _, Some(_))
             | (Goal::Best, Objective::Cuts | Objective::Scallop | Objective::BladeLoad, Some(_)) => {
-                route::best(self.bench, laid)
+                self.bench.weigh(route::best(self.bench, laid))
             }
             (Goal::Best, Objective::Time, Some(_)) | (Goal::Best | Goal::Any, _, None) => {
-                let order = self.faster_order(&laid.vcut);
-                route::usual(self.bench, laid, order)
+                let faster = self.faster_order(&laid.vcut);
+                let along = |laid, order| self.bench.weigh(route::usual(self.bench, laid, order));
+                let other = (self.bench.followed.is_some() && route::is_order_open(self.bench, self.asked))
+                    .then(|| laid.clone());
+                let usual = along(laid, faster);
+                // What the machine makes of a route no formula says.
+                match other.map(|laid| along(laid, faster.other())) {
+                    Some(other) if other.compare(&usual) == Ordering::Less => other,
+                    Some(_) | None => usual,
+                }
             }
         }
     }

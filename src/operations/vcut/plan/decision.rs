@@ -48,6 +48,8 @@ pub enum Standing {
     Last,
     /// It is the widest of those tried that the machine follows.
     Narrowed,
+    /// It is the best of those that were compared on the machine, which does not follow what is better without it.
+    OnMachine,
     /// The machine does not follow it.
     NotFollowed,
     /// It was left out, for the machine did not follow the best plan of its kind.
@@ -97,6 +99,7 @@ impl Standing {
             | Self::NotCompared
             | Self::Last
             | Self::Narrowed
+            | Self::OnMachine
             | Self::NotFollowed
             | Self::LeftOut => None,
         }
@@ -120,12 +123,12 @@ impl Standing {
             Self::Takes(_) => 0,
             Self::Exceeds(_) => 1,
             Self::Leaves { .. } => 2,
-            Self::Fails(_) => 3,
-            Self::ByModel(_) => 4,
-            Self::NotCompared => 5,
-            Self::Last => 6,
-            Self::Narrowed => 7,
-            Self::NotFollowed => 8,
+            Self::NotFollowed => 3,
+            Self::Fails(_) => 4,
+            Self::ByModel(_) => 5,
+            Self::NotCompared => 6,
+            Self::Last => 7,
+            Self::Narrowed | Self::OnMachine => 8,
             Self::LeftOut => 9,
             Self::Impossible => 10,
         }

@@ -33,6 +33,7 @@ impl TurnedDown {
             | Standing::NotCompared
             | Standing::Last
             | Standing::Narrowed
+            | Standing::OnMachine
             | Standing::NotFollowed
             | Standing::LeftOut => return None,
         };
