@@ -1,7 +1,8 @@
 //! Random jobs that leave all parameters of their V cuts to the compiler.
 //!
 //! Of one number always comes the same job. Parts are waves, hollows, humps and lines of a few corners; blades, speeds and
-//! limits are of the size that shops have. All jobs are right, and nothing says that they can be cut.
+//! limits are of the size that shops have. All jobs are right, and nothing says that they can be cut, or that their robot can cut
+//! them.
 
 use std::fmt::Write as _;
 
@@ -99,6 +100,45 @@ fn corners(all: &[(f64, f64)]) -> String {
         let _ = writeln!(text, "  {word} ({x} mm, {z} mm)");
     }
     text + "}"
+}
+
+/// The robot that cuts the job of a number: a large one or a small one, with the work somewhere in front of it.
+#[must_use]
+pub fn robot(number: u64) -> String {
+    // Other numbers than those of the job.
+    let mut dice = Dice(!number);
+    let (model, home, x, y, z) = match dice.next() % 3 {
+        0 => (
+            "kuka/kr10_r1100_2",
+            "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)",
+            dice.whole(550.0, 800.0),
+            dice.whole(-200.0, 50.0),
+            dice.whole(50.0, 350.0),
+        ),
+        1 => (
+            "kuka/kr210_r3100_ultra",
+            "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)",
+            dice.whole(1300.0, 2100.0),
+            dice.whole(-800.0, 200.0),
+            dice.whole(500.0, 1300.0),
+        ),
+        _ => (
+            "abb/irb6700_155_285",
+            "joints(0 deg, 0 deg, 0 deg, 0 deg, 45 deg, 0 deg)",
+            dice.whole(1300.0, 2100.0),
+            dice.whole(-800.0, 200.0),
+            dice.whole(500.0, 1300.0),
+        ),
+    };
+    let turned = dice.one_of([90.0, 90.0, 90.0, 80.0, 100.0]);
+    format!(
+        "\nmachine cell = robot \"{model}\" {{\n  \
+         tool       = frame(x = 0 mm, y = 0 mm, z = 310 mm, a = 0 deg, b = 0 deg, c = 0 deg)\n  \
+         base       = frame(x = {x} mm, y = {y} mm, z = {z} mm, a = {turned} deg, b = 0 deg, c = 0 deg)\n  \
+         home       = {home}\n  \
+         ultrasonic = output(12)\n  \
+         ready      = after(0.8 s)\n}}\n"
+    )
 }
 
 /// The job of a number.

@@ -1,8 +1,9 @@
 //! How fast the programs are that compilers find for jobs which leave all parameters to them.
 //!
-//! `cargo run --release --bin auto -- JOBS COMPILER [OTHER]` has each of so many random jobs compiled by one compiler, and by
+//! `cargo run --release --bin auto -- [robots] JOBS COMPILER [OTHER]` has each of so many random jobs compiled by one compiler, and by
 //! another one beside it, and prints the sums: planned times of the programs, and the time that it took to find them, on one
-//! thread. With another compiler it lists the jobs whose programs are slower by more than [`SLOWER`].
+//! thread. With another compiler it lists the jobs whose programs are slower by more than [`SLOWER`]. With `robots` each job has a
+//! robot, and time includes what its axes ask for.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -13,25 +14,32 @@ use vcutc_benches::auto;
 const SLOWER: f64 = 0.005;
 
 fn main() -> ExitCode {
-    let mut arguments = std::env::args().skip(1);
+    let mut arguments = std::env::args().skip(1).peekable();
+    let robot: fn(u64) -> String = match arguments.next_if_eq("robots") {
+        Some(_) => auto::robot,
+        None => |_| String::new(),
+    };
     let jobs = arguments.next().and_then(|jobs| jobs.parse::<u64>().ok());
     let compilers: Vec<PathBuf> = arguments.map(PathBuf::from).collect();
     let (Some(jobs), false) = (jobs, compilers.is_empty()) else {
-        eprintln!("usage: auto JOBS COMPILER [OTHER]");
+        eprintln!("usage: auto [robots] JOBS COMPILER [OTHER]");
         return ExitCode::FAILURE;
     };
     let file = std::env::temp_dir().join(format!("vcutc-auto-{}.vcut", std::process::id()));
     let mut sums = vec![Sum::default(); compilers.len()];
     let mut slower = Vec::new();
     for number in 0..jobs {
-        std::fs::write(&file, auto::text(number)).expect("the folder for temporary files can be written to");
+        std::fs::write(&file, auto::text(number) + &robot(number))
+            .expect("the folder for temporary files can be written to");
         let found: Vec<Option<Found>> = compilers
             .iter()
             .map(|compiler| compile(compiler, &file))
             .collect();
         // What only one of them compiles cannot be compared.
-        let Some(found) = found.into_iter().collect::<Option<Vec<Found>>>() else {
-            println!("job {number}: not compiled by all");
+        let Some(found) = found.iter().cloned().collect::<Option<Vec<Found>>>() else {
+            let by = compilers.iter().zip(&found).find(|(_, found)| found.is_some());
+            let by = by.map_or("none".to_owned(), |(one, _)| format!("{} alone", one.display()));
+            println!("job {number}: compiled by {by}");
             continue;
         };
         for (sum, found) in sums.iter_mut().zip(&found) {
@@ -69,6 +77,7 @@ fn main() -> ExitCode {
 }
 
 /// What comes of a job.
+#[derive(Clone)]
 struct Found {
     /// The planned time of its program, in s.
     planned: f64,
