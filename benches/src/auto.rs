@@ -105,31 +105,18 @@ fn corners(all: &[(f64, f64)]) -> String {
 /// The robot that cuts the job of a number: a large one or a small one, with the work somewhere in front of it.
 #[must_use]
 pub fn robot(number: u64) -> String {
+    const OF_KUKA: &str = "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)";
+    const OF_ABB: &str = "joints(0 deg, 0 deg, 0 deg, 0 deg, 45 deg, 0 deg)";
+    const NEAR: [(f64, f64); 3] = [(550.0, 800.0), (-200.0, 50.0), (50.0, 350.0)];
+    const FAR: [(f64, f64); 3] = [(1300.0, 2100.0), (-800.0, 200.0), (500.0, 1300.0)];
     // Other numbers than those of the job.
     let mut dice = Dice(!number);
-    let (model, home, x, y, z) = match dice.next() % 3 {
-        0 => (
-            "kuka/kr10_r1100_2",
-            "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)",
-            dice.whole(550.0, 800.0),
-            dice.whole(-200.0, 50.0),
-            dice.whole(50.0, 350.0),
-        ),
-        1 => (
-            "kuka/kr210_r3100_ultra",
-            "joints(0 deg, -90 deg, 90 deg, 0 deg, 45 deg, 0 deg)",
-            dice.whole(1300.0, 2100.0),
-            dice.whole(-800.0, 200.0),
-            dice.whole(500.0, 1300.0),
-        ),
-        _ => (
-            "abb/irb6700_155_285",
-            "joints(0 deg, 0 deg, 0 deg, 0 deg, 45 deg, 0 deg)",
-            dice.whole(1300.0, 2100.0),
-            dice.whole(-800.0, 200.0),
-            dice.whole(500.0, 1300.0),
-        ),
+    let (model, home, place) = match dice.next() % 3 {
+        0 => ("kuka/kr10_r1100_2", OF_KUKA, NEAR),
+        1 => ("kuka/kr210_r3100_ultra", OF_KUKA, FAR),
+        _ => ("abb/irb6700_155_285", OF_ABB, FAR),
     };
+    let [x, y, z] = place.map(|(low, high)| dice.whole(low, high));
     let turned = dice.one_of([90.0, 90.0, 90.0, 80.0, 100.0]);
     format!(
         "\nmachine cell = robot \"{model}\" {{\n  \

@@ -47,8 +47,7 @@ pub(super) fn reach(
     let (mut reached, refused) = match run.memory.reach(program.clone(), model, changes, run.wanted) {
         Err(Unreached::Unreachable(why)) => match with_slower_turns(&program, &why, model, changes, run) {
             Ok(reached) => (reached, Some(why)),
-            Err(Some(why)) => return Err(Unreached::Unreachable(why)),
-            Err(None) => return Err(Unreached::Unreachable(why)),
+            Err(other) => return Err(Unreached::Unreachable(other.unwrap_or(why))),
         },
         reached => (reached?, None),
     };

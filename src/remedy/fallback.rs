@@ -21,7 +21,7 @@ const MOST_FOR_A_FASTER_ROUTE: usize = 2;
 /// By which factor swings are narrowed at least.
 const NARROWER: f64 = 0.95;
 
-/// A swing of this share of another one is no narrower.
+/// A swing of at least this share of another one counts as the same.
 const NEARLY: f64 = 0.995;
 
 /// The narrowest swing that is looked at.

@@ -131,8 +131,8 @@ fn turns_are_as_fast_as_axes_follow_and_no_faster() {
             );
         }
     }
-    let told = made(&outcome).figures.as_ref().unwrap().slower.clone().unwrap();
-    assert_eq!((told.motions, told.of), (slower, turning));
+    let figures = made(&outcome).figures.as_ref().unwrap().slower.clone().unwrap();
+    assert_eq!((figures.motions, figures.of), (slower, turning));
     assert!(slower > 0 && slower < turning, "{slower} of {turning}");
     let line = made(&outcome)
         .summary
@@ -145,7 +145,7 @@ fn turns_are_as_fast_as_axes_follow_and_no_faster() {
         )),
         "{line}"
     );
-    assert!(line.contains(&format!("{} would need ", told.axis)), "{line}");
+    assert!(line.contains(&format!("{} would need ", figures.axis)), "{line}");
 }
 
 #[test]

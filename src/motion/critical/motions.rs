@@ -65,8 +65,8 @@ fn farthest_out(motions: &[(OpId, LinearSegment)]) -> Vec<&(OpId, LinearSegment)
     chosen.filter_map(|index| motions.get(index)).collect()
 }
 
-/// A program with its turns as fast as the axes follow the critical motions on the branch where they take the least time; none where
-/// there is no branch on which the axes follow all of them, however slowly the blade turns.
+/// A program with its turns as fast as the axes follow the critical motions, on the branch where they take the least time. None where
+/// the axes follow all of them on no single branch, however slowly the blade turns.
 #[must_use]
 pub fn as_followed(rig: &Rig<'_>, program: &Program) -> Option<Program> {
     let kinds = kinds(program);

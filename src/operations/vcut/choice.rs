@@ -79,8 +79,8 @@ pub(crate) fn plan<'j>(
                 narrowed::restore(&mut vcut, asked.limits.swing);
             }
             match (space.machine, narrowed) {
-                (Some(followed), _) => narrowed::told_on_machine(&mut vcut, followed, machine),
-                (None, Some(swing)) => narrowed::told(&mut vcut, swing, machine),
+                (Some(followed), _) => narrowed::explain_on_machine(&mut vcut, followed, machine),
+                (None, Some(swing)) => narrowed::explain(&mut vcut, swing, machine),
                 (None, None) => {}
             }
             Ok((vcut, after))

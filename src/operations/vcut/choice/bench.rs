@@ -257,11 +257,6 @@ fn program(job: &CheckedJob, vcut: &PlannedVcut) -> Option<VerifiedProgram> {
     verify(alone(job, vcut)).ok()
 }
 
-/// How long an operation takes; none where the compiler is at fault, which the proof of the whole then shows.
-pub(super) fn time(job: &CheckedJob, vcut: &PlannedVcut) -> Option<Duration> {
-    program(job, &vcut.level()).map(|program| as_long_as_its_way(vcut, &program))
-}
-
 /// How long an operation takes whose cuts were made level: along their spine they take longer as that is longer.
 fn as_long_as_its_way(vcut: &PlannedVcut, level: &VerifiedProgram) -> Duration {
     match &vcut.asked.along {

@@ -39,14 +39,14 @@ pub(super) fn restore(vcut: &mut PlannedVcut, limits: Bounds<Angle>) {
 }
 
 /// Says what narrowed the swing of a planned operation.
-pub(super) fn told(vcut: &mut PlannedVcut, swing: Narrowed, machine: Option<&Machine>) {
+pub(super) fn explain(vcut: &mut PlannedVcut, swing: Narrowed, machine: Option<&Machine>) {
     let most = format!("at most {}", degrees(swing.widest));
     let decision = decision((most, Standing::Narrowed), (swing.lack, swing.refused), machine);
     vcut.decisions.insert(0, decision);
 }
 
 /// Says why the swing of a planned operation is narrower than the best one without a machine, where plans were compared on the machine.
-pub(super) fn told_on_machine(vcut: &mut PlannedVcut, followed: Followed, machine: Option<&Machine>) {
+pub(super) fn explain_on_machine(vcut: &mut PlannedVcut, followed: Followed, machine: Option<&Machine>) {
     let is_open = vcut.asked.swing.value == Auto::Auto;
     let swing = vcut.parameters.swing;
     if let Some(refused) = followed.refused.filter(|&refused| is_open && swing < refused) {

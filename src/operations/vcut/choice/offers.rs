@@ -1,7 +1,7 @@
 //! What is told of an operation that has no plan. Of the changes that may mend it those are offered whose plan has nothing
 //! wrong: they are planned, written down and replayed before anybody is told, and tried on the machine of the job.
 
-use super::bench::{self, Bench, Figures};
+use super::bench::{Bench, Figures};
 use super::finest::{as_time, limited};
 use super::trial::{self, TurnedDown};
 use super::{Contender, Unplanned, within_limits};
@@ -240,7 +240,10 @@ fn longer_than_the_least(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize)
         return Vec::new();
     }
     let fastest = within_limits(bench, &limited(asked, None), cuts_left);
-    let least = fastest.ok().and_then(|laid| bench::time(&bench.job, &laid.vcut));
+    let least = fastest
+        .ok()
+        .and_then(|laid| bench.timed(&laid.vcut))
+        .map(|(_, time)| time);
     let longer = |least: Duration| LONGER.map(|share| rounded_up(least * share));
     least.map(longer).into_iter().flatten().collect()
 }
