@@ -147,6 +147,8 @@ codes! {
     MeshPartlyRead = "VC0247", Warning, "mesh or STEP file read only in part";
     /// Cuts that cannot follow the part as they are to.
     CannotFollow = "VC0248", Error, "cuts that cannot follow the part";
+    /// A field that has no meaning for fitted tips.
+    FieldBesideFitted = "VC0249", Error, "field that does not go with fitted tips";
 
     /// A job that leaves nothing to cut.
     NothingToCut = "VC0301", Error, "nothing to cut";

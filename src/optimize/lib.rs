@@ -300,7 +300,8 @@ fn operation(
     let problem = parameters::problem(&PlanningJob::of(job)?, asked)?;
     let chosen = vcut.parameters.lattice;
     let formulas = asked.formulas.value;
-    let rows = rows(&problem, chosen);
+    let of_formulas = with_formulas(chosen, &problem);
+    let rows = rows(&problem, of_formulas);
     let best = rows.iter().find_map(|row| match row.role {
         Role::Chosen => row.best.as_ref().ok(),
         Role::Other => None,
@@ -327,11 +328,25 @@ fn operation(
         faster: faster(asked, &rows, (chosen, planned.time), &mut trials),
         planned,
         binding,
-        trade_off: TradeOff::of(&problem, chosen, points, |point| {
+        trade_off: TradeOff::of(&problem, of_formulas, points, |point| {
             trials.came(point.cuts, |asked| under(asked, point))
         }),
         rows,
     })
+}
+
+/// The lattice itself; of fitted tips, which have no formulas, the best one by these.
+fn with_formulas(chosen: Lattice, problem: &Problem) -> Lattice {
+    match chosen {
+        Lattice::Orthogonal | Lattice::Interlaced | Lattice::Free => chosen,
+        Lattice::Fitted => {
+            let others = Problem {
+                lattices: LATTICES.to_vec(),
+                ..problem.clone()
+            };
+            optimum::solve(&others).map_or(Lattice::Interlaced, |best| best.lattice)
+        }
+    }
 }
 
 /// Changes of a job that are planned.

@@ -38,6 +38,7 @@ mod examples;
 mod finish;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod finish_surface;
+mod fitted;
 #[cfg(feature = "krl")]
 mod five_axis;
 mod fmt;

@@ -80,11 +80,7 @@ impl Row {
 
 /// The block cut with these parameters, the layer rounded down to the grid.
 fn planned(model: &Optimum) -> Outcome {
-    let lattice = match model.lattice {
-        Lattice::Orthogonal => "orthogonal",
-        Lattice::Interlaced => "interlaced",
-        Lattice::Free => "free",
-    };
+    let lattice = model.lattice.word();
     // Two micrometres less leave room for rounding the step.
     let layer = ((model.layer.to_mm() * 1000.0).round() - 2.0) / 1000.0;
     // The blade is as long as its edge in use, so that it may run out as short as the paper's.

@@ -3,6 +3,7 @@
 use crate::pipeline::{Files, compile_on, rendered};
 use crate::repository::root;
 use vcutc::driver::Outcome;
+use vcutc::vcut::asked::Lattice;
 use vcutc::vcut::plan::PlannedVcut;
 
 const JOB: &str = "bowl.vcut";
@@ -72,14 +73,13 @@ fn a_choice_that_is_written_down_comes_out_alike() {
     let open = compiled(LIMITS);
     let vcut = planned(&open);
     let found = &vcut.parameters;
+    assert_eq!(found.lattice, Lattice::Fitted);
     let written = format!(
-        "{LIMITS} lattice = {} swing = {} deg layer = {} mm step = {} mm residual = {} order = {} sequence = {} \
-         redundant = {}",
+        "{LIMITS} lattice = {} swing = {} deg layer = {} mm step = {} mm order = {} sequence = {} redundant = {}",
         found.lattice.word(),
         found.swing.to_deg(),
         found.layer.to_mm(),
         found.step.to_mm(),
-        vcut.strategy.word(),
         vcut.order.word(),
         vcut.sequence.word(),
         vcut.redundant().word(),

@@ -113,7 +113,7 @@ fn bound(parameters: &VcutParameters, allowance: f64, x: f64) -> f64 {
     let of_lattice = match parameters.lattice {
         Lattice::Orthogonal | Lattice::Free => libm::hypot(half, layer + rise),
         Lattice::Interlaced if x < half || x > WIDTH - half => libm::hypot(half, 2.0 * layer + rise),
-        Lattice::Interlaced => (layer + rise).max(libm::hypot(half, layer)),
+        Lattice::Interlaced | Lattice::Fitted => (layer + rise).max(libm::hypot(half, layer)),
     };
     of_lattice + allowance + parameters.drop.to_mm()
 }
@@ -167,7 +167,7 @@ fn the_planners_bound_is_the_true_one_but_for_wide_interlaced_lattices_and_sides
             let share = bound(&vcut.parameters, 0.0, WIDTH / 2.0) / planners;
             match lattice {
                 Lattice::Orthogonal | Lattice::Free => assert!((share - 1.0).abs() < 1e-9, "{share}"),
-                Lattice::Interlaced => of_interlaced.push(share > 1.0 + 1e-3),
+                Lattice::Interlaced | Lattice::Fitted => of_interlaced.push(share > 1.0 + 1e-3),
             }
         }
     }

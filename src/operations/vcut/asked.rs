@@ -147,6 +147,8 @@ pub enum Lattice {
     Interlaced,
     /// Every layer on its own, its outer tips on the part's profile.
     Free,
+    /// The last row on the part, as wide apart as the scallop allows, and rows above it as wide apart as the blade's reach allows.
+    Fitted,
 }
 
 /// In which order the Vs of an operation are cut.
@@ -202,7 +204,7 @@ pub enum Compensate {
 }
 
 words! {
-    Lattice { Orthogonal = "orthogonal", Interlaced = "interlaced", Free = "free" }
+    Lattice { Orthogonal = "orthogonal", Interlaced = "interlaced", Free = "free", Fitted = "fitted" }
     Objective { Time = "time", Scallop = "scallop", Cuts = "cuts", BladeLoad = "blade_load" }
     Formulas { Paper = "paper", Exact = "exact" }
     Residual { Discard = "discard", Lift = "lift", Shift = "shift", Mixed = "mixed" }

@@ -1,5 +1,6 @@
 //! `rough vcut { ... }`: V-shaped roughing.
 
+mod fitted;
 mod limits_block;
 #[cfg(test)]
 mod tests;
@@ -242,6 +243,9 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
     }
     if operation.compensate.value == Compensate::Forces && operation.follow.value != Follow::Straight {
         return Err(session.reports.push(compensated_along(&operation)));
+    }
+    if let Some(refused) = fitted::beside_fitted(&operation) {
+        return Err(session.reports.push(refused));
     }
     match given? {
         Some(given) => tips::over(given, operation, &fields, &mut session.reports),

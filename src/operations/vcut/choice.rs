@@ -35,11 +35,13 @@ use bench::{Bench, Figures, MEASURED_TO};
 use complaints::Sought;
 use core::cmp::Ordering;
 use rayon::prelude::*;
+use redundant::Skipping;
 use trial::{Found, FoundBy};
 use vcutc_backend_api::units::{Area, Duration, Length};
 use vcutc_cancellation::Effort;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_job::Auto;
+use vcutc_job::follow::Follow;
 use vcutc_job::operation::{self, Ground};
 use vcutc_job::search::{RouteSet, SearchEffort};
 use vcutc_simulation::surface::Surface;
@@ -372,25 +374,32 @@ fn best_lattice(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Resul
     }
 }
 
-/// The operation with the fewest cuts: those that a search for them finds, or the fastest plan where that has fewer.
+/// The operation with the fewest cuts: those that a search for them finds, with fitted tips or others, or the fastest plan where that has
+/// fewer.
 fn fewest(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Unplanned> {
     let searched = best_on(bench, asked, &parameters::open_lattices(asked), cuts_left);
     let mut fast = asked.clone();
     fast.objective.value = Objective::Time;
-    let fastest = best_lattice(bench, &fast, cuts_left).map(|mut laid| {
+    let fastest = best_lattice(bench, &fast, cuts_left).ok().map(|mut laid| {
         laid.vcut.asked.objective = asked.objective;
         laid
     });
     let limit = asked.limits.scallop.map(|limit| limit.value);
     let weighed = |laid: LaidOut| bench.weigh(laid).held_to(limit, asked);
-    match (searched, fastest) {
-        (Ok(searched), Ok(fastest)) => {
-            let (searched, fastest) = (weighed(searched), weighed(fastest));
-            let is_better = fastest.compare(&searched) == Ordering::Less;
-            Ok(if is_better { fastest.laid } else { searched.laid })
+    let others = best_fitted(bench, asked, cuts_left)
+        .into_iter()
+        .chain(fastest.map(weighed));
+    // The first one stands among equals.
+    let better = |best: Contender, other: Contender| {
+        if other.compare(&best) == Ordering::Less {
+            other
+        } else {
+            best
         }
-        (Ok(laid), Err(_)) | (Err(_), Ok(laid)) => Ok(laid),
-        (Err(unplanned), Err(_)) => Err(unplanned),
+    };
+    match searched {
+        Ok(searched) => Ok(others.fold(weighed(searched), better).laid),
+        Err(unplanned) => others.reduce(better).map(|best| best.laid).ok_or(unplanned),
     }
 }
 
@@ -444,12 +453,15 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> R
     for lattice in parameters::open_lattices(asked) {
         // A lattice on which the operation cannot be had is no fault of the job while there is another.
         if let Some(found) = trial::freest(bench, asked, lattice) {
-            let model = found.time_model(&bench.job, asked);
-            by_model.push((model.estimate(found.swing, found.layer, found.step), lattice));
+            by_model.push((found.estimate(&bench.job, asked), lattice));
         }
     }
     by_model.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let mut contest = Contest::new();
+    let limit = asked.limits.scallop.map(|limit| limit.value);
+    if let Some(fitted) = best_fitted(bench, asked, cuts_left) {
+        contest.enter(Lattice::Fitted.word(), fitted);
+    }
     // A lattice on which too many cuts are needed to compare them is the last resort.
     let mut large: Option<(&'static str, Found)> = None;
     for &(time, lattice) in &by_model {
@@ -467,7 +479,6 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> R
             }
             found => match found.and_then(|found| best_found(bench, asked, found, cuts_left)) {
                 Ok(laid) => {
-                    let limit = asked.limits.scallop.map(|limit| limit.value);
                     contest.enter(what, bench.weigh(laid).held_to(limit, asked));
                 }
                 Err(told) => {
@@ -498,6 +509,37 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> R
             })
         }
     }
+}
+
+/// The best operation with fitted tips, where they may be taken and nothing is wrong with it. More stands above them than between the rows
+/// of a lattice, so the body of the blade may meet it.
+fn best_fitted(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Option<Contender> {
+    if !is_fitted_open(bench, asked) {
+        return None;
+    }
+    let laid = best_on(bench, asked, &[Lattice::Fitted], cuts_left).ok()?;
+    let limit = asked.limits.scallop.map(|limit| limit.value);
+    let is_clear = bench.clears_bodies(&laid.vcut);
+    let weighed = bench.weigh(laid).held_to(limit, asked);
+    (is_clear && weighed.standing.time().is_some()).then_some(weighed)
+}
+
+/// The lattices that are searched one after the other, fitted tips first where they may be.
+fn lattices(bench: &Bench<'_>, asked: &RoughVcut) -> Vec<Lattice> {
+    let fitted = is_fitted_open(bench, asked).then_some(Lattice::Fitted);
+    let others = parameters::open_lattices(asked);
+    fitted.into_iter().chain(others).collect()
+}
+
+/// Whether tips may be fitted to the part where the lattice is open: as Vs may be skipped, and nothing asks for rows and columns.
+fn is_fitted_open(bench: &Bench<'_>, asked: &RoughVcut) -> bool {
+    asked.lattice.value == Auto::Auto
+        && asked.residual.value == Auto::Auto
+        && asked.follow.value == Follow::Straight
+        && asked.limits.layer.least.is_none()
+        && asked.limits.step.least.is_none()
+        && asked.limits.scallop.is_some()
+        && Skipping::of(&bench.job, asked) != Skipping::Never
 }
 
 /// Whether a time by the model is far behind a plan: behind its own time, and behind what the model says of it, for on small

@@ -13,6 +13,7 @@ pub mod blade_reach;
 mod chip;
 mod complaints;
 pub mod decision;
+pub(crate) mod fitted;
 pub mod floor;
 pub mod given;
 pub mod lattice;
@@ -31,11 +32,12 @@ pub(crate) mod tests;
 pub use vcutc_job::planned::TipOrigin;
 pub use vcutc_process::plan::MOST_CUTS;
 
-use crate::asked::{Redundant, Residual, RoughVcut, Sequence, Tips};
+use crate::asked::{Lattice, Redundant, Residual, RoughVcut, Sequence, Tips};
 use avoid::Swings;
 pub use complaints::beyond_the_stock;
 use complaints::{nothing_to_cut, too_many_cuts};
 use decision::Decision;
+use fitted::{Fitting, Unfit};
 use given::Course;
 use parameters::VcutParameters;
 use refusal::Refused;
@@ -191,6 +193,9 @@ pub fn lay_out(
         parameters: &parameters,
         bound,
     };
+    if parameters.lattice == Lattice::Fitted {
+        return lay_out_fitted(job, asked, before, ground, cuts_left);
+    }
     let strategy = asked.residual.value.or(Residual::Mixed);
     let mut after = before.clone();
     let planner = residual::LayerPlanner::new(ground, asked, strategy, job, &mut after);
@@ -234,7 +239,6 @@ pub struct Ground<'g> {
 /// An operation without cuts.
 fn unplanned(job: &PlanningJob<'_>, asked: &RoughVcut, ground: Ground<'_>) -> PlannedVcut {
     let parameters = ground.parameters;
-    let model = parameters.time_model(job, asked);
     PlannedVcut {
         asked: asked.clone(),
         parameters: parameters.clone(),
@@ -242,8 +246,8 @@ fn unplanned(job: &PlanningJob<'_>, asked: &RoughVcut, ground: Ground<'_>) -> Pl
         order: asked.order.value.or(Order::Point),
         sequence: Sequence::Rows,
         bound: ground.bound.clone(),
-        estimate: model.estimate(parameters.swing, parameters.layer, parameters.step),
-        estimated_cuts: model.cuts(parameters.layer, parameters.step),
+        estimate: parameters.estimate(job, asked),
+        estimated_cuts: parameters.estimated_cuts(job, asked),
         cuts: Vec::new(),
         skipped: 0,
         course: None,
@@ -274,6 +278,54 @@ fn lay_out_given(
         course: Some(course),
         ..unplanned(job, asked, ground)
     };
+    let order = vcut.order;
+    Ok(LaidOut {
+        vcut: vcut.along(order, Sequence::Rows, before, job.stock),
+        after,
+        strategies: Strategies::Alike,
+    })
+}
+
+/// As [`lay_out`], with tips fitted to the part.
+fn lay_out_fitted(
+    job: &PlanningJob<'_>,
+    asked: &RoughVcut,
+    before: &Surface,
+    ground: Ground<'_>,
+    cuts_left: usize,
+) -> Result<LaidOut, Box<Refused>> {
+    let parameters = ground.parameters;
+    let clearance = ground.layout.clearance();
+    let mut fitting = Fitting::new(job, asked, parameters, clearance, before, cuts_left).laxer();
+    let rows = match fitting.rows(parameters) {
+        Ok(rows) => rows,
+        Err(Unfit::TooMany(count)) => return Err(Box::new(too_many_cuts(asked, parameters, count))),
+        Err(Unfit::LeavesMore) => Vec::new(),
+    };
+    let mut after = before.clone();
+    let regular = |tip: Point2| PlannedCut {
+        layer: 0,
+        tip,
+        swings: Swings::even(parameters.swing),
+        origin: TipOrigin::Lattice,
+        way: Way::Over,
+    };
+    let (count, widest) = (rows.len(), fitting.widest_step_of(parameters.step));
+    let layers = rows.into_iter().map(|row| row.into_iter().map(regular).collect());
+    let cuts = chip::in_layers(parameters, layers.collect(), &mut after);
+    if cuts.is_empty() {
+        return Err(Box::new(nothing_to_cut(job, asked, parameters, clearance)));
+    }
+    let mut vcut = PlannedVcut {
+        strategy: Residual::Mixed,
+        estimate: parameters.time_of(job, asked, cuts.len(), count),
+        estimated_cuts: cuts.len() as f64,
+        cuts,
+        ..unplanned(job, asked, ground)
+    };
+    if asked.step.value == Auto::Auto {
+        vcut.parameters.step = parameters.step.min(widest);
+    }
     let order = vcut.order;
     Ok(LaidOut {
         vcut: vcut.along(order, Sequence::Rows, before, job.stock),

@@ -1,7 +1,7 @@
 //! What the plan of V-shaped roughing says of itself: lines of the summary, parameters for other programs, and the value of a
 //! field that was left open.
 
-use crate::asked::{Avoid, Redundant, RoughVcut, WhyChosen};
+use crate::asked::{Avoid, Lattice, Redundant, RoughVcut, WhyChosen};
 use crate::plan::PlannedVcut;
 use crate::plan::avoid::Swings;
 use crate::plan::decision::{Decision, Excess, Standing};
@@ -245,15 +245,22 @@ fn of_the_lattice(vcut: &PlannedVcut) -> Vec<ParameterFigure> {
     if asked.tips.is_some() {
         return Vec::new();
     }
-    vec![
+    let mut figures = vec![
         ParameterFigure::open("lattice", &asked.lattice, word(found.lattice.word())),
         ParameterFigure::open("layer", &asked.layer, millimetres(found.layer)),
         ParameterFigure::open("step", &asked.step, millimetres(found.step)),
-        ParameterFigure::open("overlap", &asked.overlap, number(overlap(vcut), None)),
-        ParameterFigure::open("residual", &asked.residual, word(vcut.strategy.word())),
+    ];
+    if found.lattice != Lattice::Fitted {
+        figures.extend([
+            ParameterFigure::open("overlap", &asked.overlap, number(overlap(vcut), None)),
+            ParameterFigure::open("residual", &asked.residual, word(vcut.strategy.word())),
+        ]);
+    }
+    figures.extend([
         ParameterFigure::open("redundant", &asked.redundant, word(vcut.redundant().word())),
         ParameterFigure::open("sequence", &asked.sequence, word(vcut.sequence.word())),
-    ]
+    ]);
+    figures
 }
 
 /// The share by which neighbouring cuts overlap, `s = 2 (1 - eps) h tan(alpha)` [Cui 6, 7]: a given step decides it.
@@ -299,7 +306,9 @@ fn chosen_value(planned: &PlannedVcut, field: &str) -> Option<String> {
     if let Some(choice) = choices.into_iter().find(|choice| choice.name == field) {
         return Some(choice.value);
     }
+    let is_fitted = planned.parameters.lattice == Lattice::Fitted;
     match field {
+        "overlap" | "residual" if is_fitted => None,
         "overlap" => Some(overlap_text(planned)),
         "residual" => Some(planned.strategy.word().to_owned()),
         "redundant" => Some(planned.redundant().word().to_owned()),

@@ -163,7 +163,7 @@ impl<'j> Bench<'j> {
     }
 
     /// Whether the body of the blade, where it is stated, stays out of the work.
-    fn clears_bodies(&self, vcut: &PlannedVcut) -> bool {
+    pub(super) fn clears_bodies(&self, vcut: &PlannedVcut) -> bool {
         if vcut.asked.blade.body.is_none() {
             return true;
         }

@@ -187,12 +187,13 @@ fn narrowed(by: &Narrowing, start: Kept, mut find: impl FnMut(Lattice, Length) -
 impl Search<'_> {
     /// Any parameters whose plan keeps a limit and all others, on some lattice first.
     fn any(&mut self, first: Lattice, limit: Length) -> Option<Kept> {
-        let mut lattices = parameters::open_lattices(self.asked);
+        let assumed = limited(self.asked, Some(limit));
+        let mut lattices = super::lattices(self.bench, &assumed);
         lattices.sort_by_key(|&lattice| lattice != first);
         let mut effort = Effort::OF_A_PROBE;
         let (parameters, figures) = offers::any(
             self.bench,
-            &limited(self.asked, Some(limit)),
+            &assumed,
             &lattices,
             self.cuts_left,
             &mut effort,

@@ -178,7 +178,7 @@ pub(super) fn is_sound(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize, e
         effort.spend(laid.vcut.cuts.len());
         return keeps_all(bench.weigh(laid), asked);
     }
-    let (assumed, lattices) = (as_time(asked), parameters::open_lattices(asked));
+    let (assumed, lattices) = (as_time(asked), super::lattices(bench, asked));
     any(bench, &assumed, &lattices, cuts_left, effort, &mut Vec::new()).is_some()
         || keeps_what_the_best_plan_needs(bench, asked, cuts_left, effort)
 }
@@ -204,10 +204,7 @@ fn keeps_what_the_best_plan_needs(
 /// Whether an operation has more cuts by the model than may be planned.
 fn is_too_large(bench: &Bench<'_>, asked: &RoughVcut, effort: &Effort) -> bool {
     let found = parameters::resolve(&bench.job, asked);
-    found.is_ok_and(|found| {
-        let model = found.time_model(&bench.job, asked);
-        effort.is_less_than(model.cuts(found.layer, found.step))
-    })
+    found.is_ok_and(|found| effort.is_less_than(found.estimated_cuts(&bench.job, asked)))
 }
 
 /// The first sound plan on any of some lattices, and plans that broke limits before.

@@ -78,8 +78,7 @@ impl Found {
     /// Whether the formulas' choice stands, with more cuts by the model than are compared.
     pub(super) fn is_large(&self, job: &PlanningJob<'_>, asked: &RoughVcut) -> bool {
         let found = &self.parameters;
-        let model = found.time_model(job, asked);
-        self.by == FoundBy::Formulas && model.cuts(found.layer, found.step) > MOST_CUTS_COMPARED as f64
+        self.by == FoundBy::Formulas && found.estimated_cuts(job, asked) > MOST_CUTS_COMPARED as f64
     }
 }
 
@@ -91,7 +90,7 @@ pub(super) fn parameters(
     rival: Option<Duration>,
     cuts_left: usize,
 ) -> Result<Found, Unplanned> {
-    let by_bound = match parameters::resolve_on(&bench.job, &of_model(asked), lattices.to_vec()) {
+    let by_bound = match by_formulas(bench, asked, lattices) {
         Ok(found) if !is_searched(asked) => return Ok(plain(found)),
         Ok(found) => Ok(found),
         Err(refusal) if goes_on(asked, &refusal) => Err(refusal),
@@ -102,7 +101,7 @@ pub(super) fn parameters(
     let by_formulas = trials.search(by_bound.as_ref().ok());
     match (trials.best(), by_bound) {
         (None, by_bound) => by_bound.map(plain).map_err(Unplanned::from),
-        (Some(best), Ok(bound)) if alike(&bound, &best) => Ok(plain(bound)),
+        (Some(best), Ok(bound)) if alike(&bound, &best) && !trials.is_fitted() => Ok(plain(bound)),
         (Some(parameters), Ok(_) | Err(_)) => Ok(Found {
             parameters,
             by: FoundBy::Simulation,
@@ -134,7 +133,7 @@ pub(super) fn any(
 ) -> (Any, Effort) {
     let mut trials = Trials::new(bench, asked, lattices, cuts_left);
     (trials.goal, trials.effort) = (Goal::Any, effort);
-    match parameters::resolve_on(&bench.job, &of_model(asked), lattices.to_vec()) {
+    match by_formulas(bench, asked, lattices) {
         Ok(found) => {
             trials.search(Some(&found));
         }
@@ -202,6 +201,19 @@ pub(super) fn of_model(asked: &RoughVcut) -> RoughVcut {
         Objective::Time | Objective::Cuts if is_searched(asked) => limits::of_plans(asked),
         Objective::Time | Objective::Cuts | Objective::Scallop | Objective::BladeLoad => asked.clone(),
     }
+}
+
+/// The formulas' parameters on one of these lattices. Fitted tips keep the limit on the scallop whatever these are.
+fn by_formulas(
+    bench: &Bench<'_>,
+    asked: &RoughVcut,
+    lattices: &[Lattice],
+) -> Result<VcutParameters, Refusal> {
+    let mut asked = of_model(asked);
+    if lattices == [Lattice::Fitted] && is_searched(&asked) {
+        asked.limits.scallop = None;
+    }
+    parameters::resolve_on(&bench.job, &asked, lattices.to_vec())
 }
 
 /// The parameters if nothing were known of the scallop.
@@ -313,7 +325,12 @@ impl<'t> Trials<'t> {
     /// The whole search; what came of the formulas' parameters.
     fn search(&mut self, by_bound: Option<&VcutParameters>) -> Option<Standing> {
         let first = by_bound.and_then(|found| self.weigh(found.clone()));
-        for part in [Self::climb, Self::spread, Self::wander, Self::comb] {
+        let parts: &[fn(&mut Self)] = if self.is_fitted() {
+            &[Self::spread, Self::wander, Self::comb]
+        } else {
+            &[Self::climb, Self::spread, Self::wander, Self::comb]
+        };
+        for part in parts {
             if self.is_answered() {
                 break;
             }
@@ -329,6 +346,11 @@ impl<'t> Trials<'t> {
             Goal::Any => !self.sound.is_empty(),
         };
         is_found || self.is_far_behind() || self.effort.is_spent() || self.bench.wanted.is_needless()
+    }
+
+    /// Whether tips are fitted to the part: then no formula holds the scallop, and what forecasts say of cuts is counted.
+    fn is_fitted(&self) -> bool {
+        self.lattices == [Lattice::Fitted]
     }
 
     /// How many times as many plans as usual may be made.
@@ -426,6 +448,10 @@ impl<'t> Trials<'t> {
         if cuts > MOST_CUTS_COMPARED {
             return Outcome::TooLarge { cuts };
         }
+        // Above fitted tips more stands than between the rows of a lattice.
+        if found.lattice == Lattice::Fitted && !self.bench.clears_bodies(&laid.vcut) {
+            return Outcome::Impossible;
+        }
         let limit = self.asked.limits.scallop.map(|limit| limit.value);
         let held = self.held_to();
         let thinned = match Skipping::of(&self.bench.job, self.asked) {
@@ -484,8 +510,7 @@ impl<'t> Trials<'t> {
 
     /// Whether there will be far more cuts than are compared, by the model: to lay them out takes long.
     fn is_too_large(&self, found: &VcutParameters) -> bool {
-        let model = found.time_model(&self.bench.job, self.asked);
-        let cuts = model.cuts(found.layer, found.step);
+        let cuts = found.estimated_cuts(&self.bench.job, self.asked);
         let most = match self.goal {
             Goal::Best => 1.5,
             Goal::Any => 1.0,
@@ -556,9 +581,7 @@ impl<'t> Trials<'t> {
     }
 
     fn model(&self, found: &VcutParameters) -> Duration {
-        found
-            .time_model(&self.bench.job, self.asked)
-            .estimate(found.swing, found.layer, found.step)
+        found.estimate(&self.bench.job, self.asked)
     }
 
     fn resolve(&self, assumed: &RoughVcut) -> Option<VcutParameters> {

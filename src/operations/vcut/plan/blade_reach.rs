@@ -72,7 +72,7 @@ impl OlderTips {
                 first: step,
                 spacing: step,
             },
-            Lattice::Interlaced => Self {
+            Lattice::Interlaced | Lattice::Fitted => Self {
                 first: step / 2.0,
                 spacing: step,
             },
@@ -104,6 +104,8 @@ pub fn needed_reach(lattice: Lattice, layer: Length, step: Length, slope: f64) -
             Length::mm((h + slope * (tips.first + missed * tips.spacing)) / 2.0).max(layer)
         }
         Lattice::Free => Length::mm(h + slope * s / 2.0),
+        // Rows above the last one are as far apart as that needs, whatever its step.
+        Lattice::Fitted => layer,
     }
 }
 
@@ -123,6 +125,7 @@ pub fn largest_layer_at_step(lattice: Lattice, step: Length, slope: f64, reach: 
     let reach = reach.to_mm();
     let best = match lattice {
         Lattice::Free => reach - rise / 2.0,
+        Lattice::Fitted => reach,
         Lattice::Orthogonal | Lattice::Interlaced => {
             let tips = OlderTips::of(lattice, rise);
             // Passing under k tips: h <= u_k (so that tip k is passed above) and (h + u_k) / 2 <= reach. The best k has u_k
@@ -147,7 +150,9 @@ pub fn scallop_bound(lattice: Lattice, layer: Length, step: Length, slope: f64) 
     let drop = layer.to_mm() + slope * step.to_mm() / 2.0;
     match lattice {
         Lattice::Orthogonal | Lattice::Free => Length::mm(libm::hypot(step.to_mm() / 2.0, drop)),
-        Lattice::Interlaced => Length::mm(drop.max(libm::hypot(step.to_mm() / 2.0, layer.to_mm()))),
+        Lattice::Interlaced | Lattice::Fitted => {
+            Length::mm(drop.max(libm::hypot(step.to_mm() / 2.0, layer.to_mm())))
+        }
     }
 }
 
@@ -170,7 +175,7 @@ pub fn largest_layer_for_scallop_at_step(
     let down = (limit * limit - s * s / 4.0).max(0.0).sqrt();
     let layer = match lattice {
         Lattice::Orthogonal | Lattice::Free => down - slope * s / 2.0,
-        Lattice::Interlaced => down.min(limit - slope * s / 2.0),
+        Lattice::Interlaced | Lattice::Fitted => down.min(limit - slope * s / 2.0),
     };
     (layer > 0.0).then(|| Length::mm(layer))
 }

@@ -1,7 +1,7 @@
 //! Whether the chip of a V comes free, and how the blade gets from one V to the next.
 
-use super::Way;
 use super::parameters::VcutParameters;
+use super::{PlannedCut, Way};
 use core::ops::RangeInclusive;
 use vcutc_geometry::curve::Point2;
 use vcutc_simulation::surface::{Side, Surface, Vee};
@@ -56,6 +56,32 @@ pub(super) fn entering(vee: Vee, stretch: &RangeInclusive<f64>) -> Vee {
     let x = vee.tip.x.clamp(*stretch.start(), *stretch.end());
     let tip = Point2 { x, z: vee.height(x) };
     Vee { tip, ..vee }
+}
+
+/// The Vs of some layers with the ways between them, and with numbers for the layers that have any; the surface is what they leave then.
+pub(super) fn in_layers(
+    parameters: &VcutParameters,
+    layers: Vec<Vec<PlannedCut>>,
+    surface: &mut Surface,
+) -> Vec<PlannedCut> {
+    let mut cuts = Vec::new();
+    let layers = layers.into_iter().filter(|layer| !layer.is_empty());
+    for (number, layer) in (1..).zip(layers) {
+        let mut before: Option<Point2> = None;
+        for cut in &layer {
+            let way = before.map_or(Way::Over, |before| way(parameters, surface, before, cut.tip));
+            cuts.push(PlannedCut {
+                layer: number,
+                way,
+                ..*cut
+            });
+            before = Some(cut.tip);
+        }
+        for cut in &layer {
+            surface.release(Vee::even(cut.tip, parameters.flanks.slope));
+        }
+    }
+    cuts
 }
 
 /// How the blade gets from one cut of a layer to the next, judged before any chip of the layer is out.

@@ -100,6 +100,12 @@ impl<'c> Layout<'c> {
         layout
     }
 
+    /// How low a V may go, but for the drop.
+    #[must_use]
+    pub const fn clearance(&self) -> &Profile {
+        self.clearance
+    }
+
     /// How many layers there are.
     #[must_use]
     pub const fn layers(&self) -> u32 {
@@ -205,7 +211,7 @@ impl<'c> Layout<'c> {
                     .collect();
                 Rows::Alternating { odd, even }
             }
-            Lattice::Free => Rows::Free,
+            Lattice::Free | Lattice::Fitted => Rows::Free,
         }
     }
 

@@ -118,11 +118,12 @@ impl VcutParameters {
             Auto::Given(_) => None,
         };
         let overlap = match (asked.overlap.value, asked.step.value) {
-            (Auto::Auto, Auto::Auto) => Some(Choice {
+            // How wide the last row is, the step says.
+            (Auto::Auto, Auto::Auto) if self.lattice != Lattice::Fitted => Some(Choice {
                 name: "overlap",
                 value: format!("{} %", show(self.overlap * 100.0)),
             }),
-            (Auto::Given(_), _) | (_, Auto::Given(_)) => None,
+            (Auto::Given(_) | Auto::Auto, _) => None,
         };
         [
             lattice,
@@ -171,7 +172,9 @@ impl VcutParameters {
     #[must_use]
     pub fn found_by_simulation(self, asked: &RoughVcut) -> Self {
         let bound = self.scallop_bound(asked);
-        let is_broken = asked.limits.scallop.is_some_and(|limit| bound > limit.value);
+        // Fitted tips keep the limit by how they are found, whatever the bound.
+        let is_broken =
+            self.lattice == Lattice::Fitted || asked.limits.scallop.is_some_and(|limit| bound > limit.value);
         Self {
             scallop_by: if is_broken {
                 ScallopBy::Simulation
@@ -179,6 +182,39 @@ impl VcutParameters {
                 self.scallop_by
             },
             ..self
+        }
+    }
+
+    /// The mean-value estimate of the time [Cui 11].
+    #[must_use]
+    pub fn estimate(&self, job: &PlanningJob<'_>, asked: &RoughVcut) -> Duration {
+        let model = self.time_model(job, asked);
+        model.estimate(self.swing, self.layer, self.step_of_rows())
+    }
+
+    /// The same for so many Vs in so many layers.
+    #[must_use]
+    pub fn time_of(&self, job: &PlanningJob<'_>, asked: &RoughVcut, cuts: usize, layers: usize) -> Duration {
+        let model = self.time_model(job, asked);
+        let layers = layers.max(1) as f64;
+        let (points, step) = (
+            cuts as f64 / layers,
+            model.width * (layers / (cuts.max(1) as f64)),
+        );
+        model.of_cuts(self.swing, (self.layer, step), points, layers)
+    }
+
+    /// How many Vs that estimate is made for.
+    #[must_use]
+    pub fn estimated_cuts(&self, job: &PlanningJob<'_>, asked: &RoughVcut) -> f64 {
+        self.time_model(job, asked).cuts(self.layer, self.step_of_rows())
+    }
+
+    /// The step of all rows; of fitted lattices, of those above the last one.
+    fn step_of_rows(&self) -> Length {
+        match self.lattice {
+            Lattice::Orthogonal | Lattice::Interlaced | Lattice::Free => self.step,
+            Lattice::Fitted => self.layer * (2.0 / self.flanks.slope),
         }
     }
 
@@ -434,7 +470,11 @@ fn complete(
     let flanks = flanks_at(asked, swing);
     let lean = Lean::new(asked, swing);
     // Between the tips of the layer above, teeth stand up to this much above the tips of this one.
-    let teeth = layer + step * (flanks.slope / 2.0);
+    let teeth = match lattice {
+        Lattice::Orthogonal | Lattice::Interlaced | Lattice::Free => layer + step * (flanks.slope / 2.0),
+        // Chips stand as high as both flanks reach.
+        Lattice::Fitted => layer * 2.0,
+    };
     let extension = resolve_extension(asked, edge, lean.overhang(teeth), diagnostics)?;
     let beyond = Beyond::of(asked, extension);
     // Who gives a shorter extension than the teeth ask for, as [Cui 5] does, accepts that the blade brushes them.

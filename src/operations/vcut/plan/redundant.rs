@@ -11,13 +11,12 @@ mod ridge;
 #[cfg(test)]
 mod tests;
 
-use super::chip::way;
+use super::chip::in_layers;
 use super::parameters::VcutParameters;
-use super::{PlannedCut, PlannedVcut, Way};
+use super::{PlannedCut, PlannedVcut};
 use ridge::Ridge;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{Area, Length};
-use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 use vcutc_simulation::contour::farthest;
 use vcutc_simulation::report::area_under;
@@ -51,7 +50,7 @@ pub(crate) fn without_redundant(
     let skipped = vcut.cuts.len() - count;
     (skipped > 0 && count > 0).then(|| {
         let thinned = PlannedVcut {
-            cuts: thinning.numbered(needed, before.clone()),
+            cuts: in_layers(&vcut.parameters, needed, &mut before.clone()),
             skipped,
             ..vcut.clone()
         };
@@ -135,27 +134,5 @@ impl Thinning<'_> {
 
     const fn vee(&self, cut: &PlannedCut) -> Vee {
         Vee::even(cut.tip, self.parameters.flanks.slope)
-    }
-
-    /// The Vs of some layers with the ways between them, and with numbers for the layers that have any.
-    fn numbered(&self, layers: Vec<Vec<PlannedCut>>, mut surface: Surface) -> Vec<PlannedCut> {
-        let mut cuts = Vec::new();
-        let layers = layers.into_iter().filter(|layer| !layer.is_empty());
-        for (number, layer) in (1..).zip(layers) {
-            let mut before: Option<Point2> = None;
-            for cut in &layer {
-                let way = before.map_or(Way::Over, |before| {
-                    way(self.parameters, &mut surface, before, cut.tip)
-                });
-                cuts.push(PlannedCut {
-                    layer: number,
-                    way,
-                    ..*cut
-                });
-                before = Some(cut.tip);
-            }
-            self.release(&mut surface, &layer);
-        }
-        cuts
     }
 }

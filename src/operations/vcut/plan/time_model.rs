@@ -48,7 +48,18 @@ impl TimeModel {
     /// Estimated process time for a swing, a layer and a step.
     #[must_use]
     pub fn estimate(&self, swing: Angle, layer: Length, step: Length) -> Duration {
-        let (points, layers) = (self.points(step), self.layers(layer));
+        self.of_cuts(swing, (layer, step), self.points(step), self.layers(layer))
+    }
+
+    /// The same for so many points in each of so many layers.
+    #[must_use]
+    pub fn of_cuts(
+        &self,
+        swing: Angle,
+        (layer, step): (Length, Length),
+        points: f64,
+        layers: f64,
+    ) -> Duration {
         let mean_depth = self.area.to_mm2() / self.width.to_mm();
         let turn = Angle::rad(2.0 * libm::acos(swing.cos() * self.rake.sin())) / self.reorient_rate;
         let cuts = (2.0 * self.depth + 4.0 * self.extension) / self.cut_feed;

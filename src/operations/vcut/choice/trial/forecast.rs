@@ -8,7 +8,9 @@
 use super::Trials;
 use crate::PlannedVcut;
 use crate::asked::{Lattice, Objective, Residual};
+use crate::choice::MOST_CUTS_COMPARED;
 use crate::choice::redundant::Skipping;
+use crate::plan::fitted::{Fitting, Testing};
 use crate::plan::lattice::{Column, Layout, Parity, Row};
 use crate::plan::parameters::{Swung, VcutParameters};
 use crate::plan::residual::least_gain;
@@ -43,7 +45,7 @@ impl Ends {
         match lattice {
             Lattice::Interlaced => &[Self::None, Self::Odd, Self::Even, Self::Both],
             Lattice::Orthogonal => &[Self::None, Self::Odd],
-            Lattice::Free => &[Self::None],
+            Lattice::Free | Lattice::Fitted => &[Self::None],
         }
     }
 
@@ -76,7 +78,7 @@ impl Trials<'_> {
             return true;
         };
         let found = &one.parameters;
-        if found.lattice == Lattice::Free {
+        if matches!(found.lattice, Lattice::Free | Lattice::Fitted) {
             return self.may_be_sound(found);
         }
         let followed = self.floor.followed(found.flanks.slope);
@@ -98,21 +100,32 @@ impl Trials<'_> {
         let mut spots = self.spots();
         spots.extend(self.closer_spots());
         let mut found: Vec<Forecast> = Vec::new();
-        let mut clearance: Option<(Angle, Profile)> = None;
         spots.sort_by(|one, other| one.swing.total_cmp(&other.swing));
-        for parameters in spots {
-            let is_same = |(swing, _): &(Angle, Profile)| *swing == parameters.swing;
-            if !clearance.as_ref().is_some_and(is_same) {
-                clearance = Some((parameters.swing, self.clearance(&parameters)));
-            }
-            let Some((_, of_swing)) = &clearance else { continue };
-            for &ends in Ends::of(parameters.lattice) {
-                let with_all = self.reckon(&parameters, of_swing, ends);
-                found.push(Forecast {
-                    merit: self.forecast(&parameters, with_all),
-                    parameters: parameters.clone(),
-                    ends,
-                });
+        for of_swing in spots.chunk_by(|one, next| one.swing == next.swing) {
+            let Some(first) = of_swing.first() else { continue };
+            let clearance = self.clearance(first);
+            let mut fitting = Fitting::new(
+                &self.bench.job,
+                self.asked,
+                first,
+                &clearance,
+                self.bench.work().before,
+                self.cuts_left.min(MOST_CUTS_COMPARED),
+            )
+            .tested(Testing::AtPeaks);
+            for parameters in of_swing {
+                if parameters.lattice == Lattice::Fitted {
+                    self.add_fitted(parameters, &mut fitting, &mut found);
+                    continue;
+                }
+                for &ends in Ends::of(parameters.lattice) {
+                    let with_all = self.reckon(parameters, &clearance, ends);
+                    found.push(Forecast {
+                        merit: self.forecast(parameters, with_all),
+                        parameters: parameters.clone(),
+                        ends,
+                    });
+                }
             }
         }
         found.sort_by(|one, other| one.merit.total_cmp(&other.merit));
@@ -127,7 +140,7 @@ impl Trials<'_> {
         }
         let apart = match found.lattice {
             Lattice::Interlaced => found.step / 2.0,
-            Lattice::Orthogonal | Lattice::Free => found.step,
+            Lattice::Orthogonal | Lattice::Free | Lattice::Fitted => found.step,
         };
         libm::pow(with_all, SHARE) * libm::pow(apart.to_mm(), SHARE - 1.0)
     }
@@ -139,7 +152,11 @@ impl Trials<'_> {
         let Some(limit) = self.asked.limits.scallop else {
             return spots;
         };
-        for &lattice in self.lattices {
+        for &lattice in self
+            .lattices
+            .iter()
+            .filter(|lattice| **lattice != Lattice::Fitted)
+        {
             for swing in self.swings().into_iter().take(SWINGS) {
                 let Some(swung) = Swung::new(self.asked, lattice, swing) else {
                     continue;
@@ -161,16 +178,36 @@ impl Trials<'_> {
     /// What the objective comes to by the count of cuts: seconds, or cuts.
     fn reckon(&self, found: &VcutParameters, clearance: &Profile, ends: Ends) -> f64 {
         let layout = Layout::new(self.bench.job.stock, found.lattice, found, clearance);
-        self.merit(found, &layout, self.count(found, &layout, ends))
+        self.merit(
+            found,
+            f64::from(layout.layers()),
+            self.count(found, &layout, ends),
+        )
     }
 
-    /// What the objective comes to with so many cuts.
-    fn merit(&self, found: &VcutParameters, layout: &Layout<'_>, cuts: f64) -> f64 {
+    /// Adds parameters of a fitted lattice with what their tips come to, where they fit: of steps that come to the same, the first one.
+    fn add_fitted(&self, parameters: &VcutParameters, fitting: &mut Fitting<'_>, found: &mut Vec<Forecast>) {
+        let is_of_layer = |last: &Forecast| last.parameters.layer == parameters.layer;
+        if found.last().is_some_and(is_of_layer) && !fitting.is_narrowed_by(parameters.step) {
+            return;
+        }
+        let Ok(rows) = fitting.rows(parameters) else {
+            return;
+        };
+        let cuts: usize = rows.iter().map(Vec::len).sum();
+        let merit = self.merit(parameters, rows.len() as f64, cuts as f64);
+        found.push(Forecast {
+            merit,
+            parameters: parameters.clone(),
+            ends: Ends::None,
+        });
+    }
+
+    /// What the objective comes to with so many layers and cuts.
+    fn merit(&self, found: &VcutParameters, layers: f64, cuts: f64) -> f64 {
         match self.asked.objective.value {
             Objective::Cuts => cuts,
-            Objective::Time | Objective::Scallop | Objective::BladeLoad => {
-                self.seconds(found, cuts, f64::from(layout.layers()))
-            }
+            Objective::Time | Objective::Scallop | Objective::BladeLoad => self.seconds(found, cuts, layers),
         }
     }
 
@@ -189,8 +226,7 @@ impl Trials<'_> {
                     cuts += visits.sum::<f64>();
                 }
                 Row::Free(_) => {
-                    let model = found.time_model(&self.bench.job, self.asked);
-                    return model.cuts(found.layer, found.step);
+                    return found.estimated_cuts(&self.bench.job, self.asked);
                 }
             }
         }
@@ -210,7 +246,9 @@ impl Trials<'_> {
         let (first, apart) = match (found.lattice, parity) {
             (Lattice::Interlaced, Parity::Odd) => (layer, 2.0 * layer),
             (Lattice::Interlaced, Parity::Even) => (2.0 * layer, 2.0 * layer),
-            (Lattice::Orthogonal | Lattice::Free, Parity::Odd | Parity::Even) => (layer, layer),
+            (Lattice::Orthogonal | Lattice::Free | Lattice::Fitted, Parity::Odd | Parity::Even) => {
+                (layer, layer)
+            }
         };
         let count = (((floor - first) / apart).floor() + 1.0).max(0.0);
         let depth = if count > 0.0 {
@@ -259,7 +297,10 @@ impl Trials<'_> {
         let model = found.time_model(&self.bench.job, self.asked);
         let turn = Angle::rad(2.0 * libm::acos(found.swing.cos() * model.rake.sin())) / model.reorient_rate;
         let passes = (2.0 * model.depth + 4.0 * model.extension) / model.cut_feed;
-        let across = found.step / model.travel_feed;
+        let across = match found.lattice {
+            Lattice::Orthogonal | Lattice::Interlaced | Lattice::Free => found.step,
+            Lattice::Fitted => model.width * (layers / cuts),
+        } / model.travel_feed;
         let by_point = (passes + turn + turn.max(across)) * cuts;
         let by_layer = (passes + across + across) * cuts + turn * (2.0 * layers);
         [by_point, by_layer]

@@ -7,11 +7,15 @@
 
 use super::around::FACTORS;
 use super::{Figures, Sound};
-use crate::asked::RoughVcut;
+use crate::asked::{Lattice, RoughVcut};
 use crate::plan::decision::{Excess, Standing};
 use crate::plan::optimum::Bound;
 use crate::plan::parameters::{Swung, VcutParameters};
+use vcutc_backend_api::units::Length;
 use vcutc_job::{Auto, Bounds};
+
+/// The share of its limit from which on a scallop of fitted tips has reached it.
+const REACHED: f64 = 0.99;
 
 /// A plan that broke a limit.
 pub(in crate::choice) struct TurnedDown {
@@ -68,9 +72,15 @@ pub(super) fn binding(asked: &RoughVcut, sound: &Sound, turned_down: &[TurnedDow
             found.step,
             [Bound::StepLeast, Bound::StepMost],
         ));
-        if asked.overlap.value == Auto::Auto && found.overlap <= 0.0 {
+        if asked.overlap.value == Auto::Auto && found.overlap <= 0.0 && found.lattice != Lattice::Fitted {
             met.push(Bound::OverlapLeast);
         }
+    }
+    // The last row is as wide apart as the limit on the scallop allows.
+    let is_reached = |limit: Length| sound.figures.height > limit * REACHED;
+    let is_fitted = found.lattice == Lattice::Fitted;
+    if is_fitted && asked.limits.scallop.is_some_and(|limit| is_reached(limit.value)) {
+        met.push(Bound::Scallop);
     }
     let broken = turned_down
         .iter()

@@ -43,6 +43,15 @@ const WIDER: [Angle; 4] = [
     Angle::deg(82.0),
 ];
 
+/// More of both for fitted lattices, of which all are counted.
+const CLOSER_SWINGS: [f64; 4] = [0.95, 0.9, 0.8, 0.68];
+const CLOSER_WIDER: [Angle; 4] = [
+    Angle::deg(53.0),
+    Angle::deg(56.0),
+    Angle::deg(65.0),
+    Angle::deg(73.0),
+];
+
 /// Swings that may be needed beside walls.
 const NARROWER: [Angle; 5] = [
     Angle::deg(10.0),
@@ -63,6 +72,12 @@ const OVERLAPS: [f64; 3] = [0.0, 0.3, 0.5];
 
 /// Layers as shares of the largest one at a swing.
 const LAYERS: [f64; 6] = [1.0, 0.87, 0.72, 0.5, 0.33, 0.2];
+
+/// Layers of fitted lattices as shares of the largest one at a swing.
+const FITTED_LAYERS: [f64; 9] = [1.0, 0.95, 0.9, 0.85, 0.79, 0.72, 0.64, 0.5, 0.33];
+
+/// Into how many steps of the last row one of the rows above is divided at least.
+const FITTED_PARTS: [f64; 3] = [1.0, 2.0, 3.0];
 
 /// The first step that is held against the limit, as a share of the one that leaves as much on a level part.
 const WIDEST_STEP: f64 = 1.4;
@@ -196,7 +211,9 @@ impl Trials<'_> {
                 let Some(swung) = Swung::new(self.asked, lattice, swing) else {
                     continue;
                 };
-                if self.is_step_of_the_blade() {
+                if lattice == Lattice::Fitted {
+                    self.spots_fitted(&swung, &mut spots);
+                } else if self.is_step_of_the_blade() {
                     self.spots_by_reach(&swung, &mut spots);
                 } else {
                     self.spots_by_overlap(&swung, &mut spots);
@@ -215,11 +232,17 @@ impl Trials<'_> {
             (Auto::Auto, most) => most.map_or(WIDEST, |most| most.value),
         };
         let mut swings: Vec<Angle> = SWINGS.map(|share| thousandths(widest * share)).to_vec();
+        if self.is_fitted() {
+            swings.extend(CLOSER_SWINGS.map(|share| thousandths(widest * share)));
+        }
         if self.asked.limits.scallop.is_none() {
             return swings;
         }
         if limits.most.is_none() {
             swings.extend(WIDER);
+            if self.is_fitted() {
+                swings.extend(CLOSER_WIDER);
+            }
         }
         swings.extend(NARROWER.into_iter().filter(|&narrow| narrow < widest));
         swings.retain(|&swing| limits.hold(swing));
@@ -275,6 +298,30 @@ impl Trials<'_> {
         for layer in layers {
             if let Some((step, overlap)) = swung.widest_fitting_step(layer) {
                 self.add(swung.parameters(layer, step, overlap), spots);
+            }
+        }
+    }
+
+    /// The largest layer whose Vs just meet, and smaller ones, with steps of the last row of which a whole number makes one of theirs.
+    fn spots_fitted(&self, swung: &Swung<'_>, spots: &mut Vec<VcutParameters>) {
+        let layers: Vec<Length> = match self.asked.layer.value {
+            Auto::Given(layer) => vec![layer],
+            Auto::Auto => FITTED_LAYERS
+                .map(|share| Length::mm(grid::down(swung.layer_at_overlap(0.0).to_mm() * share)))
+                .to_vec(),
+        };
+        for layer in layers {
+            let steps = match (self.asked.step.value, self.asked.overlap.value) {
+                (Auto::Given(step), _) => vec![step],
+                (Auto::Auto, Auto::Given(overlap)) => vec![swung.widest_step(layer, overlap)],
+                (Auto::Auto, Auto::Auto) => FITTED_PARTS
+                    .map(|parts| swung.widest_step(layer, 1.0 - 1.0 / parts))
+                    .to_vec(),
+            };
+            for step in steps {
+                let limit = self.asked.limits.step.most;
+                let step = limit.map_or(step, |most| step.min(Length::mm(grid::down(most.value.to_mm()))));
+                self.add(swung.parameters(layer, step, swung.overlap(layer, step)), spots);
             }
         }
     }

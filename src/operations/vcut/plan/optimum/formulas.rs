@@ -236,9 +236,12 @@ impl Model {
     /// The first step of the saw-tooth within the range of shares, and the rest.
     pub(super) fn teeth(&self) -> impl Iterator<Item = Tooth> + use<> {
         let teeth = match (self.formulas, self.lattice) {
-            (Formulas::Paper, Lattice::Orthogonal | Lattice::Interlaced | Lattice::Free)
+            (
+                Formulas::Paper,
+                Lattice::Orthogonal | Lattice::Interlaced | Lattice::Free | Lattice::Fitted,
+            )
             | (Formulas::Exact, Lattice::Free) => [Some(Tooth::Any), None],
-            (Formulas::Exact, Lattice::Orthogonal | Lattice::Interlaced) => {
+            (Formulas::Exact, Lattice::Orthogonal | Lattice::Interlaced | Lattice::Fitted) => {
                 let first = self.behind(self.ranges.share[1]);
                 let later = (self.behind(self.ranges.share[0]) > first).then(|| Tooth::Later(first + 1));
                 [Some(Tooth::Behind(first)), later]
@@ -251,7 +254,7 @@ impl Model {
     pub(super) fn behind(&self, share: f64) -> u32 {
         let number = match self.lattice {
             Lattice::Orthogonal => past_jump(0.5 / share),
-            Lattice::Interlaced => past_jump(0.5 / share + 0.5),
+            Lattice::Interlaced | Lattice::Fitted => past_jump(0.5 / share + 0.5),
             Lattice::Free => 1.0,
         };
         #[expect(
@@ -270,7 +273,7 @@ impl Model {
         let number = f64::from(number);
         let steps = match self.lattice {
             Lattice::Orthogonal | Lattice::Free => number,
-            Lattice::Interlaced => number - 0.5,
+            Lattice::Interlaced | Lattice::Fitted => number - 0.5,
         };
         (0.5 / steps, steps)
     }
@@ -318,16 +321,22 @@ impl Model {
     fn factor<N: Scalar>(&self, share: N, tooth: Tooth) -> N {
         match (self.formulas, self.lattice, tooth) {
             (Formulas::Paper, Lattice::Orthogonal, _) => N::constant(1.5),
-            (Formulas::Paper, Lattice::Interlaced, _) => N::constant(1.0),
+            (Formulas::Paper, Lattice::Interlaced | Lattice::Fitted, _) => N::constant(1.0),
             (Formulas::Paper, Lattice::Free, _) => N::constant(2.0),
             (Formulas::Exact, Lattice::Free, _) | (Formulas::Exact, _, Tooth::Any) => share.plus(1.0),
-            (Formulas::Exact, Lattice::Orthogonal | Lattice::Interlaced, Tooth::Behind(number)) => {
+            (
+                Formulas::Exact,
+                Lattice::Orthogonal | Lattice::Interlaced | Lattice::Fitted,
+                Tooth::Behind(number),
+            ) => {
                 let (_, steps) = self.jump(number);
                 share.times(steps).plus(0.5).greater(N::constant(1.0))
             }
-            (Formulas::Exact, Lattice::Orthogonal | Lattice::Interlaced, Tooth::Later(_)) => {
-                share.plus(1.0).or_down_to_one()
-            }
+            (
+                Formulas::Exact,
+                Lattice::Orthogonal | Lattice::Interlaced | Lattice::Fitted,
+                Tooth::Later(_),
+            ) => share.plus(1.0).or_down_to_one(),
         }
     }
 
@@ -336,7 +345,7 @@ impl Model {
         let drop = shape.share.plus(1.0);
         match self.lattice {
             Lattice::Orthogonal | Lattice::Free => (shape.aspect * shape.aspect + drop * drop).root(),
-            Lattice::Interlaced => match self.formulas {
+            Lattice::Interlaced | Lattice::Fitted => match self.formulas {
                 Formulas::Paper => drop,
                 Formulas::Exact => drop.greater((shape.aspect * shape.aspect).plus(1.0).root()),
             },

@@ -67,7 +67,7 @@ impl Point {
     fn reach(&self, problem: &Problem) -> Length {
         match (problem.formulas, self.lattice) {
             (Formulas::Paper, Lattice::Orthogonal) => self.layer * 1.5,
-            (Formulas::Paper, Lattice::Interlaced) => self.layer,
+            (Formulas::Paper, Lattice::Interlaced | Lattice::Fitted) => self.layer,
             (Formulas::Paper, Lattice::Free) => self.layer * 2.0,
             (Formulas::Exact, _) => needed_reach(self.lattice, self.layer, self.step, 1.0 / self.swing.tan()),
         }

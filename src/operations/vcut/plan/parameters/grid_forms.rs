@@ -35,7 +35,7 @@ fn around(value: Length, unit: f64) -> [Length; 3] {
 pub(super) const fn tips_per_step(lattice: Lattice) -> f64 {
     match lattice {
         Lattice::Interlaced => 2.0,
-        Lattice::Orthogonal | Lattice::Free => 1.0,
+        Lattice::Orthogonal | Lattice::Free | Lattice::Fitted => 1.0,
     }
 }
 
