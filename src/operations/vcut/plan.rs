@@ -217,12 +217,7 @@ pub fn lay_out(
         cuts,
         ..unplanned(job, asked, ground)
     };
-    let order = vcut.order;
-    Ok(LaidOut {
-        vcut: vcut.along(order, Sequence::Rows, before, job.stock),
-        after,
-        strategies,
-    })
+    Ok(vcut.in_rows(before, job.stock, after, strategies))
 }
 
 /// What is known of an operation before its cuts are.
@@ -278,12 +273,7 @@ fn lay_out_given(
         course: Some(course),
         ..unplanned(job, asked, ground)
     };
-    let order = vcut.order;
-    Ok(LaidOut {
-        vcut: vcut.along(order, Sequence::Rows, before, job.stock),
-        after,
-        strategies: Strategies::Alike,
-    })
+    Ok(vcut.in_rows(before, job.stock, after, Strategies::Alike))
 }
 
 /// As [`lay_out`], with tips fitted to the part.
@@ -326,12 +316,7 @@ fn lay_out_fitted(
     if asked.step.value == Auto::Auto {
         vcut.parameters.step = parameters.step.min(widest);
     }
-    let order = vcut.order;
-    Ok(LaidOut {
-        vcut: vcut.along(order, Sequence::Rows, before, job.stock),
-        after,
-        strategies: Strategies::Alike,
-    })
+    Ok(vcut.in_rows(before, job.stock, after, Strategies::Alike))
 }
 
 impl PlannedVcut {
@@ -373,6 +358,16 @@ impl PlannedVcut {
         let regular = Swings::even(self.parameters.swing);
         let swings = self.cuts.iter().map(|cut| cut.swings);
         swings.filter(move |swings| *swings != regular)
+    }
+
+    /// The operation cut in rows, on what was there before, with what it leaves.
+    fn in_rows(self, before: &Surface, stock: Stock, after: Surface, strategies: Strategies) -> LaidOut {
+        let order = self.order;
+        LaidOut {
+            vcut: self.along(order, Sequence::Rows, before, stock),
+            after,
+            strategies,
+        }
     }
 
     /// The same cuts in another order. Given tips keep their sequence.

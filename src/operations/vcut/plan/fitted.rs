@@ -117,9 +117,9 @@ impl<'f> Fitting<'f> {
         }
     }
 
-    /// The same where more may stay: as much as the flanks leave at the least, or little more.
+    /// The same under the least limit that the flanks can keep, or little more, where they cannot keep its own.
     pub(crate) fn laxer(self) -> Self {
-        let mut fitting = Self { widest: None, ..self };
+        let mut fitting = self;
         while fitting.last_row(f64::INFINITY) == Err(Unfit::LeavesMore) {
             fitting = Self {
                 limit: (fitting.limit * LAXER).max(Length::mm(LEAST_STEP)),
@@ -164,7 +164,7 @@ impl<'f> Fitting<'f> {
         self.widest_step_of(Length::mm(f64::INFINITY)) > step
     }
 
-    /// The widest step of the last row with steps of no more than that, on the grid; none of a single tip.
+    /// The widest step of the last row with steps of no more than that, rounded up to the grid; zero for a single tip.
     pub(crate) fn widest_step_of(&mut self, step: Length) -> Length {
         let row = self.last_row(step.to_mm()).unwrap_or_default();
         Length::mm(grid::up(widest_step(&row)))
@@ -276,7 +276,7 @@ impl<'f> Fitting<'f> {
         near.map(|(_, next)| next)
     }
 
-    /// Whether the highest point between two tips, or a tip and a side, is no farther from the part than the limit, as far as it stands.
+    /// Whether the highest point left between two tips, or between a tip and a side, keeps the limit.
     fn is_peak_low(&mut self, left: Option<Point2>, right: Option<Point2>) -> bool {
         let slope = self.slope;
         let peak = match (left, right) {
@@ -298,7 +298,7 @@ impl<'f> Fitting<'f> {
         self.part.nearest_distance(peak) <= self.limit.to_mm()
     }
 
-    /// Whether no more than the limit stays between two tips, or a tip and a side.
+    /// Whether no more than the limit stays between two tips, or between a tip and a side.
     fn is_low(&mut self, left: Option<Point2>, right: Option<Point2>) -> bool {
         let from = left.map_or(0.0, |tip| tip.x);
         let to = right.map_or(self.width(), |tip| tip.x);
@@ -342,7 +342,7 @@ impl<'f> Fitting<'f> {
         asked.is_none_or(|point| tip.is_some_and(|tip| is_taken(point, tip, self.slope)))
     }
 
-    /// The points that must be away for the flanks of a V to come out, left and right, as far as they are not.
+    /// The points that must be gone before the flanks of a V come out, left and right; none where the work has no material there.
     fn asked_for(&mut self, tip: Point2, reach: &Reach) -> [Option<Point2>; 2] {
         let (rise, width) = (reach.rise, self.width());
         let aside = rise / self.slope;
@@ -390,7 +390,7 @@ impl<'f> Fitting<'f> {
         }
     }
 
-    /// The highest point whose taking takes both.
+    /// The highest point that no V can take without taking both.
     fn both(&self, one: Option<Point2>, other: Option<Point2>) -> Option<Point2> {
         let lower = |one: Point2, other: Point2| {
             let p = |point: Point2| point.z - self.slope * point.x;
