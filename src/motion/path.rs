@@ -87,7 +87,7 @@ mod wide;
 mod worst;
 
 pub use arm_way::{ArmWay, Part};
-pub use axis_moves::{AxesBreach, AxesViolation, Block, are_axes_refuted, prove_axes};
+pub use axis_moves::{AxesBreach, AxesViolation, Block, Solid, are_axes_refuted, prove_axes};
 pub use chain::evenly;
 pub use joint::{Through, prove_through};
 pub use refuted::{Refuted, refuted};

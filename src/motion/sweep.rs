@@ -6,10 +6,12 @@
 //! looked at with the axes that carry it out. Pieces of chains are not: they lead through the work, and [`super::stray`] proves
 //! that the axes hold the blade on them as the program does.
 //!
-//! **The blade** is a triangle between its tip and the ends of both edges, and above it a strip as wide as the edges are apart, up
-//! to the spindle; a round one its two rims, and above them two such strips square to each other. **The work** is the stock as far along y as it is deep, below the surface that the cuts before have left.
-//! Both lie in planes or are prisms, so at one place of the motion they are compared exactly: the blade is clipped to the
-//! prism's sides, and what remains has to lie above the corners of the surface and above the surface with its own corners.
+//! **The blade** is a triangle between its tip and the ends of both edges, and above it a strip as wide as the edges are apart; a
+//! round one its two rims, and above them two such strips square to each other. Strips end where a stated body begins, whose stages
+//! are cylinders, and else at the spindle, as the last stage does. **The work** is the stock as far along y as it is deep, below the
+//! surface that the cuts before have left. At one place of the motion both are compared exactly. What lies in planes is clipped to
+//! the sides of the work, and what remains has to lie above the corners of the surface and above the surface with its own corners;
+//! of cylinders [`body::meets`] has the shadow.
 //!
 //! **Proof.** With rotary axes that change by `c_i` during the motion, the blade turns by at most `w = sum |c_i|` (angular
 //! velocities of axes that carry one another add up), so a point at the distance `r` from the tip moves by at most
@@ -22,14 +24,15 @@ use super::moves::{numbered, paths};
 use super::rig::Rig;
 use super::rigs::Rigs;
 use glam::{DMat3, DVec3};
-use vcutc_backend_api::ir::{Action, Blade, OpId, Program, Shape, Stock};
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::{Action, Blade, OpId, Program, Shape, Stage, Stock};
 use vcutc_backend_api::segments::{LinearSegment, Path};
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_geometry::curve::Point2;
 use vcutc_machine::kinematics::Joints;
-use vcutc_simulation::prove;
 use vcutc_simulation::surface::Surface;
+use vcutc_simulation::{body, prove};
 
 /// How far (mm) the blade may be in the work and count as touching it: planned extensions let an edge come up to it.
 pub const GRAZE: f64 = 0.01;
@@ -161,31 +164,40 @@ struct Turn<'t, 'm> {
     blade: Outline,
 }
 
-/// The blade in its frame: plane pieces of its edge, how far they lie from its axis at most, their height above the tip, and that of
-/// the spindle.
+/// The blade in its frame: plane pieces of its edge, how far they lie from its axis at most, their height above the tip, and what is
+/// above them.
 #[derive(Clone, Debug)]
 struct Outline {
     edges: Vec<Vec<DVec3>>,
-    /// To one side, for each plane in which the body above is looked at.
+    /// To one side, for each plane with a strip above the edges.
     sides: Vec<DVec3>,
     half_width: f64,
     edge_height: f64,
-    spindle_height: f64,
+    /// Up to where the strips go.
+    strip_height: f64,
+    /// Above them, where the body is stated.
+    stages: Vec<Stage>,
 }
 
 impl Outline {
     fn of(blade: &Blade, rig: &Rig<'_>) -> Self {
         let spindle_height = -rig.flange_in_blade.position.z;
-        match blade.shape {
+        let stages = blade.stages(Length::mm(spindle_height));
+        let strip_height = match &blade.body {
+            Some(body) => body.first().map_or(0.0, |first| first.from.to_mm()),
+            None => spindle_height,
+        };
+        let bare = match blade.shape {
             Shape::Straight(straight) => {
                 let [[half_width, _, low], _] = straight.edge_ends();
-                Self::straight(half_width, -low, spindle_height)
+                Self::straight(half_width, -low, strip_height)
             }
-            Shape::Disc(_) | Shape::Crusher(_) => Self::round(blade, spindle_height),
-        }
+            Shape::Disc(_) | Shape::Crusher(_) => Self::round(blade, strip_height),
+        };
+        Self { stages, ..bare }
     }
 
-    fn straight(half_width: f64, edge_height: f64, spindle_height: f64) -> Self {
+    fn straight(half_width: f64, edge_height: f64, strip_height: f64) -> Self {
         let side = DVec3::X * half_width;
         let up = DVec3::Z * -edge_height;
         Self {
@@ -193,12 +205,13 @@ impl Outline {
             sides: vec![side],
             half_width,
             edge_height,
-            spindle_height,
+            strip_height,
+            stages: Vec::new(),
         }
     }
 
     /// The rims of its edge and of what lies above it.
-    fn round(blade: &Blade, spindle_height: f64) -> Self {
+    fn round(blade: &Blade, strip_height: f64) -> Self {
         let hull: Vec<DVec3> = blade.hull().into_iter().map(DVec3::from_array).collect();
         let half_width = hull.iter().map(|point| libm::hypot(point.x, point.y));
         let half_width = half_width.fold(0.0, f64::max);
@@ -209,45 +222,85 @@ impl Outline {
             sides: [DVec3::X, DVec3::Y].map(|side| side * half_width).to_vec(),
             half_width,
             edge_height,
-            spindle_height,
+            strip_height,
+            stages: Vec::new(),
         }
     }
 
+    /// How far its points are from the tip at most.
+    fn reach(&self) -> f64 {
+        let stages = self.stages.iter().map(|stage| Piece::Stage(*stage).reach());
+        stages.fold(
+            self.strip_height.max(self.edge_height) + self.half_width,
+            f64::max,
+        )
+    }
+
+    /// How far from its axis anything of it is at most.
+    fn girth(&self) -> f64 {
+        let radii = self.stages.iter().map(|stage| stage.radius.to_mm());
+        radii.fold(self.half_width, f64::max)
+    }
+
     fn edges(&self) -> impl Iterator<Item = Piece> {
-        self.edges.iter().map(|corners| Piece {
-            part: BladePart::Edge,
-            corners: corners.clone(),
-        })
+        self.edges.iter().map(|corners| Piece::Edge(corners.clone()))
     }
 
     /// What is above the edges, up to a height.
     fn body(&self, height: f64) -> impl Iterator<Item = Piece> {
-        let top = height.min(self.spindle_height);
+        let top = height.min(self.strip_height);
         let is_above = top > self.edge_height;
         let up = [-self.edge_height, -top].map(|z| DVec3::new(0.0, 0.0, z));
-        self.sides
-            .iter()
-            .filter(move |_| is_above)
-            .map(move |&side| Piece {
-                part: BladePart::Body,
-                corners: vec![up[0] - side, up[0] + side, up[1] + side, up[1] - side],
-            })
+        let strips = self.sides.iter().filter(move |_| is_above);
+        let strips =
+            strips.map(move |&side| Piece::Strip([up[0] - side, up[0] + side, up[1] + side, up[1] - side]));
+        let stages = self.stages.iter().filter_map(move |&Stage { heights, radius }| {
+            let heights = [heights[0], heights[1].min(Length::mm(height))];
+            (heights[0] < heights[1]).then_some(Piece::Stage(Stage { heights, radius }))
+        });
+        strips.chain(stages)
     }
 }
 
 /// A convex piece of the blade, in T.
-struct Piece {
-    part: BladePart,
-    corners: Vec<DVec3>,
+enum Piece {
+    Edge(Vec<DVec3>),
+    Strip([DVec3; 4]),
+    Stage(Stage),
 }
 
 impl Piece {
+    const fn part(&self) -> BladePart {
+        match self {
+            Self::Edge(_) => BladePart::Edge,
+            Self::Strip(_) | Self::Stage(_) => BladePart::Body,
+        }
+    }
+
     /// How far its points are from the tip at most.
-    fn radius(&self) -> f64 {
-        self.corners
-            .iter()
-            .map(|corner| corner.length())
-            .fold(0.0, f64::max)
+    fn reach(&self) -> f64 {
+        let farthest = |corners: &[DVec3]| {
+            let lengths = corners.iter().map(|corner| corner.length());
+            lengths.fold(0.0, f64::max)
+        };
+        match self {
+            Self::Edge(corners) => farthest(corners),
+            Self::Strip(corners) => farthest(corners),
+            Self::Stage(stage) => libm::hypot(stage.heights[1].to_mm(), stage.radius.to_mm()),
+        }
+    }
+
+    /// A place where it may meet the work if it moves by that much any way, with the blade held like this.
+    fn meets(&self, work: &Work, (held, tip): (DMat3, DVec3), moves: f64) -> Option<DVec3> {
+        let flat = |corners: &[DVec3]| {
+            let corners: Vec<DVec3> = corners.iter().map(|&corner| held * corner + tip).collect();
+            work.meets(&corners, moves)
+        };
+        match self {
+            Self::Edge(corners) => flat(corners),
+            Self::Strip(corners) => flat(corners),
+            Self::Stage(stage) => work.meets_stage(*stage, (held, tip), moves),
+        }
     }
 }
 
@@ -299,13 +352,13 @@ impl<'t, 'm> Turn<'t, 'm> {
 
     /// The work that the blade may meet.
     fn work(&self, surface: &mut Surface) -> Work {
-        let reach = self.blade.spindle_height.max(self.blade.edge_height) + self.blade.half_width;
+        let reach = self.blade.reach();
         let (left, right) = (self.tip[0].x.min(self.tip[1].x), self.tip[0].x.max(self.tip[1].x));
         Work::of(surface, self.stock, left - reach, right + reach)
     }
 
-    /// From which height above its tip on the blade stays above a height above the lower tip. (Its sides hang lower than its middle
-    /// by half its width at most.)
+    /// From which height above its tip on the blade stays above a height above the lower tip. (Its sides hang lower than its axis
+    /// by what they are away from it at most.)
     fn above(&self, height: f64) -> f64 {
         let half_step = self.angle / f64::from(2 * UPRIGHT_STEPS);
         let least = (0..UPRIGHT_STEPS)
@@ -318,7 +371,7 @@ impl<'t, 'm> Turn<'t, 'm> {
             .fold(f64::INFINITY, f64::min)
             - half_step;
         if least > LEAST_UPRIGHT {
-            ((height + self.blade.half_width) / least).max(0.0)
+            ((height + self.blade.girth()) / least).max(0.0)
         } else {
             f64::INFINITY
         }
@@ -336,19 +389,17 @@ impl<'t, 'm> Turn<'t, 'm> {
 
     fn prove_piece(&self, piece: &Piece, work: &Work, moved: DVec3) -> Result<(), Hit> {
         let way = self.tip[1] - self.tip[0];
-        let fastest = way.length() + self.angle * piece.radius();
+        let fastest = way.length() + self.angle * piece.reach();
         let mut rest = vec![(0.0, 1.0)];
         while let Some((from, to)) = rest.pop() {
             let middle = f64::midpoint(from, to);
             let moves = fastest * (to - from) / 2.0;
             let (held, tip) = (self.held(middle), self.tip[0] + way * middle + moved);
-            let corners: Vec<DVec3> = piece.corners.iter().map(|&corner| held * corner + tip).collect();
-            if let Some(place) = work.meets(&corners, moves) {
+            if let Some(place) = piece.meets(work, (held, tip), moves) {
                 if moves * (1.0 + work.steepest) <= FINE {
-                    let part = piece.part;
                     return Err(Hit {
                         at: middle,
-                        part,
+                        part: piece.part(),
                         place,
                     });
                 }
@@ -398,6 +449,7 @@ impl<'t, 'm> Turn<'t, 'm> {
 
 /// What is left of the stock about a place: a prism along y.
 struct Work {
+    stock: Stock,
     width: f64,
     depth: f64,
     /// The surface from left to right; at least one corner.
@@ -433,6 +485,7 @@ impl Work {
         };
         let walls = corners.windows(2).filter_map(wall).collect();
         Self {
+            stock,
             width,
             depth: stock.depth.to_mm(),
             corners,
@@ -496,6 +549,18 @@ impl Work {
             beside.into_iter().find(|point| point.z < wall.z + room)
         };
         over_corner.or_else(|| self.walls.iter().find_map(beside_wall))
+    }
+
+    /// A place where a stage that moves by that much any way may meet the work, by more than [`GRAZE`].
+    fn meets_stage(&self, stage: Stage, (held, tip): (DMat3, DVec3), moves: f64) -> Option<DVec3> {
+        let axis = -held.z_axis;
+        let at = (Point3::new(tip.x, tip.y, tip.z), axis.to_array());
+        // A rim goes deeper than the cylinder that lies so deep in the stage, by the square root of two at most.
+        let by = moves - GRAZE * core::f64::consts::FRAC_1_SQRT_2;
+        let place = body::meets(stage, by, at, self.stock, &self.corners)?;
+        let middle = stage.heights.map(Length::to_mm);
+        let along = tip.y + axis.y * f64::midpoint(middle[0], middle[1]);
+        Some(DVec3::new(place.x, along.clamp(0.0, self.depth), place.z))
     }
 }
 

@@ -440,8 +440,12 @@ impl<'s> Scene<'s> {
             Leads::ToChange => "the axis move to where the blade is changed".to_owned(),
         };
         let headline = match obstacle.lowest {
-            Some(lowest) => format!(
-                "{way} leads through the stock: the blade comes down to x {} mm, y {} mm, z {} mm",
+            Some((part, lowest)) => format!(
+                "{way} leads through the stock: the {} comes down to x {} mm, y {} mm, z {} mm",
+                match part {
+                    BladePart::Edge => "blade",
+                    BladePart::Body => "body of the blade",
+                },
                 show(lowest.x),
                 show(lowest.y),
                 show(lowest.z)

@@ -1,10 +1,12 @@
-//! The way of an axis move: whether the blade stays out of the stock.
+//! The way of an axis move: whether the blade and its body stay out of the stock.
 
-use super::path::{AxesViolation, Block, are_axes_refuted, prove_axes};
+use super::path::{AxesViolation, Block, Solid, are_axes_refuted, prove_axes};
 use super::survey::Survey;
+use super::sweep::BladePart;
 use glam::DVec3;
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Blade, Program};
+use vcutc_backend_api::ir::Program;
+use vcutc_backend_api::units::Length;
 use vcutc_machine::kinematics::Joints;
 
 /// What is in the way.
@@ -12,17 +14,25 @@ use vcutc_machine::kinematics::Joints;
 pub struct Obstacle {
     /// Where on the way, from 0 to 1.
     pub at: f64,
-    /// The lowest point of the blade there, in W; none where an axis is beyond its limit instead.
-    pub lowest: Option<Point3>,
+    /// What of the blade is in the stock there, and its lowest point in W; none where an axis is beyond its limit instead.
+    pub lowest: Option<(BladePart, Point3)>,
 }
 
 /// Proves that an axis move keeps blade and tool out of the stock.
 pub(super) fn clear(survey: &Survey<'_>, from: &Joints, to: &Joints) -> Result<(), Obstacle> {
-    let points = outline(survey);
-    prove_axes(&survey.rig, from, to, &points, &stock(survey.program)).map_err(|breach| Obstacle {
+    let solids = solids(survey);
+    prove_axes(&survey.rig, from, to, &solids, &stock(survey.program)).map_err(|breach| Obstacle {
         at: breach.at,
         lowest: match breach.what {
-            AxesViolation::Stock { lowest } => Some(Point3::new(lowest.x, lowest.y, lowest.z)),
+            AxesViolation::Stock { solid, lowest } => {
+                // The blade itself is the first one.
+                let part = if solid == 0 {
+                    BladePart::Edge
+                } else {
+                    BladePart::Body
+                };
+                Some((part, Point3::new(lowest.x, lowest.y, lowest.z)))
+            }
             AxesViolation::Limit { .. } => None,
         },
     })
@@ -30,8 +40,7 @@ pub(super) fn clear(survey: &Survey<'_>, from: &Joints, to: &Joints) -> Result<(
 
 /// Whether samples show what [`clear`] would find out about the stock, sooner.
 pub(super) fn is_refuted(survey: &Survey<'_>, from: &Joints, to: &Joints) -> bool {
-    let points = outline(survey);
-    are_axes_refuted(&survey.rig, from, to, &points, &stock(survey.program))
+    are_axes_refuted(&survey.rig, from, to, &solids(survey), &stock(survey.program))
 }
 
 fn stock(program: &Program) -> Block {
@@ -42,9 +51,19 @@ fn stock(program: &Program) -> Block {
     }
 }
 
-/// Points of the blade frame T between which blade and tool lie: those of the blade at hand, and the flange. The arm beyond the flange is farther away from the work than these.
-fn outline(survey: &Survey<'_>) -> Vec<DVec3> {
-    let blade = survey.program.blade(survey.tool);
-    let hull = blade.into_iter().flat_map(Blade::hull).map(DVec3::from_array);
-    hull.chain([survey.rig.flange_in_blade.position]).collect()
+/// What the axes carry: all between the blade at hand and the flange, then the stages of its body, where they are stated, up to the
+/// height of the flange. The arm beyond the flange is farther away from the work than these.
+fn solids(survey: &Survey<'_>) -> Vec<Solid> {
+    let flange = survey.rig.flange_in_blade.position;
+    let Some(blade) = survey.program.blade(survey.tool) else {
+        return vec![Solid::Hull(vec![flange])];
+    };
+    let hull = blade.hull().into_iter().map(DVec3::from_array);
+    let hull = Solid::Hull(hull.chain([flange]).collect());
+    let stages = blade.stages(Length::mm(-flange.z)).into_iter().map(|stage| {
+        let ends = stage.heights.map(|height| DVec3::new(0.0, 0.0, -height.to_mm()));
+        let radius = stage.radius.to_mm();
+        Solid::Cylinder { ends, radius }
+    });
+    core::iter::once(hull).chain(stages).collect()
 }

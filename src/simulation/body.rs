@@ -28,7 +28,9 @@ use section::{Ceiling, Near, Section};
 use slant::{Backbone, Slant};
 use stage::{Axis, Cylinder};
 use vcutc_backend_api::geometry::{Orientation, Point3};
-use vcutc_backend_api::ir::{Action, BodyStage, CutKind, OpId, OperationId, Program, Site, Stock, ToolId};
+use vcutc_backend_api::ir::{
+    Action, BodyStage, CutKind, OpId, OperationId, Program, Site, Stage, Stock, ToolId,
+};
 use vcutc_backend_api::segments::Segment;
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
@@ -113,6 +115,24 @@ pub fn clears(
             .and_then(|shadow| shadow.nearest_above(section));
         nearest.is_none_or(|(_, gap)| gap >= -TOUCH)
     })
+}
+
+/// Where something that is no farther than `by` mm from a stage is over the stock and below the top of its section, which is given
+/// by its corners, with the tip at one place and the stage above it along a unit vector. With a negative `by`, where something of the
+/// stage that lies so deep in it is. Each disc of the stage counts whole where any of it is over the stock.
+#[must_use]
+pub fn meets(
+    stage: Stage,
+    by: f64,
+    (tip, axis): (Point3, [f64; 3]),
+    stock: Stock,
+    section: &[Point2],
+) -> Option<Point2> {
+    let way = Way { from: tip, to: tip };
+    let cylinder = Cylinder::from(stage).grown(by);
+    let shadow = cylinder.shadow(Axis(axis), way, stock, Slant::default())?;
+    let (place, gap) = shadow.nearest_above(section)?;
+    (gap < 0.0).then_some(place)
 }
 
 /// As [`bodies`], and shows every motion that takes a body into the work.

@@ -8,7 +8,7 @@ mod cut_kind;
 mod op;
 mod tools;
 
-pub use blade::{Blade, BodyStage, Crusher, Disc, Edges, Extent, Shape, Spindle, Straight};
+pub use blade::{Blade, BodyStage, Crusher, Disc, Edges, Extent, Shape, Spindle, Stage, Straight};
 pub use cut_kind::CutKind;
 pub use op::{Action, ActionKind, Flank, Joint, Op, Site, Switch};
 pub use tools::{Change, Changer, NoTools, Tool, ToolId, Tools};

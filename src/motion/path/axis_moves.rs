@@ -1,8 +1,9 @@
 //! Axis moves at once: each goes straight from its value to the next, all at the same time (PTP, MoveJ).
 //!
-//! Limits that hold at both ends hold between. The blade's way is not a line, though: its points are computed [`Along`] spans
-//! of the move, and a span is proven when one face of the stock has all of them on its outer side.
-//! What is between the points is then out there too, since a half space that has the points has their convex hull.
+//! Limits that hold at both ends hold between. What the axes carry goes along no line, though: its points are computed [`Along`]
+//! spans of the move, and a span is proven when each solid is on the outer side of one of the stock's faces.
+//! What is between points is then out there too, since a half space that has the points has their convex hull. A cylinder reaches
+//! beyond the centres of its ends by its radius times the sine of the angle between its axis and the normal of the face.
 
 use super::bounds::limits;
 use super::chain::{Chain, Point, evenly, moved};
@@ -11,6 +12,7 @@ use crate::rig::Rig;
 use glam::DVec3;
 use vcutc_geometry::number::{Along, Interval};
 use vcutc_machine::kinematics::Joints;
+use vcutc_machine::kinematics::pose::Pose;
 
 /// By how much a point may be inside of a face, in mm: rounding.
 const SLACK: f64 = 1e-6;
@@ -22,6 +24,15 @@ pub struct Block {
     pub low: DVec3,
     /// Its greatest coordinates, in mm.
     pub high: DVec3,
+}
+
+/// A convex part of what the axes carry, in the blade frame T, in mm.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Solid {
+    /// All that lies between some points; at least one.
+    Hull(Vec<DVec3>),
+    /// A round one, by the centres of its ends, which are apart, and its radius.
+    Cylinder { ends: [DVec3; 2], radius: f64 },
 }
 
 /// Why an axis move must not be made.
@@ -42,24 +53,25 @@ pub enum AxesViolation {
         axis: usize,
         value: f64,
     },
-    /// The blade cannot be told to be outside of the stock.
+    /// One of the solids cannot be shown to be outside of the stock.
     Stock {
+        /// Which one, from 0.
+        solid: usize,
         /// Its lowest point, in W, in mm.
         lowest: DVec3,
     },
 }
 
-/// Proves that an axis move keeps within their limits and keeps the blade outside of the stock, which it may touch.
-/// `blade` are points in the blade frame T; what is proven to stay out is all that lies between them.
+/// Proves that an axis move keeps within their limits and keeps some solids outside of the stock, which they may touch.
 ///
 /// # Errors
-/// The first place where it does not, or where that cannot be proven. A blade is only seen to be outside where all its
-/// points are beyond the same face.
+/// The first place where it does not, or where that cannot be proven. A solid is only seen to be outside where all of it is
+/// beyond the same face.
 pub fn prove_axes(
     rig: &Rig<'_>,
     from: &Joints,
     to: &Joints,
-    blade: &[DVec3],
+    solids: &[Solid],
     stock: &Block,
 ) -> Result<(), AxesBreach> {
     for (at, joints) in [(0.0, from), (1.0, to)] {
@@ -72,22 +84,21 @@ pub fn prove_axes(
     let root_in_work = rig.work_in_root.inverse();
     march(|span, _| {
         let joints = evenly(from, to, span.middle, span.half);
-        let points = blade.iter().map(|point| {
-            let in_flange = blade_in_flange.rotation * *point + blade_in_flange.position;
+        let place = |point: DVec3| {
+            let in_flange = blade_in_flange.rotation * point + blade_in_flange.position;
             moved(&root_in_work, chain.point_in_root(&joints, in_flange))
-        });
-        let is_outside = Sides::of(points, stock).any();
-        if is_outside {
-            Tried::Proven(f64::INFINITY)
-        } else {
-            Tried::Refused(())
+        };
+        match solids.iter().position(|solid| !solid.is_outside(stock, place)) {
+            None => Tried::Proven(f64::INFINITY),
+            Some(inside) => Tried::Refused(inside),
         }
     })
     .map(|_| ())
-    .map_err(|(at, ())| AxesBreach {
+    .map_err(|(at, solid)| AxesBreach {
         at,
         what: AxesViolation::Stock {
-            lowest: lowest(rig, from, to, at, blade),
+            solid,
+            lowest: solids[solid].lowest(&blade_at(rig, from, to, at)),
         },
     })
 }
@@ -101,17 +112,68 @@ const SURELY: f64 = 1e-3;
 /// Whether samples show what [`prove_axes`] would find out about the stock, sooner. Where they do, it does not prove the move; where
 /// they do not, nothing is said.
 #[must_use]
-pub fn are_axes_refuted(rig: &Rig<'_>, from: &Joints, to: &Joints, blade: &[DVec3], stock: &Block) -> bool {
+pub fn are_axes_refuted(rig: &Rig<'_>, from: &Joints, to: &Joints, solids: &[Solid], stock: &Block) -> bool {
     let inner = Block {
         low: stock.low + DVec3::splat(SURELY),
         high: stock.high - DVec3::splat(SURELY),
     };
     let places = (1..PARTS).map(|part| f64::from(part) / f64::from(PARTS));
     places.into_iter().any(|at| {
-        let points = points_at(rig, from, to, at, blade);
-        let point = |point: DVec3| point.to_array().map(Along::constant);
-        !Sides::of(points.map(point), &inner).any()
+        let blade = blade_at(rig, from, to, at);
+        let place = |point: DVec3| in_work(&blade, point).to_array().map(Along::constant);
+        solids.iter().any(|solid| !solid.is_outside(&inner, place))
     })
+}
+
+impl Solid {
+    /// Whether all of it is beyond one face of a block, with its points at these places.
+    fn is_outside(&self, block: &Block, place: impl Fn(DVec3) -> Point) -> bool {
+        match self {
+            Self::Hull(points) => {
+                let points = points.iter().map(|&point| place(point).map(Along::value));
+                Sides::of(points, block).any()
+            }
+            Self::Cylinder { ends, radius } => {
+                let length = ends[0].distance(ends[1]);
+                let [one, other] = ends.map(place);
+                let aside: [f64; 3] = core::array::from_fn(|i| {
+                    let along = least_magnitude((other[i] - one[i]).value()) / length;
+                    radius * (1.0 - along * along).max(0.0).sqrt()
+                });
+                let rims = [one, other].map(|centre| {
+                    core::array::from_fn(|i| {
+                        let value = centre[i].value();
+                        Interval {
+                            low: value.low - aside[i],
+                            high: value.high + aside[i],
+                        }
+                    })
+                });
+                Sides::of(rims.into_iter(), block).any()
+            }
+        }
+    }
+
+    /// Its lowest point where the blade is held like this, in W.
+    fn lowest(&self, blade_in_work: &Pose) -> DVec3 {
+        let points = match self {
+            Self::Hull(points) => points.clone(),
+            Self::Cylinder { ends, radius } => {
+                let up = blade_in_work.rotation.transpose() * DVec3::Z;
+                let across = up.reject_from((ends[1] - ends[0]).normalize_or_zero());
+                let down = -across.normalize_or_zero() * *radius;
+                ends.map(|end| end + down).to_vec()
+            }
+        };
+        let places = points.into_iter().map(|point| in_work(blade_in_work, point));
+        // None is without points.
+        places.min_by(|a, b| a.z.total_cmp(&b.z)).unwrap_or_default()
+    }
+}
+
+/// The least of the magnitudes of all numbers of an interval.
+fn least_magnitude(interval: Interval) -> f64 {
+    interval.low.max(-interval.high).max(0.0)
 }
 
 /// Beyond which faces of a block all points are.
@@ -121,13 +183,13 @@ struct Sides {
 }
 
 impl Sides {
-    fn of(points: impl Iterator<Item = Point>, block: &Block) -> Self {
+    fn of(points: impl Iterator<Item = [Interval; 3]>, block: &Block) -> Self {
         let mut sides = Self {
             below: [true; 3],
             above: [true; 3],
         };
         for point in points {
-            for (i, coordinate) in point.map(Along::value).into_iter().enumerate() {
+            for (i, coordinate) in point.into_iter().enumerate() {
                 sides.below[i] &= coordinate.high <= block.low[i] + SLACK;
                 sides.above[i] &= coordinate.low >= block.high[i] - SLACK;
             }
@@ -140,24 +202,12 @@ impl Sides {
     }
 }
 
-/// The points of the blade at a place of the move, in W.
-fn points_at(
-    rig: &Rig<'_>,
-    from: &Joints,
-    to: &Joints,
-    at: f64,
-    blade: &[DVec3],
-) -> impl Iterator<Item = DVec3> {
+/// The blade frame at a place of the move.
+fn blade_at(rig: &Rig<'_>, from: &Joints, to: &Joints, at: f64) -> Pose {
     let joints = core::array::from_fn(|i| from[i] + (to[i] - from[i]) * at);
-    let blade_in_work = rig.blade_in_work(&joints);
-    blade
-        .iter()
-        .map(move |point| blade_in_work.rotation * *point + blade_in_work.position)
+    rig.blade_in_work(&joints)
 }
 
-fn lowest(rig: &Rig<'_>, from: &Joints, to: &Joints, at: f64, blade: &[DVec3]) -> DVec3 {
-    // A blade without points has no lowest one; there is none such.
-    points_at(rig, from, to, at, blade)
-        .min_by(|a, b| a.z.total_cmp(&b.z))
-        .unwrap_or_default()
+fn in_work(blade_in_work: &Pose, point: DVec3) -> DVec3 {
+    blade_in_work.rotation * point + blade_in_work.position
 }

@@ -115,10 +115,18 @@ fn a_scene() -> impl Strategy<Value = Scene> {
         (turned(), turned()),
         (tip(), -10.0..10.0_f64, any::<bool>()),
         (5.0..25.0_f64, 0.03..0.3_f64),
+        prop::option::of((0.0..10.0_f64, 2.0..20.0_f64)),
         prop::collection::vec((0.0..80.0_f64, 15.0..40.0_f64, 0.6..2.5_f64), 0..12),
     )
         .prop_map(
-            |(kind, (from, to), ((x, y, z), aside, moves), (length, half_apex), vees)| {
+            |(kind, (from, to), ((x, y, z), aside, moves), (length, half_apex), body, vees)| {
+                let (half_width, edge_height) =
+                    (length * libm::sin(half_apex), length * libm::cos(half_apex));
+                let strip_height = body.map_or(TOOL, |(gap, _)| edge_height + gap);
+                let stages = body.map(|(_, radius)| Stage {
+                    heights: [strip_height, TOOL].map(Length::mm),
+                    radius: Length::mm(radius),
+                });
                 let joints = |[a, b, c]: [f64; 3]| [0.0, 0.0, 0.0, a, b, c];
                 let tip = DVec3::new(x, y, z);
                 let there = if moves { tip + DVec3::X * aside } else { tip };
@@ -126,11 +134,10 @@ fn a_scene() -> impl Strategy<Value = Scene> {
                     kind,
                     axes: [joints(from), joints(to)],
                     tip: [tip, there],
-                    outline: Outline::straight(
-                        length * libm::sin(half_apex),
-                        length * libm::cos(half_apex),
-                        TOOL,
-                    ),
+                    outline: Outline {
+                        stages: stages.into_iter().collect(),
+                        ..Outline::straight(half_width, edge_height, strip_height)
+                    },
                     vees,
                 }
             },
@@ -182,7 +189,7 @@ impl Scene {
         let Outline {
             half_width,
             edge_height,
-            spindle_height,
+            strip_height,
             ..
         } = self.outline;
         let across = |height: f64, half: f64| {
@@ -194,27 +201,66 @@ impl Scene {
         });
         let body = (1..=30).flat_map(|i| {
             across(
-                edge_height + (spindle_height - edge_height) * f64::from(i) / 30.0,
+                edge_height + (strip_height - edge_height) * f64::from(i) / 30.0,
                 half_width,
             )
         });
-        edges.chain(body).collect()
+        let round = self.outline.stages.iter().flat_map(|stage| {
+            let ([from, to], radius) = (stage.heights.map(Length::to_mm), stage.radius.to_mm());
+            let rings = (0..=12).map(move |i| (from + (to - from) * f64::from(i) / 12.0, radius));
+            let rings = rings.chain([(from, radius / 2.0), (from, 0.0)]);
+            rings.flat_map(|(height, radius)| {
+                (0..36).map(move |i| {
+                    let (sine, cosine) = f64::from(10 * i).to_radians().sin_cos();
+                    Vector3::new(radius * cosine, radius * sine, -height)
+                })
+            })
+        });
+        edges.chain(body).chain(round).collect()
     }
 
     /// Whether a place is on the blade and in the work, both within a hundredth of a millimetre.
     fn is_in_the_work(&self, hit: &Hit, moved: DVec3) -> bool {
+        self.is_flat_in_the_work(hit, moved) || self.is_stage_in_the_work(hit, moved)
+    }
+
+    /// The same for the stages, of whose places x and z are known: each disc of them counts whole where any of it is over the stock.
+    fn is_stage_in_the_work(&self, hit: &Hit, moved: DVec3) -> bool {
+        let (tip, held) = self.at(hit.at);
+        let tip = tip + Vector3::new(moved.x, moved.y, moved.z);
+        self.outline.stages.iter().any(|stage| {
+            let ([from, to], radius) = (stage.heights.map(Length::to_mm), stage.radius.to_mm());
+            let is_in_section = [-0.01, 0.0, 0.01].into_iter().any(|aside| {
+                let inside = Vector3::new(hit.place.x + aside, 50.0, hit.place.z);
+                depth_of(inside, &mut self.surface()) > -0.01
+            });
+            let half = radius * libm::sqrt(1.0 - held.column(2).y * held.column(2).y);
+            (-1200..=3200).any(|step| {
+                let place = Vector3::new(hit.place.x, f64::from(step) / 20.0, hit.place.z);
+                let on_blade = held.transpose() * (place - tip);
+                let centre = (held * Vector3::new(0.0, 0.0, on_blade.z) + tip).y;
+                (from - 0.03..=to + 0.03).contains(&-on_blade.z)
+                    && libm::hypot(on_blade.x, on_blade.y) <= radius + 0.03
+                    && centre + half > -0.03
+                    && centre - half < 100.03
+                    && is_in_section
+            })
+        })
+    }
+
+    fn is_flat_in_the_work(&self, hit: &Hit, moved: DVec3) -> bool {
         let place = Vector3::new(hit.place.x, hit.place.y, hit.place.z);
         let (tip, held) = self.at(hit.at);
         let on_blade = held.transpose() * (place - tip - Vector3::new(moved.x, moved.y, moved.z));
         let Outline {
             half_width,
             edge_height,
-            spindle_height,
+            strip_height,
             ..
         } = self.outline;
         let half = half_width * (-on_blade.z / edge_height).min(1.0);
         on_blade.y.abs() < 1e-6
-            && (-spindle_height - 1e-6..=1e-6).contains(&on_blade.z)
+            && (-strip_height - 1e-6..=1e-6).contains(&on_blade.z)
             && on_blade.x.abs() <= half + 1e-6
             // Beside a wall a place is as near to the work as it is to the wall.
             && [-0.01, 0.0, 0.01].into_iter().any(|aside| {

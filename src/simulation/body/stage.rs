@@ -4,11 +4,12 @@ use super::shadow::{Ellipse, Shadow};
 use super::slant::Slant;
 use crate::course::Way;
 use vcutc_backend_api::geometry::{Orientation, Point3};
-use vcutc_backend_api::ir::{BodyStage, Stock};
+use vcutc_backend_api::ir::{BodyStage, Stage, Stock};
+use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 
 /// Nothing of a body is longer, in mm.
-const LONGEST: f64 = 100_000.0;
+const LONGEST: Length = Length::mm(100_000.0);
 
 /// A stage of a body: a cylinder about the blade's axis, seen from the tip. In mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,16 +20,10 @@ pub(super) struct Cylinder {
 }
 
 impl Cylinder {
-    /// The stages of a body, each up to where the next one begins.
-    pub(super) fn all(stages: &[BodyStage]) -> Vec<Self> {
-        let ends = stages.iter().skip(1).map(|next| next.from.to_mm());
-        let ends = ends.chain([LONGEST]);
-        let cylinders = stages.iter().zip(ends).map(|(stage, to)| Self {
-            from: stage.from.to_mm(),
-            to,
-            radius: stage.radius.to_mm(),
-        });
-        cylinders.collect()
+    /// The stages of a body.
+    pub(super) fn all(body: &[BodyStage]) -> Vec<Self> {
+        let stages = Stage::all(body, LONGEST);
+        stages.into_iter().map(Self::from).collect()
     }
 
     /// A cylinder that all points no farther than this from it lie in.
@@ -100,6 +95,14 @@ impl Cylinder {
         ];
         let ellipse = Ellipse::of_disc(over.radius, axis.0, slant.slope);
         Some(Shadow::new(ellipse, start, along))
+    }
+}
+
+impl From<Stage> for Cylinder {
+    fn from(stage: Stage) -> Self {
+        let [from, to] = stage.heights.map(Length::to_mm);
+        let radius = stage.radius.to_mm();
+        Self { from, to, radius }
     }
 }
 

@@ -178,6 +178,12 @@ impl Blade {
         }
     }
 
+    /// The stages of its body below a height above the tip.
+    #[must_use]
+    pub fn stages(&self, top: Length) -> Vec<Stage> {
+        Stage::all(self.body.as_deref().unwrap_or_default(), top)
+    }
+
     /// How far it reaches from its tip while it turns from one orientation to another about one axis. Of a straight blade its edges
     /// count, as they lie at both ends of the turn.
     #[must_use]
@@ -187,6 +193,31 @@ impl Blade {
             Shape::Disc(disc) => round(disc.radius, disc.thickness, held),
             Shape::Crusher(crusher) => round(crusher.radius, crusher.height, held),
         }
+    }
+}
+
+/// A stage of a body with both its ends: a cylinder about the tool axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stage {
+    /// From and to what height above the tip.
+    pub heights: [Length; 2],
+    /// Its radius.
+    pub radius: Length,
+}
+
+impl Stage {
+    /// The stages of a body, each up to where the next one begins, and the last one up to a height. Those that begin there or higher
+    /// are left out.
+    #[must_use]
+    pub fn all(body: &[BodyStage], top: Length) -> Vec<Self> {
+        let ends = body.iter().skip(1).map(|next| next.from.min(top)).chain([top]);
+        let stages = body.iter().zip(ends).map(|(stage, to)| Self {
+            heights: [stage.from, to],
+            radius: stage.radius,
+        });
+        stages
+            .filter(|stage| stage.heights[0] < stage.heights[1])
+            .collect()
     }
 }
 
