@@ -4,6 +4,7 @@
 
 mod attempts;
 mod bodies;
+mod changes;
 pub mod unloaded;
 
 use crate::lower;
@@ -12,12 +13,13 @@ use crate::tracks::proof::judged;
 use crate::{clearing, slitting};
 use attempts::Attempts;
 pub use bodies::headline as body_in_work;
+pub use changes::with_smaller_swing;
 use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_backend_api::verify::{Fault, VerifiedProgram, verify};
 use vcutc_cancellation::{Effort, Wanted};
 use vcutc_diagnostics::number::show;
-use vcutc_diagnostics::source::SourceMap;
+use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
 use vcutc_job::operation::{Operation, WorksThere};
@@ -190,15 +192,7 @@ pub fn explained(asked: &dyn Operation, finding: Finding) -> Diagnostic {
             "a cut of this operation",
         )
         .help("use a longer blade, or cut less deep"),
-        CutFault::Blocked { at } => Diagnostic::new(
-            Code::BladeBlocked,
-            format!(
-                "above {}, uncut material is in the way of the blade",
-                place(&finding)
-            ),
-            span,
-            format!("the blade meets material at {}", point(at)),
-        ),
+        CutFault::Blocked { at, by } => blocked(span, finding, at, by),
         CutFault::Overcut { at, depth } => overcut(asked, finding, at, depth),
         CutFault::Strays { y, by } => Diagnostic::new(
             Code::Internal,
@@ -413,6 +407,21 @@ pub fn stays_words(at: Point2, height: Length, limit: Length) -> (String, String
             show(limit.to_mm())
         ),
         format!("the most at {}", point(at)),
+    )
+}
+
+/// A cut whose flank uncut material stands above; the label is at a span.
+#[must_use]
+pub fn blocked(span: Span, finding: Finding, at: Point2, by: Length) -> Diagnostic {
+    Diagnostic::new(
+        Code::BladeBlocked,
+        format!(
+            "above {}, {} mm of uncut material are in the way of the blade",
+            place(&finding),
+            show(by.to_mm())
+        ),
+        span,
+        format!("the blade meets it at {}", point(at)),
     )
 }
 

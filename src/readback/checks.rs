@@ -423,8 +423,11 @@ impl Read<'_> {
                 ),
                 "its chip is not cut free".to_owned(),
             ),
-            CutFault::Blocked { at } => (
-                format!("above {place}, uncut material is in the way of the blade"),
+            CutFault::Blocked { at, by } => (
+                format!(
+                    "above {place}, {} mm of uncut material are in the way of the blade",
+                    show(by.to_mm())
+                ),
                 format!("the blade meets it at x {} mm, z {} mm", show(at.x), show(at.z)),
             ),
             CutFault::Strip(fault) => {

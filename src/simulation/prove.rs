@@ -46,7 +46,7 @@ pub use edge::UsedEdge;
 pub use entry::below_top;
 pub(super) use entry::merge_heights;
 pub use findings::Findings;
-use findings::note;
+use findings::{is_more_blocked, note};
 use flank::{FlankGeometry, flanks};
 use piece::Piece;
 pub use slit::{Slit, SlitFault};
@@ -133,7 +133,12 @@ pub enum CutFault {
         available: Length,
     },
     /// Beyond the point where the flank comes out, material stands in the way of the blade's body.
-    Blocked { at: Point2 },
+    Blocked {
+        /// The first corner that does.
+        at: Point2,
+        /// How far it stands above the flank, along z.
+        by: Length,
+    },
     /// The cut enters the part or its allowance.
     Overcut {
         /// Where it goes deepest.
@@ -465,7 +470,7 @@ impl<'p> Player<'p> {
         } else {
             surface.obstacle(Vee::one(tip, side, geometry.slope))
         };
-        self.note_blocked(blocked_at, cut);
+        self.note_blocked(blocked_at, tip, geometry, cut);
     }
 
     /// A cut of one flank.
@@ -482,23 +487,25 @@ impl<'p> Player<'p> {
                 // Its slit is cut all the same.
                 let run = self.section.surface().flank(vee, cut.side());
                 self.measure_edge(run.reach * geometry.edge_per_height);
-                self.note_blocked(run.blocked_at, cut);
+                self.note_blocked(run.blocked_at, cut.tip, geometry, cut);
                 self.note_edge(f64::INFINITY, |fault| cut.finding(program, fault));
             }
             Single::Outside => {}
             Single::Frees(run) => {
                 self.use_edge(run.reach * geometry.edge_per_height, cut);
-                self.note_blocked(run.blocked_at, cut);
+                self.note_blocked(run.blocked_at, cut.tip, geometry, cut);
             }
         }
         self.release(cut, vee, Length::ZERO);
     }
 
-    fn note_blocked(&mut self, at: Option<Point2>, cut: &Cut) {
+    /// Keeps the cut above whose flank most stands.
+    fn note_blocked(&mut self, at: Option<Point2>, tip: Point2, geometry: FlankGeometry, cut: &Cut) {
         let program = self.program;
         if let Some(at) = at {
-            let finding = cut.finding(program, CutFault::Blocked { at });
-            note(&mut self.findings.blocked, finding, |_, _| false);
+            let by = Length::mm(at.z - tip.z - (at.x - tip.x).abs() * geometry.slope);
+            let finding = cut.finding(program, CutFault::Blocked { at, by });
+            note(&mut self.findings.blocked, finding, is_more_blocked);
         }
     }
 

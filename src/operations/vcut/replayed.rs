@@ -117,10 +117,13 @@ fn wide_cuts_after_narrow_ones_are_blocked_by_their_walls() {
     let plan = plan_job(&job).0.unwrap();
     let findings = prove(&plan, &SourceMap::default()).unwrap().findings;
     let (_, first) = findings.blocked.unwrap();
-    let CutFault::Blocked { at } = first.fault else {
+    let CutFault::Blocked { at, by } = first.fault else {
         panic!("{first:?}")
     };
-    assert!(at.z > first.tip.z, "{first:?}");
+    // Swing 45 deg at a rake of 60 deg.
+    let flank = first.tip.z + (at.x - first.tip.x).abs() * 60.0_f64.to_radians().sin();
+    assert!((at.z - flank - by.to_mm()).abs() < 1e-6, "{first:?}");
+    assert!(by > Length::ZERO, "{first:?}");
 }
 
 #[test]

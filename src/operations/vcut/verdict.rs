@@ -1,6 +1,7 @@
 //! What a proof found wrong with V-cuts, in the user's words, and which change fixes it.
 
 mod attempts;
+mod blocked;
 mod chip_remedy;
 mod given_tips;
 mod not_freed;
@@ -10,14 +11,13 @@ mod stays;
 pub(crate) use scallop::helped;
 pub(crate) use stays::much_stays;
 
-use crate::asked::RoughVcut;
 use crate::plan::PlannedVcut;
 use attempts::Attempts;
+use blocked::blocked;
 use not_freed::{Chips, not_freed};
-use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_geometry::curve::Point2;
+use vcutc_diagnostics::Diagnostic;
 use vcutc_job::operation::{Trials, WorksThere};
-use vcutc_process::verdict::{explained, overcut, place, point};
+use vcutc_process::verdict::{explained, overcut};
 use vcutc_simulation::prove::{CutFault, Finding};
 
 /// Explains a cut whose chip does not come free, or whose way is blocked.
@@ -38,7 +38,7 @@ pub(crate) fn explain(
             };
             not_freed(&mut Attempts(trials), vcut, chips, works_there)
         }
-        CutFault::Blocked { at } => blocked(&vcut.asked, finding, at),
+        CutFault::Blocked { at, by } => blocked(vcut, (finding, at, by), trials, works_there),
         CutFault::Overcut { at, depth } => overcut(&vcut.asked, finding, at, depth),
         CutFault::Strays { .. }
         | CutFault::Strip(_)
@@ -51,18 +51,4 @@ pub(crate) fn explain(
 /// Tips that the job gives and that cut nothing.
 pub(crate) fn idle_tips(vcut: &PlannedVcut) -> Option<Diagnostic> {
     crate::plan::given::idle(vcut.course.as_ref()?, vcut.asked.tips.as_ref()?)
-}
-
-fn blocked(asked: &RoughVcut, finding: Finding, at: Point2) -> Diagnostic {
-    Diagnostic::new(
-        Code::BladeBlocked,
-        format!(
-            "above {}, uncut material is in the way of the blade",
-            place(&finding)
-        ),
-        asked.swing.span.unwrap_or(asked.setup.head_span),
-        format!("the blade meets material at {}", point(at)),
-    )
-    .note("an operation before this one left walls steeper than this operation's flanks")
-    .help("give both operations the same `swing`, or let this one come first")
 }

@@ -1,29 +1,22 @@
 //! A blade's body that enters the work, in the user's words, and which change keeps it out.
 //!
-//! At most one change of each kind is offered: a smaller swing, smaller swings only where the blade does not fit, a steeper rake, a
-//! body that begins higher. Each was tried: all but the last planned and proven again, the last replayed on the same program.
+//! At most one change of each kind is offered: a smaller swing, smaller swings only where the blade does not fit, a steeper rake, more
+//! room where the body enters the work on a way, a body that begins higher. Each was tried: all but the last planned and proven
+//! again, the last replayed on the same program.
 
 use super::attempts::Attempts;
+use super::changes::{with_more_room, with_narrower_flanks, with_smaller_swing, with_steeper_rake};
 use super::{Proven, bodies, point};
 use vcutc_backend_api::ir::{BodyStage, Program, Site, ToolId};
-use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::grid;
-use vcutc_job::operation::{Operation, Trials, Variant, Variation, WorksThere};
-use vcutc_job::{BladeRef, Body, PlannedJob, PlannedOperation};
+use vcutc_job::operation::{Operation, WorksThere};
+use vcutc_job::{BladeRef, Body, PlannedJob};
 use vcutc_simulation::body::{Contact, During};
-
-/// By how many degrees the swing is made smaller, one after the other.
-const SMALLER: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
-
-/// How often the gap between a swing that works and one that does not is halved.
-const HALVINGS: usize = 3;
-
-/// By how many degrees the rake is made steeper, one after the other.
-const STEEPER: [f64; 4] = [5.0, 10.0, 15.0, 20.0];
 
 /// How often the height that a body begins at is doubled or halved in search of one that is clear.
 const MOST_HEIGHTS: usize = 16;
@@ -45,6 +38,10 @@ pub(super) fn explained(
     let told = with_smaller_swing(told, planned, attempts, works_there);
     let told = with_narrower_flanks(told, planned, attempts, works_there);
     let told = with_steeper_rake(told, planned.asked(), attempts, works_there);
+    let told = match contact.during {
+        During::Cut => told,
+        During::Way => with_more_room(told, planned, attempts, works_there),
+    };
     Some(match higher {
         Some(higher) => higher.offered(told, attempts),
         None if told.fixes.is_empty() && told.help.is_empty() => {
@@ -98,92 +95,6 @@ pub fn headline(blade: &str, contact: Contact) -> String {
         (_, Site::Program | Site::Operation(_)) => "on the way to or from the work".to_owned(),
     };
     format!("the body of `{blade}` enters the stock by {depth} mm {place}")
-}
-
-fn with_smaller_swing(
-    told: Diagnostic,
-    planned: &dyn PlannedOperation,
-    attempts: &mut Attempts<'_>,
-    works_there: &mut WorksThere<'_>,
-) -> Diagnostic {
-    let mut tried = |swing: f64| {
-        planned.asked().at_swing(Angle::deg(swing)).filter(|variant| {
-            attempts.proves(&|operation| operation.assign(&*variant.operation))
-                && (variant.edits.is_empty() || works_there(&variant.edits))
-        })
-    };
-    match widest_swing(planned.swing().to_deg().ceil(), &mut tried) {
-        Some(variant) if variant.edits.is_empty() => told.help(variant.advice),
-        Some(variant) => told.fix_all(variant.advice, &variant.edits),
-        None => told,
-    }
-}
-
-fn with_narrower_flanks(
-    diagnostic: Diagnostic,
-    planned: &dyn PlannedOperation,
-    attempts: &mut Attempts<'_>,
-    works_there: &mut WorksThere<'_>,
-) -> Diagnostic {
-    let variants = planned.asked().variants(planned, Variation::NarrowerFlanks);
-    let works = variants.into_iter().find(|variant| {
-        !variant.edits.is_empty()
-            && attempts.proves(&|operation| operation.assign(&*variant.operation))
-            && works_there(&variant.edits)
-    });
-    match works {
-        Some(variant) => diagnostic.fix_all(variant.advice, &variant.edits),
-        None => diagnostic,
-    }
-}
-
-/// The widest swing below this one that works, of those that are tried: in whole degrees.
-fn widest_swing(now: f64, tried: &mut dyn FnMut(f64) -> Option<Variant>) -> Option<Variant> {
-    let mut fails = now;
-    let swings = SMALLER.map(|less| now - less).into_iter();
-    let (mut works, mut widest) = swings.take_while(|&swing| swing > 0.0).find_map(|swing| {
-        let found = tried(swing);
-        if found.is_none() {
-            fails = swing;
-        }
-        found.map(|variant| (swing, variant))
-    })?;
-    for _ in 0..HALVINGS {
-        let between = f64::midpoint(works, fails).floor();
-        if between <= works {
-            break;
-        }
-        match tried(between) {
-            Some(wider) => (works, widest) = (between, wider),
-            None => fails = between,
-        }
-    }
-    Some(widest)
-}
-
-fn with_steeper_rake(
-    told: Diagnostic,
-    asked: &dyn Operation,
-    attempts: &mut Attempts<'_>,
-    works_there: &mut WorksThere<'_>,
-) -> Diagnostic {
-    let rake = asked.setup().rake;
-    let Some(span) = rake.span else {
-        return told;
-    };
-    let rakes = STEEPER.map(|more| Angle::deg(rake.value.to_deg().round() + more));
-    let text = |rake: Angle| format!("{} deg", show(rake.to_deg()));
-    let works = rakes
-        .into_iter()
-        .filter(|steeper| steeper.to_deg() <= 90.0)
-        .find(|&steeper| {
-            attempts.proves(&|operation| operation.setup_mut().rake.value = steeper)
-                && works_there(&[(span, text(steeper))])
-        });
-    match works {
-        Some(rake) => told.fix(format!("use a `rake` of {}", text(rake)), span, text(rake)),
-        None => told,
-    }
 }
 
 /// A body that is clear of the work, being the same but higher.

@@ -77,6 +77,15 @@ pub(super) fn note(
     }
 }
 
+/// Whether clearly more stands above the flank of one cut than above that of another; the earlier one stands for equals.
+pub(super) fn is_more_blocked(a: &Finding, b: &Finding) -> bool {
+    let stands = |finding: &Finding| match finding.fault {
+        CutFault::Blocked { by, .. } => by.to_mm(),
+        _ => 0.0,
+    };
+    stands(a) > stands(b) + 1e-6
+}
+
 /// Whether one cut needs clearly more edge than another; the earlier one stands for equals.
 pub(super) fn is_longer(a: &Finding, b: &Finding) -> bool {
     let needed = |finding: &Finding| match finding.fault {
