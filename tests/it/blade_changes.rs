@@ -188,3 +188,44 @@ fn the_axes_are_those_of_the_blade_at_hand() {
         assert!(poses.iter().all(|count| *count > 20), "{poses:?}");
     }
 }
+
+/// The second blade is turned half round in its holder. Axis 6, which turns by less than that, cannot hold both blades in one branch.
+#[test]
+fn the_branch_changes_with_the_blade() {
+    let read = |path: &str| std::fs::read_to_string(root().join(path)).unwrap();
+    let instead = |text: &str, from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        text.replace(from, to)
+    };
+    let sheet = instead(
+        &read("src/machine/robots/kuka/kr10_r1100_2.toml"),
+        "[-185.0, 185.0], [-120.0, 120.0], [-350.0, 350.0]",
+        "[-350.0, 350.0], [-120.0, 120.0], [-130.0, 130.0]",
+    );
+    let cells = read("tests/jobs/two_tools/cells.vcut");
+    let cells = instead(&cells, "kuka/kr10_r1100_2", "narrow.toml");
+    let cells = instead(&cells, "z = 280 mm, a = 30 deg", "z = 280 mm, a = 210 deg");
+    let files = files().with("cells.vcut", cells).with("narrow.toml", sheet);
+    let bench = Bench::of(&files, "bench", "krl");
+    assert!(bench.is_clear(&bench.written.files));
+    let reached = bench
+        .outcome
+        .compiled
+        .as_ref()
+        .unwrap()
+        .program
+        .reached()
+        .unwrap();
+    let ops = &reached.program.program().ops;
+    let change = ops
+        .iter()
+        .position(|op| matches!(op.action, Action::ToolChange { .. }));
+    let [first, second] = reached.report.stretches[..] else {
+        panic!("{:?}", reached.report.stretches)
+    };
+    assert_ne!(first.branch, second.branch);
+    // At the change itself, or on the way from it.
+    let begins = usize::try_from(second.from.0).unwrap();
+    let change = change.unwrap();
+    assert!((change..=change + 2).contains(&begins), "{begins} and {change}");
+}

@@ -1,14 +1,18 @@
 //! Whatever is changed in a program is found: mutants of the programs of all examples, for all targets that take them.
 //!
-//! A mutant differs from its program in one place: a digit, a line that is gone, two neighbouring lines swapped, a speed.
+//! A mutant differs from its program in one place: a digit, a line that is gone, two neighbouring lines swapped, a speed, a word that
+//! is gone or has another number.
 //! Which mutants are made follows from the text alone, so that every run makes the same ones. What stands in comments is
 //! left alone, and so are mutants that read the same, such as two equal lines swapped.
 
+use crate::pipeline::compile_on;
+use crate::repository::read;
 use crate::shop::{self, Pairing, compiled, compiled_for, compiling, has_words_for};
-use std::collections::BTreeMap;
+use core::ops::Range;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
-use vcutc::driver;
+use vcutc::driver::{self, Outcome};
 use vcutc::readback::{Fresh, Reference};
 use vcutc::registry;
 use vcutc_backend_api::readback::{ProgramFile, normalized};
@@ -36,13 +40,15 @@ enum Mutation {
     Dropped,
     Swapped,
     Speed,
+    Word,
 }
 
-const KINDS: [Mutation; 4] = [
+const KINDS: [Mutation; 5] = [
     Mutation::Digit,
     Mutation::Dropped,
     Mutation::Swapped,
     Mutation::Speed,
+    Mutation::Word,
 ];
 
 /// What is a comment, and which lines say speeds.
@@ -184,6 +190,56 @@ fn other_speed(text: &str, words: &[&str]) -> Option<String> {
     Some(format!("{}{}{}", &text[..start], speed * 1.5, &text[end..]))
 }
 
+/// The words of a line of code, each with what it is one of: its letters, of words such as `G2` and `M6` with their number.
+fn words(code: &str) -> Vec<(Range<usize>, String)> {
+    let mut words = Vec::new();
+    let mut rest = 0;
+    while let Some(start) = code[rest..].find(|c: char| c.is_ascii_alphabetic() || c == '$') {
+        let start = rest + start;
+        let is_of_word = |c: char| c.is_ascii_alphanumeric() || "_$".contains(c);
+        let end = code[start..].find(|c| !is_of_word(c));
+        let end = end.map_or(code.len(), |end| start + end);
+        let word = &code[start..end];
+        let is_code = word[1..].bytes().all(|byte| byte.is_ascii_digit()) && word.starts_with(['G', 'M']);
+        let kind = if is_code {
+            word
+        } else {
+            word.trim_end_matches(|c: char| c.is_ascii_digit())
+        };
+        words.push((start..end, kind.to_owned()));
+        rest = end;
+    }
+    words
+}
+
+/// Where words of each kind stand first, in the order of the program.
+fn first_words<'f>(lines: &[(Line, &'f str)], dialect: &Dialect) -> Vec<(Line, &'f str, Range<usize>)> {
+    let mut known = BTreeSet::new();
+    let all = lines.iter().flat_map(|&(at, text)| {
+        let code = dialect.code(text);
+        let start = text.find(code).unwrap_or_default();
+        let words = words(code).into_iter();
+        words.map(move |(word, kind)| (at, text, start + word.start..start + word.end, kind))
+    });
+    all.filter(|(.., kind)| known.insert(kind.clone()))
+        .map(|(at, text, word, _)| (at, text, word))
+        .collect()
+}
+
+/// A line without one of its words, and, where the word ends with a digit, with the next one in its place.
+fn other_words(text: &str, word: Range<usize>) -> Vec<String> {
+    let gone = format!("{}{}", &text[..word.start], &text[word.end..]);
+    let last = text[..word.end]
+        .chars()
+        .next_back()
+        .and_then(|last| last.to_digit(10));
+    let next = last.map(|digit| {
+        let number = (digit + 1) % 10;
+        format!("{}{number}{}", &text[..word.end - 1], &text[word.end..])
+    });
+    [gone].into_iter().chain(next).collect()
+}
+
 /// The mutants of a kind, each with the line that was changed.
 fn mutants<'f>(
     files: &'f [ProgramFile],
@@ -228,6 +284,15 @@ fn mutants<'f>(
                 })
                 .collect()
         }
+        Mutation::Word => first_words(&lines, dialect)
+            .into_iter()
+            .flat_map(|(at, text, word)| {
+                other_words(text, word)
+                    .into_iter()
+                    .map(move |other| (at, text, other))
+            })
+            .filter_map(|(at, text, other)| changed((at, text), other))
+            .collect(),
         Mutation::Speed => {
             let has_speed =
                 |(_, text): &(Line, &str)| other_speed(dialect.code(text), dialect.speeds).is_some();
@@ -246,7 +311,48 @@ struct Example {
     machine: Option<&'static str>,
     target: &'static str,
     dialect: &'static Dialect,
+    /// Other words in the file of its machine.
+    changed: Option<Changed>,
 }
+
+/// A file of the shop with other words in it, each in the place of the one before.
+#[derive(Clone, Copy)]
+struct Changed {
+    file: &'static str,
+    words: &'static [(&'static str, &'static str)],
+}
+
+/// By hand where the shop's cells change blades by a routine, and the other way round.
+const CHANGED_OTHERWISE: Changed = Changed {
+    file: "shop/changing_cells.vcut",
+    words: &[
+        ("by = hand", "by = someone"),
+        ("by = program", "by = hand"),
+        ("by = someone", "by = program"),
+        ("change_routine = \"CHANGE_TOOL\"", ""),
+        ("rapid {", "rapid { change_routine = \"CHANGE_TOOL\""),
+    ],
+};
+
+/// The other kind of motions of a KUKA.
+const BY_SPLINES: Changed = Changed {
+    file: "shop/pocket_cells.vcut",
+    words: &[("krl {", "krl { motion = spline")],
+};
+
+/// Programs with words that no example has: job, machine and dialect.
+const OTHERS: [(&str, &str, &str, Changed); 5] = [
+    ("two_blades.vcut", "changing_cell", "krl", CHANGED_OTHERWISE),
+    ("hill_rect.vcut", "abb_changing_cell", "rapid", CHANGED_OTHERWISE),
+    (
+        "two_blades.vcut",
+        "changing_gantry",
+        "linuxcnc",
+        CHANGED_OTHERWISE,
+    ),
+    ("seat.vcut", "pocket_cell", "krl", BY_SPLINES),
+    ("tray.vcut", "pocket_cell", "krl", BY_SPLINES),
+];
 
 /// The programs of all examples, for all targets of this build and all dialects of those.
 fn examples() -> Vec<Example> {
@@ -266,20 +372,45 @@ fn examples() -> Vec<Example> {
                     machine: pairing.machine,
                     target: pairing.target,
                     dialect,
+                    changed: None,
                 });
             }
+        }
+        for &(job, machine, _, changed) in OTHERS.iter().filter(|(_, _, name, _)| *name == dialect.name) {
+            examples.push(Example {
+                job: job.to_owned(),
+                machine: Some(machine),
+                target: if dialect.numbered { "gcode" } else { dialect.name },
+                dialect,
+                changed: Some(changed),
+            });
         }
     }
     examples.retain(|example| registry::backend(example.target).is_some());
     examples
 }
 
+impl Changed {
+    fn compiled(self, machine: Option<&str>, job: &str) -> Outcome {
+        let text = read(&format!("examples/{}", self.file));
+        let changed = self.words.iter().fold(text, |text, (from, to)| {
+            assert!(text.contains(from), "{from}");
+            text.replace(from, to)
+        });
+        compile_on(machine, job, &shop::folder().with(self.file, changed))
+    }
+}
+
 impl Example {
     /// Runs all mutants; returns how many there were, and those that were not found.
     fn tried(&self) -> (usize, Vec<String>) {
-        let outcome = match self.target {
-            "gcode" => compiled_for(self.dialect.name, self.machine, &self.job),
-            _ => compiled(self.machine, &self.job),
+        let otherwise = self
+            .changed
+            .map(|changed| changed.compiled(self.machine, &self.job));
+        let outcome = match (&otherwise, self.target) {
+            (Some(otherwise), _) => otherwise,
+            (None, "gcode") => compiled_for(self.dialect.name, self.machine, &self.job),
+            (None, _) => compiled(self.machine, &self.job),
         };
         let backend = registry::backend(self.target).unwrap();
         let written = driver::write(outcome, backend).unwrap().unwrap();

@@ -445,6 +445,37 @@ fn the_example_in_python_writes_a_statement_for_every_op() {
     assert_eq!(x.split_once('.').unwrap().1.len(), 5, "{first}");
 }
 
+/// Blades that are changed, spindles and arcs: jobs of the examples, on their own machines.
+#[test]
+fn the_example_in_python_has_words_for_changes_spindles_and_chains() {
+    let folder = folder();
+    let out = folder.path().to_str().unwrap();
+    let words = [
+        ("two_blades", &["GOTO/CHANGE\nLOADTL/4 $$ dagger\n"][..]),
+        ("hill_rect", &["\nSPINDL/3000.0,RPM\n", "\nSPINDL/OFF\n"]),
+        ("tray", &["GOFWD/(CIRCLE/"]),
+    ];
+    for (name, words) in words {
+        let job = format!("examples/{name}.vcut");
+        let args = [
+            &job,
+            "--target",
+            "apt",
+            "--backend-path",
+            "examples/backends",
+            "-o",
+            out,
+            "-q",
+        ];
+        let run = vcutc(root(), &args);
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{name}");
+        let text = fs::read_to_string(folder.path().join(format!("{name}.apt"))).unwrap();
+        for word in words {
+            assert!(text.contains(word), "{name}: {word}");
+        }
+    }
+}
+
 /// The program of `docs/backends.md`, installed as the page says.
 fn with_the_program_of_the_page() -> TempDir {
     let folder = folder();

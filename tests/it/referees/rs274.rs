@@ -268,6 +268,7 @@ const FANUC: &[(&str, &str)] = &[
     // Tool-centre-point control: LinuxCNC has it as kinematics, beside the tool's length.
     ("G43.4 H1", "G43 H1\nM429"),
     ("G43.4 H2", "G43 H2\nM429"),
+    ("G43.4 H4", "G43 H4\nM429"),
     ("G49", "M428\nG49"),
     // Exact stop, which G61 is not there.
     ("G61", "G61.1"),
