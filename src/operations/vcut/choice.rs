@@ -61,19 +61,11 @@ pub(crate) fn plan<'j>(
     asked: &RoughVcut,
     ground: Ground<'j>,
 ) -> Result<(PlannedVcut, Surface), Box<dyn operation::Unplanned + 'j>> {
-    let Ground {
-        job,
-        before,
-        space,
-        cuts_left,
-        wanted,
-    } = ground;
+    let space = ground.space;
     let within = narrowed::within(asked, space.swing);
     let followed = space.machine.map(|machine| machine.by);
-    let bench = Bench::new(job, asked, before, space.routes)
-        .on_machine(followed)
-        .while_wanted(&wanted);
-    match searched(&bench, asked, &within, cuts_left) {
+    let bench = Bench::new(asked, ground).on_machine(followed);
+    match searched(&bench, asked, &within) {
         Ok(LaidOut { mut vcut, after, .. }) => {
             let machine = bench.job.machine.as_ref();
             let narrowed = narrowed::narrowed(asked, space.swing);
@@ -90,7 +82,6 @@ pub(crate) fn plan<'j>(
         Err(unplanned) => Err(Box::new(Sought {
             bench,
             asked: within,
-            cuts_left,
             unplanned,
         })),
     }
@@ -98,13 +89,8 @@ pub(crate) fn plan<'j>(
 
 /// The best operation that a search with the bench's effort finds. Where that is more than usual, what is found as usual stands unless
 /// something better is found: more plans lead other ways, not always to better ends.
-fn searched(
-    bench: &Bench<'_>,
-    asked: &RoughVcut,
-    within: &RoughVcut,
-    cuts_left: usize,
-) -> Result<LaidOut, Unplanned> {
-    let search = |bench: &Bench<'_>| chosen::within_all_limits(bench, asked, within, cuts_left);
+fn searched(bench: &Bench<'_>, asked: &RoughVcut, within: &RoughVcut) -> Result<LaidOut, Unplanned> {
+    let search = |bench: &Bench<'_>| chosen::within_all_limits(bench, asked, within);
     let found = search(bench);
     match bench.effort {
         SearchEffort::Normal => found,
@@ -126,9 +112,7 @@ fn searched(
 /// Whether an operation has a plan with nothing wrong that keeps all limits, as far as is seen with so much work. Where it has
 /// one, [`plan`] finds one.
 pub(crate) fn is_plannable(asked: &RoughVcut, ground: Ground<'_>, effort: &mut Effort) -> bool {
-    let bench =
-        Bench::new(ground.job, asked, ground.before, ground.space.routes).while_wanted(&ground.wanted);
-    offers::is_sound(&bench, asked, ground.cuts_left, effort)
+    offers::is_sound(&Bench::new(asked, ground), asked, effort)
 }
 
 /// The operation without its limits on time and cuts, and made fast where these hold what is to become small; none where
@@ -288,18 +272,18 @@ fn sorted(mut others: Vec<Candidate>) -> Vec<Candidate> {
 const OTHERS: [Residual; 3] = [Residual::Discard, Residual::Lift, Residual::Shift];
 
 /// The best operation that keeps its limits on time and cuts when it is planned.
-fn within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Unplanned> {
-    let first = best_lattice(bench, asked, cuts_left)?;
+fn within_limits(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unplanned> {
+    let first = best_lattice(bench, asked)?;
     let Some(broken) = limits::broken(bench, asked, &first.vcut) else {
         return Ok(first);
     };
     if trial::is_searched(asked) {
-        return kept_by_any(bench, asked, (first, broken), cuts_left);
+        return kept_by_any(bench, asked, (first, broken));
     }
     let (mut assumed, mut by) = (asked.clone(), broken);
     for _ in 0..limits::MOST_TIGHTENED {
         assumed = limits::tightened(&assumed, by);
-        let Ok(mut laid) = best_lattice(bench, &assumed, cuts_left) else {
+        let Ok(mut laid) = best_lattice(bench, &assumed) else {
             break;
         };
         laid.vcut.asked.limits = asked.limits;
@@ -318,9 +302,8 @@ fn kept_by_any(
     bench: &Bench<'_>,
     asked: &RoughVcut,
     (first, broken): (LaidOut, Excess),
-    cuts_left: usize,
 ) -> Result<LaidOut, Unplanned> {
-    let free = best_lattice(bench, &limits::of_plans(asked), cuts_left).ok();
+    let free = best_lattice(bench, &limits::of_plans(asked)).ok();
     let free = free.and_then(|laid| {
         let limit = asked.limits.scallop.map(|limit| limit.value);
         let weighed = bench.weigh(laid).held_to(limit, &limits::of_plans(asked));
@@ -333,7 +316,7 @@ fn kept_by_any(
     if let (Some(laid), Some(None)) = (&free, &still) {
         return Ok(laid.clone());
     }
-    if let Some(kept) = any_within_limits(bench, asked, cuts_left) {
+    if let Some(kept) = any_within_limits(bench, asked) {
         return Ok(kept);
     }
     Err(match (free, still.flatten()) {
@@ -346,49 +329,47 @@ fn kept_by_any(
 
 /// The operation with any parameters whose plan keeps all limits: what is held to them from the start goes other ways than what
 /// becomes small first.
-fn any_within_limits(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Option<LaidOut> {
+fn any_within_limits(bench: &Bench<'_>, asked: &RoughVcut) -> Option<LaidOut> {
     let lattices = parameters::open_lattices(asked);
     let mut effort = Effort::OF_A_PROBE;
-    let (parameters, _) = offers::any(bench, asked, &lattices, cuts_left, &mut effort, &mut Vec::new())?;
+    let (parameters, _) = offers::any(bench, asked, &lattices, &mut effort, &mut Vec::new())?;
     let found = Found {
         parameters,
         by: FoundBy::Simulation,
         by_formulas: None,
     };
-    let laid = best_found(bench, asked, found, cuts_left).ok()?;
+    let laid = best_found(bench, asked, found).ok()?;
     limits::broken(bench, asked, &laid.vcut).is_none().then_some(laid)
 }
 
 /// The operation on the best lattice, or on the one that it asks for.
-fn best_lattice(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Unplanned> {
+fn best_lattice(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unplanned> {
     match (asked.lattice.value, asked.objective.value) {
         (_, Objective::Scallop | Objective::BladeLoad) if trial::is_searched(asked) => {
-            finest::finest(bench, asked, cuts_left)
+            finest::finest(bench, asked)
         }
-        (_, Objective::Cuts) if trial::is_searched(asked) => fewest(bench, asked, cuts_left),
-        (Auto::Auto, Objective::Time) => compare_lattices(bench, asked, cuts_left),
+        (_, Objective::Cuts) if trial::is_searched(asked) => fewest(bench, asked),
+        (Auto::Auto, Objective::Time) => compare_lattices(bench, asked),
         // The fewest cuts are none of the route's: all lattices are searched at once.
         (Auto::Given(_), _) | (Auto::Auto, Objective::Scallop | Objective::Cuts | Objective::BladeLoad) => {
-            best_on(bench, asked, &parameters::open_lattices(asked), cuts_left)
+            best_on(bench, asked, &parameters::open_lattices(asked))
         }
     }
 }
 
 /// The operation with the fewest cuts: those that a search for them finds, with fitted tips or others, or the fastest plan where that has
 /// fewer.
-fn fewest(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Unplanned> {
-    let searched = best_on(bench, asked, &parameters::open_lattices(asked), cuts_left);
+fn fewest(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unplanned> {
+    let searched = best_on(bench, asked, &parameters::open_lattices(asked));
     let mut fast = asked.clone();
     fast.objective.value = Objective::Time;
-    let fastest = best_lattice(bench, &fast, cuts_left).ok().map(|mut laid| {
+    let fastest = best_lattice(bench, &fast).ok().map(|mut laid| {
         laid.vcut.asked.objective = asked.objective;
         laid
     });
     let limit = asked.limits.scallop.map(|limit| limit.value);
     let weighed = |laid: LaidOut| bench.weigh(laid).held_to(limit, asked);
-    let others = best_fitted(bench, asked, cuts_left)
-        .into_iter()
-        .chain(fastest.map(weighed));
+    let others = best_fitted(bench, asked).into_iter().chain(fastest.map(weighed));
     // The first one stands among equals.
     let better = |best: Contender, other: Contender| {
         if other.compare(&best) == Ordering::Less {
@@ -404,24 +385,14 @@ fn fewest(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<Laid
 }
 
 /// The operation with the best parameters on one of these lattices.
-fn best_on(
-    bench: &Bench<'_>,
-    asked: &RoughVcut,
-    lattices: &[Lattice],
-    cuts_left: usize,
-) -> Result<LaidOut, Unplanned> {
-    let found = trial::parameters(bench, asked, lattices, None, cuts_left)?;
-    best_found(bench, asked, found, cuts_left)
+fn best_on(bench: &Bench<'_>, asked: &RoughVcut, lattices: &[Lattice]) -> Result<LaidOut, Unplanned> {
+    let found = trial::parameters(bench, asked, lattices, None)?;
+    best_found(bench, asked, found)
 }
 
 /// The operation with the parameters that a search came to.
-fn best_found(
-    bench: &Bench<'_>,
-    asked: &RoughVcut,
-    found: Found,
-    cuts_left: usize,
-) -> Result<LaidOut, Unplanned> {
-    let laid = best_residual(bench, asked, &found.parameters, cuts_left)?;
+fn best_found(bench: &Bench<'_>, asked: &RoughVcut, found: Found) -> Result<LaidOut, Unplanned> {
+    let laid = best_residual(bench, asked, &found.parameters)?;
     match found.by {
         FoundBy::Formulas => Ok(laid),
         FoundBy::Simulation => {
@@ -447,7 +418,7 @@ fn best_found(
     }
 }
 
-fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Unplanned> {
+fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unplanned> {
     let mut refused = None;
     let mut by_model: Vec<(Duration, Lattice)> = Vec::new();
     for lattice in parameters::open_lattices(asked) {
@@ -459,7 +430,7 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> R
     by_model.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let mut contest = Contest::new();
     let limit = asked.limits.scallop.map(|limit| limit.value);
-    if let Some(fitted) = best_fitted(bench, asked, cuts_left) {
+    if let Some(fitted) = best_fitted(bench, asked) {
         contest.enter(Lattice::Fitted.word(), fitted);
     }
     // A lattice on which too many cuts are needed to compare them is the last resort.
@@ -472,12 +443,12 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> R
             continue;
         }
         let rival = best.and_then(|best| best.standing.time());
-        match trial::parameters(bench, asked, &[lattice], rival, cuts_left) {
+        match trial::parameters(bench, asked, &[lattice], rival) {
             Ok(found) if found.is_large(&bench.job, asked) => {
                 contest.rule_out(what, Standing::NotCompared);
                 large.get_or_insert((what, found));
             }
-            found => match found.and_then(|found| best_found(bench, asked, found, cuts_left)) {
+            found => match found.and_then(|found| best_found(bench, asked, found)) {
                 Ok(laid) => {
                     contest.enter(what, bench.weigh(laid).held_to(limit, asked));
                 }
@@ -493,7 +464,7 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> R
         (Some(best), None) => Ok(best.laid),
         (Some(best), Some(_)) if best.standing.time().is_some() => Ok(best.laid),
         (_, Some((what, found))) => {
-            let mut laid = best_found(bench, asked, found, cuts_left)?;
+            let mut laid = best_found(bench, asked, found)?;
             laid.vcut
                 .decisions
                 .insert(0, not_compared("lattice", what.to_owned()));
@@ -513,11 +484,11 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> R
 
 /// The best operation with fitted tips, where they may be taken and nothing is wrong with it. More stands above them than between the rows
 /// of a lattice, so the body of the blade may meet it.
-fn best_fitted(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Option<Contender> {
+fn best_fitted(bench: &Bench<'_>, asked: &RoughVcut) -> Option<Contender> {
     if !is_fitted_open(bench, asked) {
         return None;
     }
-    let laid = best_on(bench, asked, &[Lattice::Fitted], cuts_left).ok()?;
+    let laid = best_on(bench, asked, &[Lattice::Fitted]).ok()?;
     let limit = asked.limits.scallop.map(|limit| limit.value);
     let is_clear = bench.clears_bodies(&laid.vcut);
     let weighed = bench.weigh(laid).held_to(limit, asked);
@@ -550,16 +521,11 @@ fn is_far_behind(model: Duration, best: &Contender) -> bool {
 }
 
 /// The operation with the best residual strategy, or with the one that it asks for, along the best route.
-fn best_residual(
-    bench: &Bench<'_>,
-    asked: &RoughVcut,
-    found: &VcutParameters,
-    cuts_left: usize,
-) -> Result<LaidOut, Unplanned> {
+fn best_residual(bench: &Bench<'_>, asked: &RoughVcut, found: &VcutParameters) -> Result<LaidOut, Unplanned> {
     if bench.wanted.is_needless() {
         return Err(Unplanned::Refused(Vec::new()));
     }
-    let first = lay_out(&bench.job, asked, found.clone(), cuts_left, bench.work())?;
+    let first = lay_out(&bench.job, asked, found.clone(), bench.work())?;
     let first = redundant::decided(bench, first, asked);
     let is_open = asked.residual.value == Auto::Auto && first.strategies == Strategies::Differing;
     let mut first = route::best(bench, first);
@@ -579,7 +545,7 @@ fn best_residual(
         }
         let mut asked = asked.clone();
         asked.residual.value = Auto::Given(residual);
-        let mut laid = lay_out(&bench.job, &asked, found.clone(), cuts_left, bench.work()).ok()?;
+        let mut laid = lay_out(&bench.job, &asked, found.clone(), bench.work()).ok()?;
         laid.vcut.asked.residual.value = Auto::Auto;
         let laid = redundant::decided(bench, laid, &asked);
         Some(bench.weigh(route::best(bench, laid)))

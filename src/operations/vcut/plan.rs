@@ -152,6 +152,8 @@ pub struct Work<'w> {
     pub before: &'w Surface,
     /// The part with the operation's allowance.
     pub bound: &'w Profile,
+    /// Most cuts that it may have.
+    pub cuts_left: usize,
 }
 
 /// Lays out the cuts of an operation with these parameters on what those before left. A residual strategy that it leaves open
@@ -163,10 +165,13 @@ pub fn lay_out(
     job: &PlanningJob<'_>,
     asked: &RoughVcut,
     parameters: VcutParameters,
-    cuts_left: usize,
     work: Work<'_>,
 ) -> Result<LaidOut, Box<Refused>> {
-    let Work { before, bound } = work;
+    let Work {
+        before,
+        bound,
+        cuts_left,
+    } = work;
     let clearance = cone::clearance(bound, parameters.flanks.slope);
     // Level cuts lie within the stock anyhow.
     let clearance = match asked.along {

@@ -15,6 +15,7 @@ use vcutc_geometry::offset::offset_up;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::PlannedOperation;
 use vcutc_job::follow::Along;
+use vcutc_job::operation::Ground;
 use vcutc_job::search::{OnMachine, RouteSet, SearchEffort};
 use vcutc_job::{CheckedJob, PlanningJob};
 use vcutc_process::lower::alone;
@@ -56,6 +57,8 @@ pub(super) struct Bench<'j> {
     pub(super) job: PlanningJob<'j>,
     /// What the operations decided so far leave of the stock.
     before: Surface,
+    /// Most cuts that the operation may have.
+    pub(super) cuts_left: usize,
     /// The part with the operation's allowance.
     bound: Profile,
     pub(super) removable: Removable,
@@ -69,24 +72,18 @@ pub(super) struct Bench<'j> {
 }
 
 impl<'j> Bench<'j> {
-    pub(super) fn new(job: PlanningJob<'j>, asked: &RoughVcut, before: Surface, latitude: RouteSet) -> Self {
+    pub(super) fn new(asked: &RoughVcut, ground: Ground<'j>) -> Self {
+        let job = ground.job;
         Self {
             bound: bound(&job, asked),
             removable: Removable::new(&job.profile, asked),
             effort: job.effort,
             job,
-            before,
-            latitude,
+            before: ground.before,
+            cuts_left: ground.cuts_left,
+            latitude: ground.space.routes,
             followed: None,
-            wanted: Wanted::ALWAYS,
-        }
-    }
-
-    /// The same, of which no plans are made once they are not wanted any more.
-    pub(super) fn while_wanted(self, wanted: &Wanted) -> Self {
-        Self {
-            wanted: wanted.clone(),
-            ..self
+            wanted: ground.wanted,
         }
     }
 
@@ -108,6 +105,7 @@ impl<'j> Bench<'j> {
         Self {
             job: self.job.clone(),
             before: self.before.clone(),
+            cuts_left: self.cuts_left,
             bound: self.bound.clone(),
             removable: self.removable.clone(),
             latitude: self.latitude,
@@ -122,6 +120,7 @@ impl<'j> Bench<'j> {
         Work {
             before: &self.before,
             bound: &self.bound,
+            cuts_left: self.cuts_left,
         }
     }
 

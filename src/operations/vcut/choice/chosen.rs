@@ -55,23 +55,22 @@ pub(super) fn within_all_limits(
     bench: &Bench<'_>,
     asked: &RoughVcut,
     within: &RoughVcut,
-    cuts_left: usize,
 ) -> Result<LaidOut, Unplanned> {
     if !is_needed(within) {
-        return within_limits(bench, within, cuts_left);
+        return within_limits(bench, within);
     }
     let depths = Depths::of(bench, asked);
     let mut kept: Vec<LaidOut> = Vec::new();
     for limit in depths.limits(&SHARES) {
         let why = WhyChosen::LittleStays;
-        let Some(laid) = sound_under(bench, within, (limit, depths.chosen(why)), cuts_left) else {
+        let Some(laid) = sound_under(bench, within, (limit, depths.chosen(why))) else {
             break;
         };
         if depths.share_left(&laid) <= LITTLE {
             return Ok(laid);
         }
         // What is fast without its redundant Vs may leave more than what needs all.
-        if let Some(all) = with_all(bench, within, (limit, depths.chosen(why)), cuts_left)
+        if let Some(all) = with_all(bench, within, (limit, depths.chosen(why)))
             && depths.share_left(&all) <= LITTLE
         {
             return Ok(all);
@@ -84,24 +83,19 @@ pub(super) fn within_all_limits(
     }
     let why = WhyChosen::TightestKept;
     let mut wider = depths.limits(&WIDER).into_iter();
-    let found = wider.find_map(|limit| sound_under(bench, within, (limit, depths.chosen(why)), cuts_left));
-    found.map_or_else(|| within_limits(bench, within, cuts_left), Ok)
+    let found = wider.find_map(|limit| sound_under(bench, within, (limit, depths.chosen(why))));
+    found.map_or_else(|| within_limits(bench, within), Ok)
 }
 
 /// The best operation under a limit with all its Vs, if it has nothing wrong; none where it keeps them anyway. What it asks for says
 /// so: planned again under that limit, it would leave more.
-fn with_all(
-    bench: &Bench<'_>,
-    within: &RoughVcut,
-    chosen: (Length, ChosenScallop),
-    cuts_left: usize,
-) -> Option<LaidOut> {
+fn with_all(bench: &Bench<'_>, within: &RoughVcut, chosen: (Length, ChosenScallop)) -> Option<LaidOut> {
     if within.redundant.value != Auto::Auto {
         return None;
     }
     let mut keeping = within.clone();
     keeping.redundant.value = Auto::Given(Redundant::Keep);
-    sound_under(bench, &keeping, chosen, cuts_left)
+    sound_under(bench, &keeping, chosen)
 }
 
 /// The best operation under a limit, if it has nothing wrong.
@@ -109,14 +103,13 @@ fn sound_under(
     bench: &Bench<'_>,
     within: &RoughVcut,
     (limit, chosen): (Length, ChosenScallop),
-    cuts_left: usize,
 ) -> Option<LaidOut> {
     let mut limited = within.clone();
     limited.limits.scallop = Some(Sourced {
         value: limit,
         span: None,
     });
-    let laid = within_limits(bench, &limited, cuts_left).ok()?;
+    let laid = within_limits(bench, &limited).ok()?;
     let weighed = bench.weigh(laid).held_to(Some(limit), &limited);
     weighed.standing.time()?;
     let mut laid = weighed.laid;

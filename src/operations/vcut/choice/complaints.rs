@@ -12,7 +12,6 @@ use vcutc_job::operation::{self, WorksThere};
 pub(super) struct Sought<'j> {
     pub(super) bench: Bench<'j>,
     pub(super) asked: RoughVcut,
-    pub(super) cuts_left: usize,
     pub(super) unplanned: Unplanned,
 }
 
@@ -24,11 +23,6 @@ impl operation::Unplanned for Sought<'_> {
         works: &mut WorksThere<'_>,
     ) -> Vec<Diagnostic> {
         let bench = self.bench.for_whom(wanted);
-        let case = offers::Case {
-            bench: &bench,
-            asked: &self.asked,
-            cuts_left: self.cuts_left,
-        };
-        offers::told(case, self.unplanned.clone(), effort, works)
+        offers::told((&bench, &self.asked), self.unplanned.clone(), effort, works)
     }
 }

@@ -86,19 +86,19 @@ fn measure(asked: &RoughVcut, figures: &Figures) -> Length {
 }
 
 /// The operation with the least scallop, or the least edge in use.
-pub(super) fn finest(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Result<LaidOut, Unplanned> {
+pub(super) fn finest(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unplanned> {
     let by_formulas = match parameters::resolve(&bench.job, asked) {
         Ok(found) => Some(found),
         Err(refusal) if refusal.is_conflict() => None,
         Err(refusal) => return Err(refusal.into()),
     };
-    let fastest = within_limits(bench, &limited(asked, None), cuts_left)?;
+    let fastest = within_limits(bench, &limited(asked, None))?;
     if fastest.vcut.laid_out() > MOST_CUTS_COMPARED {
         return Ok(as_asked(fastest, asked));
     }
     let limit = asked.limits.scallop.map(|limit| limit.value);
     let fastest = bench.weigh(fastest).held_to(limit, asked);
-    let formulas = by_formulas.and_then(|found| planned(bench, asked, found, cuts_left));
+    let formulas = by_formulas.and_then(|found| planned(bench, asked, found));
     let by_formulas = formulas.as_ref().map(|one| one.standing);
     let is_sound = |one: &Contender| one.standing.time().is_some();
     let start = match formulas.filter(is_sound) {
@@ -116,7 +116,6 @@ pub(super) fn finest(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> 
     let mut search = Search {
         bench,
         asked,
-        cuts_left,
         turned_down: Vec::new(),
     };
     let kept = measure(asked, &start.figures);
@@ -129,7 +128,7 @@ pub(super) fn finest(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> 
         by: FoundBy::Simulation,
         by_formulas,
     };
-    best_found(bench, &assumed, found, cuts_left).map(|laid| as_asked(laid, asked))
+    best_found(bench, &assumed, found).map(|laid| as_asked(laid, asked))
 }
 
 /// A plan with the job's own limits.
@@ -140,13 +139,8 @@ fn as_asked(mut laid: LaidOut, asked: &RoughVcut) -> LaidOut {
 }
 
 /// What comes of parameters along the fastest route.
-fn planned(
-    bench: &Bench<'_>,
-    asked: &RoughVcut,
-    found: VcutParameters,
-    cuts_left: usize,
-) -> Option<Contender> {
-    let laid = lay_out(&bench.job, asked, found, cuts_left, bench.work()).ok()?;
+fn planned(bench: &Bench<'_>, asked: &RoughVcut, found: VcutParameters) -> Option<Contender> {
+    let laid = lay_out(&bench.job, asked, found, bench.work()).ok()?;
     if laid.vcut.cuts.len() > MOST_CUTS_COMPARED {
         return None;
     }
@@ -157,7 +151,6 @@ fn planned(
 struct Search<'s> {
     bench: &'s Bench<'s>,
     asked: &'s RoughVcut,
-    cuts_left: usize,
     /// Plans that broke the job's limits.
     turned_down: Vec<TurnedDown>,
 }
@@ -195,7 +188,6 @@ impl Search<'_> {
             self.bench,
             &assumed,
             &lattices,
-            self.cuts_left,
             &mut effort,
             &mut self.turned_down,
         )?;
@@ -205,7 +197,7 @@ impl Search<'_> {
     /// The fastest parameters found under a limit, if their plan keeps all others.
     fn fastest(&mut self, lattice: Lattice, limit: Length) -> Option<Kept> {
         let assumed = limited(self.asked, Some(limit));
-        let laid = best_on(self.bench, &assumed, &[lattice], self.cuts_left).ok()?;
+        let laid = best_on(self.bench, &assumed, &[lattice]).ok()?;
         let most = assumed.limits.scallop.map(|limit| limit.value);
         let found = self.bench.weigh(laid).held_to(most, &assumed);
         self.turned_down
@@ -225,7 +217,7 @@ impl Search<'_> {
         };
         let mut turned_down = self.turned_down;
         turned_down.retain(|other| !is_assumed(other.bound));
-        match trial::from(self.bench, assumed, &start, self.cuts_left, turned_down) {
+        match trial::from(self.bench, assumed, &start, turned_down) {
             Some(mut best) => {
                 best.binding.retain(|&bound| !is_assumed(bound));
                 best

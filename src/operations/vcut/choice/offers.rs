@@ -16,30 +16,17 @@ use vcutc_job::operation::WorksThere;
 /// Longest times that are offered where nothing else holds the layer, as shares of the least time.
 const LONGER: [f64; 3] = [1.5, 2.5, 4.0];
 
-/// An operation that has no plan.
-#[derive(Clone, Copy)]
-pub(super) struct Case<'c> {
-    pub(super) bench: &'c Bench<'c>,
-    pub(super) asked: &'c RoughVcut,
-    pub(super) cuts_left: usize,
-}
-
 /// Puts into words why there is no plan, with what works of all that may: here, and for those who come after planning.
 pub(super) fn told(
-    case: Case<'_>,
+    (bench, asked): (&Bench<'_>, &RoughVcut),
     unplanned: Unplanned,
     effort: &mut Effort,
     works_there: &mut WorksThere<'_>,
 ) -> Vec<Diagnostic> {
-    let Case {
-        bench,
-        asked,
-        cuts_left,
-    } = case;
     let refused = match unplanned {
         Unplanned::Refused(refused) => refused,
         Unplanned::Parameters(Refusal::Unbounded) => {
-            let times = longer_than_the_least(bench, asked, cuts_left);
+            let times = longer_than_the_least(bench, asked);
             vec![parameters::nothing_holds_the_layer(asked, &times)]
         }
         Unplanned::Parameters(refusal) => refusal.in_words(asked),
@@ -52,7 +39,7 @@ pub(super) fn told(
                 if is_over(effort) {
                     return Attempt::LeftOut;
                 }
-                let is_good = is_sound(bench, &offer.changed, cuts_left, effort) && works_there(&offer.edits);
+                let is_good = is_sound(bench, &offer.changed, effort) && works_there(&offer.edits);
                 match is_good {
                     true => Attempt::Works,
                     // What was broken off says nothing.
@@ -163,7 +150,7 @@ fn first_that_works(
 
 /// Whether an operation has a plan that keeps all its limits and has nothing wrong, as far as is seen with so much work. Where
 /// there is one, the choice comes to one.
-pub(super) fn is_sound(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize, effort: &mut Effort) -> bool {
+pub(super) fn is_sound(bench: &Bench<'_>, asked: &RoughVcut, effort: &mut Effort) -> bool {
     if effort.is_spent() || bench.wanted.is_needless() {
         return false;
     }
@@ -171,7 +158,7 @@ pub(super) fn is_sound(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize, e
         if is_too_large(bench, asked, effort) {
             return false;
         }
-        let Ok(laid) = within_limits(bench, asked, cuts_left) else {
+        let Ok(laid) = within_limits(bench, asked) else {
             effort.spend(0);
             return false;
         };
@@ -179,22 +166,17 @@ pub(super) fn is_sound(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize, e
         return keeps_all(bench.weigh(laid), asked);
     }
     let (assumed, lattices) = (as_time(asked), super::lattices(bench, asked));
-    any(bench, &assumed, &lattices, cuts_left, effort, &mut Vec::new()).is_some()
-        || keeps_what_the_best_plan_needs(bench, asked, cuts_left, effort)
+    any(bench, &assumed, &lattices, effort, &mut Vec::new()).is_some()
+        || keeps_what_the_best_plan_needs(bench, asked, effort)
 }
 
 /// Whether the choice keeps limits on time and cuts that a search for any plan does not: the best plan of all may do.
-fn keeps_what_the_best_plan_needs(
-    bench: &Bench<'_>,
-    asked: &RoughVcut,
-    cuts_left: usize,
-    effort: &mut Effort,
-) -> bool {
+fn keeps_what_the_best_plan_needs(bench: &Bench<'_>, asked: &RoughVcut, effort: &mut Effort) -> bool {
     let is_limited = asked.limits.time.is_some() || asked.limits.cuts.is_some();
     if !is_limited || bench.wanted.is_needless() {
         return false;
     }
-    let Ok(laid) = within_limits(bench, asked, cuts_left) else {
+    let Ok(laid) = within_limits(bench, asked) else {
         return false;
     };
     effort.spend(laid.vcut.cuts.len());
@@ -212,13 +194,12 @@ pub(super) fn any(
     bench: &Bench<'_>,
     asked: &RoughVcut,
     lattices: &[Lattice],
-    cuts_left: usize,
     effort: &mut Effort,
     turned_down: &mut Vec<TurnedDown>,
 ) -> Option<(VcutParameters, Figures)> {
     let rest = (1..=lattices.len()).rev();
     lattices.iter().zip(rest).find_map(|(&lattice, rest)| {
-        let (found, left) = trial::any(bench, asked, &[lattice], cuts_left, effort.part(rest));
+        let (found, left) = trial::any(bench, asked, &[lattice], effort.part(rest));
         effort.give_back(&left);
         turned_down.extend(found.turned_down);
         found.sound
@@ -232,11 +213,11 @@ fn keeps_all(contender: Contender, asked: &RoughVcut) -> bool {
 }
 
 /// Times that leave more room than the least there is.
-fn longer_than_the_least(bench: &Bench<'_>, asked: &RoughVcut, cuts_left: usize) -> Vec<Duration> {
+fn longer_than_the_least(bench: &Bench<'_>, asked: &RoughVcut) -> Vec<Duration> {
     if bench.wanted.is_needless() {
         return Vec::new();
     }
-    let fastest = within_limits(bench, &limited(asked, None), cuts_left);
+    let fastest = within_limits(bench, &limited(asked, None));
     let least = fastest
         .ok()
         .and_then(|laid| bench.timed(&laid.vcut))

@@ -88,7 +88,6 @@ pub(super) fn parameters(
     asked: &RoughVcut,
     lattices: &[Lattice],
     rival: Option<Duration>,
-    cuts_left: usize,
 ) -> Result<Found, Unplanned> {
     let by_bound = match by_formulas(bench, asked, lattices) {
         Ok(found) if !is_searched(asked) => return Ok(plain(found)),
@@ -96,7 +95,7 @@ pub(super) fn parameters(
         Err(refusal) if goes_on(asked, &refusal) => Err(refusal),
         Err(refusal) => return Err(refusal.into()),
     };
-    let mut trials = Trials::new(bench, asked, lattices, cuts_left);
+    let mut trials = Trials::new(bench, asked, lattices);
     trials.rival = rival;
     let by_formulas = trials.search(by_bound.as_ref().ok());
     match (trials.best(), by_bound) {
@@ -128,10 +127,9 @@ pub(super) fn any(
     bench: &Bench<'_>,
     asked: &RoughVcut,
     lattices: &[Lattice],
-    cuts_left: usize,
     effort: Effort,
 ) -> (Any, Effort) {
-    let mut trials = Trials::new(bench, asked, lattices, cuts_left);
+    let mut trials = Trials::new(bench, asked, lattices);
     (trials.goal, trials.effort) = (Goal::Any, effort);
     match by_formulas(bench, asked, lattices) {
         Ok(found) => {
@@ -155,11 +153,10 @@ pub(super) fn from(
     bench: &Bench<'_>,
     asked: &RoughVcut,
     start: &VcutParameters,
-    cuts_left: usize,
     turned_down: Vec<TurnedDown>,
 ) -> Option<VcutParameters> {
     let lattices = [start.lattice];
-    let mut trials = Trials::new(bench, asked, &lattices, cuts_left);
+    let mut trials = Trials::new(bench, asked, &lattices);
     trials.turned_down = turned_down;
     trials.weigh(start.clone());
     trials.wander();
@@ -275,7 +272,6 @@ struct Trials<'t> {
     bench: &'t Bench<'t>,
     asked: &'t RoughVcut,
     lattices: &'t [Lattice],
-    cuts_left: usize,
     floor: Floor<'t>,
     /// How many plans may still be made; not known before the first one.
     plans_left: Option<usize>,
@@ -300,12 +296,11 @@ struct Trials<'t> {
 }
 
 impl<'t> Trials<'t> {
-    fn new(bench: &'t Bench<'t>, asked: &'t RoughVcut, lattices: &'t [Lattice], cuts_left: usize) -> Self {
+    fn new(bench: &'t Bench<'t>, asked: &'t RoughVcut, lattices: &'t [Lattice]) -> Self {
         Self {
             bench,
             asked,
             lattices,
-            cuts_left,
             floor: Floor::new(&bench.job, bench.work()),
             plans_left: None,
             most_plans: &PLANS,
@@ -434,13 +429,7 @@ impl<'t> Trials<'t> {
         if self.bench.wanted.is_needless() {
             return Outcome::Impossible;
         }
-        let laid = lay_out(
-            &self.bench.job,
-            self.asked,
-            found.clone(),
-            self.cuts_left,
-            self.bench.work(),
-        );
+        let laid = lay_out(&self.bench.job, self.asked, found.clone(), self.bench.work());
         let Ok(laid) = laid else {
             return Outcome::Impossible;
         };

@@ -36,7 +36,7 @@ impl<'f> Floor<'f> {
     /// For one operation.
     #[must_use]
     pub const fn new(job: &'f PlanningJob<'f>, work: Work<'f>) -> Self {
-        let Work { before, bound } = work;
+        let Work { before, bound, .. } = work;
         Self { job, bound, before }
     }
 

@@ -110,7 +110,7 @@ impl Trials<'_> {
                 first,
                 &clearance,
                 self.bench.work().before,
-                self.cuts_left.min(MOST_CUTS_COMPARED),
+                self.bench.cuts_left.min(MOST_CUTS_COMPARED),
             )
             .tested(Testing::AtPeaks);
             for parameters in of_swing {

@@ -1,11 +1,11 @@
 //! The search ends.
 
 use super::*;
-use crate::choice::RouteSet;
 use crate::samples::{operation, paper_job};
 use vcutc_geometry::curve::Point2;
+use vcutc_job::operation::Ground;
 use vcutc_job::{PlanningJob, Sourced};
-use vcutc_simulation::surface::Surface;
+use vcutc_process::plan::ground_of;
 
 /// Plans of the formulas' choice and laxer limits, of the spread and its turns, of the changes, and of layers close to the best one.
 const MOST: usize = 48 + 72 + 72 + 48 + 10;
@@ -31,11 +31,15 @@ fn the_search_is_bounded() {
             });
             let asked = operation(&mut job).clone();
             let job = PlanningJob::of(&job).unwrap();
-            let bench = Bench::new(job.clone(), &asked, Surface::untouched(job.stock), RouteSet::Full);
+            let ground = Ground {
+                cuts_left: 1_000_000,
+                ..ground_of(&job, 0).unwrap()
+            };
+            let bench = Bench::new(&asked, ground);
             for lattice in [Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free] {
                 let by_bound = parameters::resolve_on(&job, &asked, vec![lattice]).ok();
                 let lattices = [lattice];
-                let mut trials = Trials::new(&bench, &asked, &lattices, 1_000_000);
+                let mut trials = Trials::new(&bench, &asked, &lattices);
                 trials.search(by_bound.as_ref());
                 assert!(trials.tried.len() <= MOST, "{}", trials.tried.len());
             }
