@@ -305,8 +305,7 @@ fn kept_by_any(
 ) -> Result<LaidOut, Unplanned> {
     let free = best_lattice(bench, &limits::of_plans(asked)).ok();
     let free = free.and_then(|laid| {
-        let limit = asked.limits.scallop.map(|limit| limit.value);
-        let weighed = bench.weigh(laid).held_to(limit, &limits::of_plans(asked));
+        let weighed = bench.judged(laid, &limits::of_plans(asked));
         let is_sound = weighed.standing.time().is_some();
         let mut laid = weighed.laid;
         laid.vcut.asked.limits = asked.limits;
@@ -367,8 +366,7 @@ fn fewest(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unplanned> {
         laid.vcut.asked.objective = asked.objective;
         laid
     });
-    let limit = asked.limits.scallop.map(|limit| limit.value);
-    let weighed = |laid: LaidOut| bench.weigh(laid).held_to(limit, asked);
+    let weighed = |laid: LaidOut| bench.judged(laid, asked);
     let others = best_fitted(bench, asked).into_iter().chain(fastest.map(weighed));
     // The first one stands among equals.
     let better = |best: Contender, other: Contender| {
@@ -396,8 +394,7 @@ fn best_found(bench: &Bench<'_>, asked: &RoughVcut, found: Found) -> Result<Laid
     match found.by {
         FoundBy::Formulas => Ok(laid),
         FoundBy::Simulation => {
-            let limit = asked.limits.scallop.map(|limit| limit.value);
-            let best = bench.weigh(laid).held_to(limit, asked);
+            let best = bench.judged(laid, asked);
             let candidate = |by: FoundBy, standing| Candidate {
                 what: by.words().to_owned(),
                 standing,
@@ -429,7 +426,6 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unp
     }
     by_model.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let mut contest = Contest::new();
-    let limit = asked.limits.scallop.map(|limit| limit.value);
     if let Some(fitted) = best_fitted(bench, asked) {
         contest.enter(Lattice::Fitted.word(), fitted);
     }
@@ -450,7 +446,7 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unp
             }
             found => match found.and_then(|found| best_found(bench, asked, found)) {
                 Ok(laid) => {
-                    contest.enter(what, bench.weigh(laid).held_to(limit, asked));
+                    contest.enter(what, bench.judged(laid, asked));
                 }
                 Err(told) => {
                     contest.rule_out(what, Standing::Impossible);
@@ -489,9 +485,8 @@ fn best_fitted(bench: &Bench<'_>, asked: &RoughVcut) -> Option<Contender> {
         return None;
     }
     let laid = best_on(bench, asked, &[Lattice::Fitted]).ok()?;
-    let limit = asked.limits.scallop.map(|limit| limit.value);
     let is_clear = bench.clears_bodies(&laid.vcut);
-    let weighed = bench.weigh(laid).held_to(limit, asked);
+    let weighed = bench.judged(laid, asked);
     (is_clear && weighed.standing.time().is_some()).then_some(weighed)
 }
 

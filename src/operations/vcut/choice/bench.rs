@@ -212,6 +212,12 @@ impl<'j> Bench<'j> {
         }
     }
 
+    /// What comes of an operation, held to the limits of what is asked for.
+    pub(super) fn judged(&self, laid: LaidOut, asked: &RoughVcut) -> Contender {
+        let limit = asked.limits.scallop.map(|limit| limit.value);
+        self.weigh(laid).held_to(limit, asked)
+    }
+
     /// How long an operation takes, and what comes of it, on the machine where plans are compared on it; none where the compiler is at
     /// fault, which the proof of the whole then shows.
     pub(super) fn timed(&self, vcut: &PlannedVcut) -> Option<(Standing, Duration)> {

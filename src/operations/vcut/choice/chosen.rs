@@ -110,7 +110,7 @@ fn sound_under(
         span: None,
     });
     let laid = within_limits(bench, &limited).ok()?;
-    let weighed = bench.weigh(laid).held_to(Some(limit), &limited);
+    let weighed = bench.judged(laid, &limited);
     weighed.standing.time()?;
     let mut laid = weighed.laid;
     laid.vcut.asked.limits.chosen = Some(chosen);

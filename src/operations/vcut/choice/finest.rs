@@ -96,8 +96,7 @@ pub(super) fn finest(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Un
     if fastest.vcut.laid_out() > MOST_CUTS_COMPARED {
         return Ok(as_asked(fastest, asked));
     }
-    let limit = asked.limits.scallop.map(|limit| limit.value);
-    let fastest = bench.weigh(fastest).held_to(limit, asked);
+    let fastest = bench.judged(fastest, asked);
     let formulas = by_formulas.and_then(|found| planned(bench, asked, found));
     let by_formulas = formulas.as_ref().map(|one| one.standing);
     let is_sound = |one: &Contender| one.standing.time().is_some();
@@ -144,8 +143,7 @@ fn planned(bench: &Bench<'_>, asked: &RoughVcut, found: VcutParameters) -> Optio
     if laid.vcut.cuts.len() > MOST_CUTS_COMPARED {
         return None;
     }
-    let limit = asked.limits.scallop.map(|limit| limit.value);
-    Some(bench.weigh(route::best(bench, laid)).held_to(limit, asked))
+    Some(bench.judged(route::best(bench, laid), asked))
 }
 
 struct Search<'s> {
@@ -198,8 +196,7 @@ impl Search<'_> {
     fn fastest(&mut self, lattice: Lattice, limit: Length) -> Option<Kept> {
         let assumed = limited(self.asked, Some(limit));
         let laid = best_on(self.bench, &assumed, &[lattice]).ok()?;
-        let most = assumed.limits.scallop.map(|limit| limit.value);
-        let found = self.bench.weigh(laid).held_to(most, &assumed);
+        let found = self.bench.judged(laid, &assumed);
         self.turned_down
             .extend(TurnedDown::of(found.standing, found.figures));
         found.standing.time()?;

@@ -4,7 +4,7 @@
 use super::bench::{Bench, Figures};
 use super::finest::{as_time, limited};
 use super::trial::{self, TurnedDown};
-use super::{Contender, Unplanned, within_limits};
+use super::{Unplanned, within_limits};
 use crate::asked::{Lattice, RoughVcut};
 use crate::plan::parameters::{self, Refusal, VcutParameters};
 use crate::plan::refusal::{Ladder, Offer, Refused};
@@ -163,7 +163,7 @@ pub(super) fn is_sound(bench: &Bench<'_>, asked: &RoughVcut, effort: &mut Effort
             return false;
         };
         effort.spend(laid.vcut.cuts.len());
-        return keeps_all(bench.weigh(laid), asked);
+        return bench.judged(laid, asked).standing.time().is_some();
     }
     let (assumed, lattices) = (as_time(asked), super::lattices(bench, asked));
     any(bench, &assumed, &lattices, effort, &mut Vec::new()).is_some()
@@ -180,7 +180,7 @@ fn keeps_what_the_best_plan_needs(bench: &Bench<'_>, asked: &RoughVcut, effort: 
         return false;
     };
     effort.spend(laid.vcut.cuts.len());
-    keeps_all(bench.weigh(laid), asked)
+    bench.judged(laid, asked).standing.time().is_some()
 }
 
 /// Whether an operation has more cuts by the model than may be planned.
@@ -204,12 +204,6 @@ pub(super) fn any(
         turned_down.extend(found.turned_down);
         found.sound
     })
-}
-
-/// Whether a plan has nothing wrong and keeps the limits.
-fn keeps_all(contender: Contender, asked: &RoughVcut) -> bool {
-    let limit = asked.limits.scallop.map(|limit| limit.value);
-    contender.held_to(limit, asked).standing.time().is_some()
 }
 
 /// Times that leave more room than the least there is.

@@ -77,11 +77,7 @@ pub(super) fn decided(bench: &Bench<'_>, all: LaidOut, asked: &RoughVcut) -> Lai
     if skipping == Skipping::Always {
         return thinned;
     }
-    let limit = asked.limits.scallop.map(|limit| limit.value);
-    let weighed = |laid| {
-        let laid = route::usual(bench, laid, Order::Point);
-        bench.weigh(laid).held_to(limit, asked)
-    };
+    let weighed = |laid| bench.judged(route::usual(bench, laid, Order::Point), asked);
     better(asked, [thinned, all], weighed).laid
 }
 
