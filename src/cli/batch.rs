@@ -350,16 +350,13 @@ fn tell(
     console.summary(&Summary {
         job: &unit.job,
         diagnostics,
-        lines: &[],
         numbers: figures.map(|figures| &figures.numbers),
         times: figures.map(|figures| &figures.times),
-        reach: None,
-        dynamics: None,
         checks: figures.map(|figures| figures.checks.with(made.read_back)),
         parameters: figures.map_or(&[], |figures| &figures.parameters),
         placed: &made.placed,
         remark: Some(&remark(unit, diagnostics, made, fate, console.warnings())),
-        timings: &[],
+        ..Summary::default()
     });
 }
 

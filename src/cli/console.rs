@@ -433,6 +433,23 @@ impl Console {
         }
     }
 
+    /// Prints what was made of a job, where its figures are in the files.
+    pub(super) fn made(
+        &self,
+        job: &str,
+        diagnostics: &[Diagnostic],
+        placed: &[Placed],
+        remark: Option<&str>,
+    ) {
+        self.summary(&Summary {
+            job,
+            diagnostics,
+            placed,
+            remark,
+            ..Summary::default()
+        });
+    }
+
     fn summary_body<'a>(&self, summary: &'a Summary<'_>, failure: Option<&'a str>) -> SummaryBody<'a> {
         let (errors, warnings) = count(summary.diagnostics);
         SummaryBody {

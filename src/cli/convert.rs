@@ -2,7 +2,7 @@
 
 use super::args::ConvertArgs;
 use super::compile::{self, Amended, Carried, Product};
-use super::console::{Console, Failure, Summary};
+use super::console::{Console, Failure};
 use super::files::{Disk, load_program};
 use super::meant::Driven;
 use super::output::one_file;
@@ -75,20 +75,7 @@ fn converted(args: &ConvertArgs, console: &Console) -> Result<Result<Conversion,
         }
         Err(Refused { diagnostics, sources }) => {
             console.diagnostics(&diagnostics, &sources);
-            console.summary(&Summary {
-                job: first(args),
-                diagnostics: &diagnostics,
-                lines: &[],
-                numbers: None,
-                times: None,
-                reach: None,
-                dynamics: None,
-                checks: None,
-                parameters: &[],
-                placed: &[],
-                remark: Some("nothing was converted"),
-                timings: &[],
-            });
+            console.made(first(args), &diagnostics, &[], Some("nothing was converted"));
             Ok(Err(Exit::JobHasErrors))
         }
     }

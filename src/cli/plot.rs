@@ -2,7 +2,7 @@
 
 use super::args::{PlotArgs, What};
 use super::compile::{unreadable, without_machine, without_masses};
-use super::console::{Console, Failure, Summary};
+use super::console::{Console, Failure};
 use super::files::{Disk, stem};
 use super::output::{Destination, Output, Placed, one_file};
 use super::patience;
@@ -11,8 +11,8 @@ use super::{Exit, Targets};
 use clap::ValueEnum;
 use std::path::Path;
 use vcutc_backend_api::bundle::Sink;
+use vcutc_driver::RequestError;
 use vcutc_driver::memory::Memory;
-use vcutc_driver::{Outcome, RequestError};
 use vcutc_picture::Prefix;
 use vcutc_report::{Material, pictures};
 
@@ -44,7 +44,7 @@ pub(super) fn plot(args: &PlotArgs, targets: &Targets, console: &Console) -> Exi
     };
     console.diagnostics(&outcome.diagnostics, &outcome.sources);
     let Some(material) = Material::of(&outcome) else {
-        tell(disk.job(), &outcome, &[], Some("nothing was drawn"), console);
+        console.made(disk.job(), &outcome.diagnostics, &[], Some("nothing was drawn"));
         return Exit::JobHasErrors;
     };
     let placed = match to {
@@ -62,7 +62,7 @@ pub(super) fn plot(args: &PlotArgs, targets: &Targets, console: &Console) -> Exi
     };
     match placed {
         Ok(placed) => {
-            tell(disk.job(), &outcome, &placed, None, console);
+            console.made(disk.job(), &outcome.diagnostics, &placed, None);
             Exit::Success
         }
         Err(reason) => console.failure(&Failure::new(reason)),
@@ -163,22 +163,4 @@ fn picture(what: What, material: &Material<'_>) -> Option<String> {
         What::Passes => pictures::passes(material, ids),
         What::Field => pictures::wave(material, ids),
     }
-}
-
-/// Tells what was drawn. The figures are in the picture.
-fn tell(job: &str, outcome: &Outcome, placed: &[Placed], remark: Option<&str>, console: &Console) {
-    console.summary(&Summary {
-        job,
-        diagnostics: &outcome.diagnostics,
-        lines: &[],
-        numbers: None,
-        times: None,
-        reach: None,
-        dynamics: None,
-        checks: None,
-        parameters: &[],
-        placed,
-        remark,
-        timings: &[],
-    });
 }

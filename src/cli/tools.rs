@@ -2,7 +2,7 @@
 
 use super::args::{ToolForm, ToolsArgs};
 use super::compile::unreadable;
-use super::console::{Console, Failure, Summary};
+use super::console::{Console, Failure};
 use super::files::Disk;
 use super::output::{Destination, Output, Placed, one_file};
 use super::patience;
@@ -11,8 +11,8 @@ use super::{Exit, Targets};
 use std::path::Path;
 use vcutc_backend_api::bundle::Sink;
 use vcutc_diagnostics::has_errors;
+use vcutc_driver::RequestError;
 use vcutc_driver::memory::Memory;
-use vcutc_driver::{Outcome, RequestError};
 use vcutc_equivalent::{Equivalents, apt, facets, of, table, tool_bit};
 
 /// What is written, and where.
@@ -58,7 +58,7 @@ pub(super) fn tools(args: &ToolsArgs, targets: &Targets, console: &Console) -> E
     console.diagnostics(&outcome.diagnostics, &outcome.sources);
     let plan = outcome.plan.as_ref();
     let Some(plan) = plan.filter(|_| !has_errors(&outcome.diagnostics)) else {
-        tell(disk.job(), &outcome, &[], Some("nothing was written"), console);
+        console.made(disk.job(), &outcome.diagnostics, &[], Some("nothing was written"));
         return Exit::JobHasErrors;
     };
     let all = of(plan);
@@ -71,7 +71,7 @@ pub(super) fn tools(args: &ToolsArgs, targets: &Targets, console: &Console) -> E
     };
     match placed {
         Ok(placed) => {
-            tell(disk.job(), &outcome, &placed, None, console);
+            console.made(disk.job(), &outcome.diagnostics, &placed, None);
             Exit::Success
         }
         Err(reason) => console.failure(&Failure::new(reason)),
@@ -144,22 +144,4 @@ impl Files {
         }
         output.publish()
     }
-}
-
-/// Tells what was written. The figures are in the files.
-fn tell(job: &str, outcome: &Outcome, placed: &[Placed], remark: Option<&str>, console: &Console) {
-    console.summary(&Summary {
-        job,
-        diagnostics: &outcome.diagnostics,
-        lines: &[],
-        numbers: None,
-        times: None,
-        reach: None,
-        dynamics: None,
-        checks: None,
-        parameters: &[],
-        placed,
-        remark,
-        timings: &[],
-    });
 }

@@ -70,15 +70,8 @@ pub(super) fn verify(args: &VerifyArgs, linked: &Targets, targets: &Targets, con
         job: disk.job(),
         diagnostics: &outcome.diagnostics,
         lines: &verdict.lines,
-        numbers: None,
-        times: None,
-        reach: None,
-        dynamics: None,
-        checks: None,
-        parameters: &[],
-        placed: &[],
-        remark: None,
         timings: &timings,
+        ..Summary::default()
     });
     exit
 }
