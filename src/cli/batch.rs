@@ -19,6 +19,7 @@ use std::thread;
 use std::time::Instant;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::units::Length;
+use vcutc_backend_api::words::counted;
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic, has_errors};
 use vcutc_driver::checks::Checks;
@@ -406,10 +407,7 @@ impl Total {
             .filter(|(count, _)| *count > 0)
             .map(|(count, word)| format!("{count} {word}"))
             .collect();
-        let programs = match self.programs {
-            1 => "1 program".to_owned(),
-            count => format!("{count} programs"),
-        };
+        let programs = counted(self.programs, "program");
         format!("{programs}: {} ({:.1} s)\n", told.join(", "), self.seconds)
     }
 }

@@ -16,6 +16,7 @@ use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
+use vcutc_backend_api::words::counted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Code, Diagnostic, Severity, github, has_errors, json, render};
 use vcutc_driver::checks::{CheckFigure, Checks};
@@ -622,8 +623,7 @@ fn listed(what: &str, files: &[&str]) -> String {
 fn tally(errors: usize, warnings: usize) -> String {
     let plural = |n: usize, word: &str| match n {
         0 => format!("no {word}s"),
-        1 => format!("1 {word}"),
-        _ => format!("{n} {word}s"),
+        _ => counted(n, word),
     };
     match warnings {
         0 => plural(errors, "error"),

@@ -2,6 +2,7 @@
 
 use super::snapshot::Differences;
 use serde::Serialize;
+use vcutc_backend_api::words::counted;
 use vcutc_diagnostics::Severity;
 use vcutc_diagnostics::github::Annotation;
 use vcutc_diagnostics::render::ColorChoice;
@@ -14,10 +15,7 @@ const MOST_STALE: usize = 8;
 impl Differences {
     /// How the folder compares, as half a sentence.
     pub(super) fn in_words(&self) -> String {
-        let files = |count: usize| match count {
-            1 => "1 file".to_owned(),
-            _ => format!("{count} files"),
-        };
+        let files = |count: usize| counted(count, "file");
         let is_stale = |change: &&FileChange| matches!(change.change, Change::Stale);
         let stale = self.changes.iter().filter(is_stale).count();
         let differ = self.changes.len() - stale;

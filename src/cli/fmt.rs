@@ -13,6 +13,7 @@ use serde::Serialize;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use vcutc_backend_api::words::counted;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{Loader, SourceMap, Span, text_from_bytes};
 use vcutc_diff::{FileChange, Sides, compare};
@@ -189,10 +190,7 @@ impl Run<'_> {
 
 impl Tally {
     fn in_words(&self, fate: Fate) -> String {
-        let files = |count: usize| match count {
-            1 => "1 file".to_owned(),
-            _ => format!("{count} files"),
-        };
+        let files = |count: usize| counted(count, "file");
         let changed = match (self.formatted.len(), fate) {
             (0, _) => None,
             (count, Fate::Write) => Some(format!("{} formatted", files(count))),

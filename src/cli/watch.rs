@@ -23,6 +23,7 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
+use vcutc_backend_api::words::counted;
 use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::render::{ColorChoice, render};
 use vcutc_driver::memory::Memory;
@@ -218,10 +219,7 @@ impl Watch<'_> {
 
     fn tell(&self, stamps: &Stamps, time: Duration, console: &Console) {
         let address = self.server.as_ref().map(Server::address);
-        let files = match stamps.count() {
-            1 => "1 file".to_owned(),
-            count => format!("{count} files"),
-        };
+        let files = counted(stamps.count(), "file");
         let milliseconds = time.as_secs_f64() * 1e3;
         let at = address.map_or(String::new(), |address| format!("; the report is at {address}"));
         let text = format!("done in {milliseconds:.0} ms, watching {files}{at} (Ctrl-C ends)\n");

@@ -11,6 +11,7 @@ use crate::ways::Comparison;
 use vcutc_backend_api::ir::Site;
 use vcutc_backend_api::script::duration_words;
 use vcutc_backend_api::units::{Duration, Length};
+use vcutc_backend_api::words::counted;
 use vcutc_diagnostics::number::show;
 use vcutc_job::{BladeRef, Order, PlannedJob};
 use vcutc_motion::pace::Basis;
@@ -101,10 +102,7 @@ pub fn is_of_regions(plan: &PlannedJob) -> bool {
 
 /// `1.53 m in 2 layers; 0.00 mm2 uncut, 27.3 mm2 in corners beyond reach; rim in the material 78 deg on average, at most 121 deg`.
 fn pocket(cleared: &Cleared) -> String {
-    let layers = match cleared.layers {
-        1 => "1 layer".to_owned(),
-        layers => format!("{layers} layers"),
-    };
+    let layers = counted(cleared.layers, "layer");
     format!(
         "{:.2} m of passes in {layers}; at most {:.2} mm2 of a layer stay uncut, and {:.1} mm2 are beyond the tool's reach; the rim is \
          in the material by {:.0} deg on average, at the speed of cutting by at most {:.1} deg",
@@ -118,10 +116,7 @@ fn pocket(cleared: &Cleared) -> String {
 
 /// `0.26 m in 5 slits; the sides of the blade stay at least 0.009 mm off the walls, and at most 0.03 mm of core stays at their foot; ...`.
 fn walls(slit: &Slit) -> String {
-    let slits = match slit.slits {
-        1 => "1 slit".to_owned(),
-        slits => format!("{slits} slits"),
-    };
+    let slits = counted(slit.slits, "slit");
     let corners = if slit.in_corners > Length::ZERO {
         format!(", {:.3} mm in acute corners", slit.in_corners.to_mm())
     } else {
@@ -242,10 +237,6 @@ pub fn verdict(checks: &Checks) -> Vec<String> {
 
 /// `rib: 2 min 07.8 s, 19 cuts in 2 layers, scallop 9.86 of 10 mm, margin A3 15.1 %`.
 fn headline(plan: &PlannedJob, report: &Report, basis: Basis, reach: Option<&ReachFigures>) -> String {
-    let counted = |count: usize, what: &str| match count {
-        1 => format!("1 {what}"),
-        _ => format!("{count} {what}s"),
-    };
     let at_least = if basis.untimed > 0 { "at least " } else { "" };
     let height = report.scallop.height.to_mm();
     let mut parts = vec![

@@ -10,6 +10,7 @@ use super::strips::Strips;
 use super::svg::{Anchor, Svg};
 use super::trace::Trace;
 use std::collections::BTreeSet;
+use vcutc_backend_api::words::counted;
 
 pub use super::sheet::Heading;
 
@@ -165,19 +166,15 @@ const STAYS: &str = "fill=\"#f6f1e2\"";
 const VEE: &str = "#9c8a5c";
 
 fn description(lattice: &Lattice<'_>) -> String {
-    let of = |count: usize, one: &str| match count {
-        1 => format!("1 {one}"),
-        count => format!("{count} {one}s"),
-    };
     let what = match lattice.strips.words() {
         Some(words) => {
             let others = lattice.tips.len().saturating_sub(lattice.strips.strips.len());
             match others {
                 0 => format!("with {words}"),
-                others => format!("with {words}, and the tips of {},", of(others, "cut")),
+                others => format!("with {words}, and the tips of {},", counted(others, "cut")),
             }
         }
-        None => format!("with the tips of {}", of(lattice.tips.len(), "cut")),
+        None => format!("with the tips of {}", counted(lattice.tips.len(), "cut")),
     };
     let counts: Vec<String> = origins(lattice).map(|(_, words)| words).collect();
     format!(
@@ -185,7 +182,7 @@ fn description(lattice: &Lattice<'_>) -> String {
         lattice.heading.subtitle,
         lattice.stock[0],
         lattice.stock[1],
-        of(lattice.layers.len(), "layer"),
+        counted(lattice.layers.len(), "layer"),
         counts.join(", ")
     )
 }

@@ -9,6 +9,7 @@ use super::section::Section;
 use super::sheet::{Entry, HALO, text_width};
 use super::svg::{Anchor, Svg};
 use super::trace::Trace;
+use vcutc_backend_api::words::counted;
 
 /// A slit. Lengths are in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -155,14 +156,6 @@ impl Strips<'_> {
             let strips = counted(self.strips.len(), "strip");
             format!("{} and {strips}", counted(self.slits.len(), "slit"))
         })
-    }
-}
-
-/// `1 slit`, `2 slits`.
-fn counted(count: usize, one: &str) -> String {
-    match count {
-        1 => format!("1 {one}"),
-        count => format!("{count} {one}s"),
     }
 }
 

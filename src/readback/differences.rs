@@ -9,6 +9,7 @@ use super::steps::Step;
 use super::wording::{command_words, kind_words, mismatch_words, op_words, pace_words};
 use vcutc_backend_api::ir::{Action, OpId, Registered};
 use vcutc_backend_api::readback::{Command, Effect, FrameRole, Mismatch, Moment, normalized};
+use vcutc_backend_api::words::counted;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic, Label};
 use vcutc_job::{HeldTool, Machine};
@@ -114,10 +115,7 @@ impl Reporter<'_> {
             begins.map(|(index, _)| index).collect::<Vec<_>>()
         };
         let (is, should) = (begins(self.comparison.given), begins(self.comparison.fresh));
-        let parts = |count: usize| match count {
-            1 => "1 part".to_owned(),
-            count => format!("{count} parts"),
-        };
+        let parts = |count: usize| counted(count, "part");
         let has_none = is.is_empty() && !should.is_empty();
         let (label, help) = match has_none {
             true => ("no part begins in this file", "compile the job again"),

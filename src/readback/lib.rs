@@ -37,6 +37,7 @@ use steps::Step;
 use vcutc_backend_api::ir::{Cell, OpId};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::readback::{Comparator, Place, ProgramFile, Reader, Sources};
+use vcutc_backend_api::words::counted;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::{FileId, SourceMap};
 use vcutc_job::CheckedJob;
@@ -201,8 +202,7 @@ impl<'a> Reference<'a> {
                 "the same program, byte for byte".to_owned()
             }
             0 => "the same program; layout or comments differ".to_owned(),
-            1 => "1 difference".to_owned(),
-            count => format!("{count} differences"),
+            count => counted(count, "difference"),
         };
         vec![read, result]
     }

@@ -33,6 +33,7 @@ pub use wave::wave;
 use super::Material;
 use machined::{By, Machined, Taken, machined};
 use strips::Rectangles;
+use vcutc_backend_api::words::counted;
 use vcutc_geometry::curve::Point2;
 use vcutc_job::planned::{CutShape, PlannedTip};
 use vcutc_picture::{Prefix, contour, correlation, deviation, lattice};
@@ -275,10 +276,6 @@ fn layers(material: &Material<'_>) -> Vec<(String, f64)> {
 pub fn laid_out(material: &Material<'_>) -> String {
     let report = &material.compiled.report;
     let (cuts, layers) = (report.cuts(), report.layers.len());
-    let counted = |count: usize, one: &str| match count {
-        1 => format!("1 {one}"),
-        count => format!("{count} {one}s"),
-    };
     let layers = counted(layers, "layer");
     match &material.plan.operations[..] {
         [planned] => {

@@ -11,6 +11,7 @@ use super::html::{Html, Markup, with_code};
 use super::page::policy::{Requests, policy};
 use vcutc_backend_api::ir::Changer;
 use vcutc_backend_api::units::Duration;
+use vcutc_backend_api::words::counted;
 use vcutc_driver::Outcome;
 use vcutc_driver::checks::ReadBack;
 use vcutc_driver::summary::time;
@@ -308,14 +309,6 @@ fn change(material: &Material<'_>) -> Option<String> {
         "Blade {} in the machine, {others}; the way to where blades are changed and back is free.",
         first.name
     ))
-}
-
-/// `1 layer`, `2 layers`.
-fn counted(count: usize, what: &str) -> String {
-    match count {
-        1 => format!("1 {what}"),
-        _ => format!("{count} {what}s"),
-    }
 }
 
 #[cfg(test)]

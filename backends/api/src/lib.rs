@@ -69,4 +69,5 @@ pub mod testkit;
 pub mod units;
 pub mod vector;
 pub mod verify;
+pub mod words;
 pub mod wrist;

@@ -6,6 +6,7 @@ use super::names::did_you_mean;
 use super::quantity::{Quantity, number};
 use super::report::{Checked, Reports};
 use super::scope::{Operand, Scope};
+use vcutc_backend_api::words::counted;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -384,11 +385,7 @@ fn wrong_count(whole: Span, known: &Function, given: usize) -> Diagnostic {
         Form::Three(_) => "3 values",
         Form::Several(_) => "2 values or more",
     };
-    let given = if given == 1 {
-        "1 value".to_owned()
-    } else {
-        format!("{given} values")
-    };
+    let given = counted(given, "value");
     Diagnostic::new(
         Code::BadCall,
         format!("`{}` takes {takes}, but is given {given}", known.name),

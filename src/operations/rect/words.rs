@@ -3,6 +3,7 @@
 use crate::asked::RoughRect;
 use crate::decided::Planned;
 use vcutc_backend_api::units::Area;
+use vcutc_backend_api::words::counted;
 use vcutc_diagnostics::number::show;
 use vcutc_geometry::curve::Point2;
 use vcutc_job::description::{
@@ -131,14 +132,6 @@ pub(crate) fn left_out(asked: &RoughRect, strips: usize) -> Option<String> {
             asked.blade.name
         )
     })
-}
-
-fn counted(count: usize, one: &str) -> String {
-    match (count, one.split_once(' ')) {
-        (1, _) => format!("1 {one}"),
-        (count, Some((noun, rest))) => format!("{count} {noun}s {rest}"),
-        (count, None) => format!("{count} {one}s"),
-    }
 }
 
 fn is_open(planned: &Planned, field: &str) -> bool {

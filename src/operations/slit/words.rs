@@ -1,6 +1,7 @@
 //! What a plan of slits along walls says of itself: parameters, and lines of the summary.
 
 use crate::decided::Planned;
+use vcutc_backend_api::words::counted;
 use vcutc_diagnostics::number::show;
 use vcutc_job::description::{
     ParameterFigure, ParameterRow, ParameterTable, angle_text, length_text, millimetres, motion_rows,
@@ -39,12 +40,9 @@ pub(crate) fn parameters(planned: &Planned) -> Vec<ParameterFigure> {
 
 pub(crate) fn summary(planned: &Planned) -> Vec<(&'static str, String)> {
     let plan = &planned.plan;
-    let count = match plan.slits.len() {
-        1 => "1 slit".to_owned(),
-        count => format!("{count} slits"),
-    };
     let text = format!(
-        "{count} along walls of {} mm",
+        "{} along walls of {} mm",
+        counted(plan.slits.len(), "slit"),
         show((plan.knife.height * 1e3).round() / 1e3)
     );
     vec![("walls", text)]

@@ -7,6 +7,7 @@ use crate::html::{Column, Html, table, unbroken};
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{Action, CutKind, Program, Site};
 use vcutc_backend_api::units::Duration;
+use vcutc_backend_api::words::counted;
 use vcutc_driver::summary::time;
 
 /// Most cuts that have a row each.
@@ -151,12 +152,9 @@ fn label(cut: &Cut) -> String {
 
 /// `13 cuts, tips at z 28.43 mm, 1 min 27.1 s`.
 fn in_words(cuts: &[Cut]) -> String {
-    let count = match cuts.len() {
-        1 => "1 cut".to_owned(),
-        count => format!("{count} cuts"),
-    };
     format!(
-        "{count}, tips at z {} mm, {}",
+        "{}, tips at z {} mm, {}",
+        counted(cuts.len(), "cut"),
         heights(cuts),
         time(together(cuts))
     )

@@ -7,6 +7,7 @@ use crate::html::{Column, Html, paragraph, percent, table};
 use crate::pictures;
 use vcutc_backend_api::ir::Action;
 use vcutc_backend_api::units::Duration;
+use vcutc_backend_api::words::counted;
 use vcutc_driver::summary::time;
 use vcutc_simulation::timing::Timing;
 
@@ -96,10 +97,7 @@ fn by_blade(material: &Material<'_>) -> Option<Html> {
         Column::Numbers("share"),
     ];
     let names = program.blades.iter().map(|blade| blade.name.clone());
-    let changed = match changes {
-        1 => "1 change".to_owned(),
-        changes => format!("{changes} changes"),
-    };
+    let changed = counted(changes, "change");
     let rows = names.zip(spent).chain([(changed, changing)]);
     let rows = rows.map(|(name, spent)| vec![name, time(spent), share(spent, total)]);
     Some(table("Time by blade", &columns, rows))

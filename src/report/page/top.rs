@@ -3,6 +3,7 @@
 use super::Subject;
 use crate::html::{Html, unbroken, with_code};
 use vcutc_backend_api::units::{Angle, Area, Length};
+use vcutc_backend_api::words::counted;
 use vcutc_diagnostics::render::{ColorChoice, render};
 use vcutc_driver::checks::{Checks, Standing};
 use vcutc_driver::summary::{self, time};
@@ -235,12 +236,4 @@ fn of_section(subject: Subject<'_>) -> Vec<Key> {
 /// A part of a whole; nothing of nothing.
 fn share(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole } else { 0.0 }
-}
-
-/// `1 layer`, `2 layers`.
-fn counted(count: usize, what: &str) -> String {
-    match count {
-        1 => format!("1 {what}"),
-        _ => format!("{count} {what}s"),
-    }
 }

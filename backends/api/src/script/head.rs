@@ -7,6 +7,7 @@
 use crate::ir::{Action, Crusher, CutKind, Disc, Flank, Head, Op, Program, Purpose, Shape, Site, Straight};
 use crate::state::State;
 use crate::units::{AngularSpeed, Duration, Length};
+use crate::words::counted;
 use std::collections::BTreeMap;
 
 /// A comment: words of ours, and words that people wrote behind them.
@@ -131,13 +132,6 @@ fn cuts(program: &Program) -> String {
         return counted(0, CutKind::Cut.noun());
     }
     words.join(", ")
-}
-
-fn counted(count: usize, what: &str) -> String {
-    match count {
-        1 => format!("1 {what}"),
-        count => format!("{count} {what}s"),
-    }
 }
 
 /// What a program cuts.

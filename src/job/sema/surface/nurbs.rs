@@ -16,6 +16,7 @@ use crate::sema::report::Checked;
 use crate::sema::session::Session;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::Stock;
+use vcutc_backend_api::words::counted;
 use vcutc_diagnostics::schema::dimension::Dimension;
 use vcutc_diagnostics::schema::range::Range;
 use vcutc_diagnostics::source::{Span, Spanned};
@@ -183,12 +184,12 @@ fn columns(rows: &[ControlRow<'_>], head: Span, reader: &mut Reader<'_>) -> Chec
             Code::ImpossibleSurface,
             format!(
                 "this row has {}, and the first one {count}",
-                counted(row.points.len())
+                counted(row.points.len(), "point")
             ),
             row.word,
             "not as many points as the first row",
         )
-        .and(first.word, format!("{} follow", counted(count)))
+        .and(first.word, format!("{} follow", counted(count, "point")))
         .help("write as many points in each row");
         reported = Some(reader.reports.push(diagnostic));
     }
@@ -205,14 +206,6 @@ fn columns(rows: &[ControlRow<'_>], head: Span, reader: &mut Reader<'_>) -> Chec
             )
             .help("describe the part by a mesh"),
         )),
-    }
-}
-
-fn counted(points: usize) -> String {
-    if points == 1 {
-        "1 point".to_owned()
-    } else {
-        format!("{points} points")
     }
 }
 
