@@ -64,6 +64,20 @@ pub struct Tips {
     pub span: Span,
 }
 
+/// Fields that lay out a lattice or choose among several. They have no say where tips are given.
+pub const OF_A_LATTICE: [&str; 10] = [
+    "lattice",
+    "layer",
+    "step",
+    "overlap",
+    "objective",
+    "model",
+    "residual",
+    "redundant",
+    "avoid",
+    "sequence",
+];
+
 /// A tip that a job gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tip {

@@ -1,6 +1,6 @@
 //! The parameters of V-shaped roughing for people, with the place or the reason of each value.
 
-use crate::asked::{Avoid, Formulas, Objective, RoughVcut};
+use crate::asked::{Avoid, Formulas, OF_A_LATTICE, Objective, RoughVcut};
 use crate::plan::PlannedVcut;
 use crate::summary::{compared, skipped};
 use vcutc_backend_api::ir::Edges;
@@ -101,18 +101,6 @@ fn as_laid_out(asked: &RoughVcut, rows: Vec<ParameterRow>) -> Vec<ParameterRow> 
 
 /// Rows that say something where tips are given.
 fn without_lattice(asked: &RoughVcut, mut rows: Vec<ParameterRow>) -> Vec<ParameterRow> {
-    const OF_A_LATTICE: [&str; 10] = [
-        "objective",
-        "model",
-        "lattice",
-        "layer",
-        "step",
-        "overlap",
-        "residual",
-        "redundant",
-        "avoid",
-        "sequence",
-    ];
     if asked.tips.is_some() {
         rows.retain(|row| !OF_A_LATTICE.contains(&row.name));
     }

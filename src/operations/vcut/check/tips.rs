@@ -4,7 +4,7 @@
 //! to: how tall the teeth are that a layer leaves, and how wide. The commonest distance of heights stands for the layer, the
 //! commonest distance of neighbours in a row for the step.
 
-use crate::asked::{Lattice, Limits, Redundant, Residual, RoughVcut, Sequence, Tip, Tips};
+use crate::asked::{Lattice, Limits, OF_A_LATTICE, Redundant, Residual, RoughVcut, Sequence, Tip, Tips};
 use core::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -29,20 +29,6 @@ pub(super) struct Given {
     layer: Length,
     step: Length,
 }
-
-/// Fields that lay out a lattice or choose among several.
-const OF_A_LATTICE: [&str; 10] = [
-    "lattice",
-    "layer",
-    "step",
-    "overlap",
-    "objective",
-    "model",
-    "residual",
-    "redundant",
-    "avoid",
-    "sequence",
-];
 
 /// The tips, if they are given.
 pub(super) fn check(
