@@ -3,7 +3,7 @@
 
 use super::{Auto, Setup, Sourced};
 use serde::Serialize;
-use vcutc_backend_api::units::{Angle, Length, Speed};
+use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
 use vcutc_diagnostics::number::{rounded, show};
 use vcutc_diagnostics::source::Span;
 
@@ -172,11 +172,10 @@ impl ParameterRow {
 /// The rows of an operation whose blade goes down into the material, on how it moves.
 #[must_use]
 pub fn motion_rows(setup: &Setup, plunge: Sourced<Speed>) -> Vec<ParameterRow> {
-    let speed = |speed: Speed| format!("{} mm/s", show(speed.to_mm_per_s()));
     vec![
-        ParameterRow::of("feed cut", setup.cut_feed, speed),
-        ParameterRow::of("feed plunge", plunge, speed),
-        ParameterRow::of("feed travel", setup.travel_feed, speed),
+        ParameterRow::of("feed cut", setup.cut_feed, speed_text),
+        ParameterRow::of("feed plunge", plunge, speed_text),
+        ParameterRow::of("feed travel", setup.travel_feed, speed_text),
         ParameterRow::of("clearance", setup.clearance, length_text),
         ParameterRow::of("run_out", setup.run_out, length_text),
     ]
@@ -186,6 +185,18 @@ pub fn motion_rows(setup: &Setup, plunge: Sourced<Speed>) -> Vec<ParameterRow> {
 #[must_use]
 pub fn length_text(length: Length) -> String {
     format!("{} mm", show(length.to_mm()))
+}
+
+/// A speed with its unit: `50 mm/s`.
+#[must_use]
+pub fn speed_text(speed: Speed) -> String {
+    format!("{} mm/s", show(speed.to_mm_per_s()))
+}
+
+/// How fast something turns, with its unit: `10 deg/s`.
+#[must_use]
+pub fn rate_text(rate: AngularSpeed) -> String {
+    format!("{} deg/s", show(rate.to_deg_per_s()))
 }
 
 /// An angle with its unit: `34 deg`.

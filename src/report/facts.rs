@@ -7,6 +7,7 @@ use vcutc_backend_api::ir::{
 };
 use vcutc_backend_api::units::Speed;
 use vcutc_diagnostics::number::{rounded, show};
+use vcutc_job::description::speed_text;
 use vcutc_job::{BladeRef, Body, CheckedJob, HeldTool, Machine, Setup, StraightBlade};
 
 /// A name and a value, as plain text.
@@ -261,9 +262,8 @@ pub(super) fn speeds(material: &Material<'_>) -> Vec<Fact> {
 
 /// How fast an operation cuts: of several blades with each of them, else as its setup says.
 fn cutting(program: &Program, operation: OperationId, set: Speed) -> String {
-    let speed = |speed: Speed| format!("{} mm/s", show(speed.to_mm_per_s()));
     if program.blades_of(operation).count() < 2 {
-        return speed(set);
+        return speed_text(set);
     }
     let mut words: Vec<String> = Vec::new();
     for segment in program.segments() {
@@ -283,7 +283,7 @@ fn cutting(program: &Program, operation: OperationId, set: Speed) -> String {
             | Action::ToolChange { .. } => continue,
         };
         let with = (program.feed(feed).zip(program.blade(segment.before.tool)))
-            .map(|(feed, blade)| format!("{} with {}", speed(feed), blade.name));
+            .map(|(feed, blade)| format!("{} with {}", speed_text(feed), blade.name));
         if segment.op.site.operation() == Some(operation)
             && let Some(with) = with
             && !words.contains(&with)

@@ -6,7 +6,8 @@ use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::number::show;
 use vcutc_job::Auto;
 use vcutc_job::description::{
-    ParameterFigure, ParameterRow, ParameterTable, angle_text, degrees, length_text, millimetres,
+    ParameterFigure, ParameterRow, ParameterTable, angle_text, degrees, length_text, millimetres, rate_text,
+    speed_text,
 };
 
 const FEWEST: &str = "the fewest tracks that keep the limit on scallop, as simulated";
@@ -40,7 +41,6 @@ impl<'c> Chosen<'c> {
 /// The tables: blade, cut, motion.
 pub(crate) fn tables(plan: Chosen<'_>) -> Vec<ParameterTable> {
     let asked = plan.asked;
-    let speed = |speed: vcutc_backend_api::units::Speed| format!("{} mm/s", show(speed.to_mm_per_s()));
     let blade = vec![
         ParameterRow::written("blade", asked.disc.name.clone(), asked.disc.span),
         ParameterRow::of("radius", asked.disc.radius, length_text),
@@ -62,11 +62,9 @@ pub(crate) fn tables(plan: Chosen<'_>) -> Vec<ParameterTable> {
         ParameterRow::of("allowance", asked.allowance, length_text),
     ];
     let motion = vec![
-        ParameterRow::of("feed cut", asked.setup.cut_feed, speed),
-        ParameterRow::of("feed travel", asked.setup.travel_feed, speed),
-        ParameterRow::of("feed reorient", asked.setup.reorient_rate, |rate| {
-            format!("{} deg/s", show(rate.to_deg_per_s()))
-        }),
+        ParameterRow::of("feed cut", asked.setup.cut_feed, speed_text),
+        ParameterRow::of("feed travel", asked.setup.travel_feed, speed_text),
+        ParameterRow::of("feed reorient", asked.setup.reorient_rate, rate_text),
         ParameterRow::of("clearance", asked.setup.clearance, length_text),
         ParameterRow::of("run_out", asked.setup.run_out, length_text),
     ];

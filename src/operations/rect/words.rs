@@ -8,7 +8,7 @@ use vcutc_diagnostics::number::show;
 use vcutc_geometry::curve::Point2;
 use vcutc_job::description::{
     ParameterFigure, ParameterRow, ParameterTable, angle_text, degrees, length_text, millimetres, number,
-    word,
+    rate_text, speed_text, word,
 };
 use vcutc_simulation::report::{Report, area_under};
 
@@ -27,7 +27,6 @@ pub(crate) fn to_remove(planned: &Planned, top: &[Point2]) -> Area {
 /// The tables: blades, cut, motion.
 pub(crate) fn tables(planned: &Planned) -> Vec<ParameterTable> {
     let (asked, plan) = (&planned.asked, &planned.plan);
-    let speed = |speed: vcutc_backend_api::units::Speed| format!("{} mm/s", show(speed.to_mm_per_s()));
     let blades = vec![
         ParameterRow::written("blade", asked.blade.name.clone(), asked.blade.span),
         ParameterRow::of("cutting_length", asked.blade.cutting_length, length_text),
@@ -55,12 +54,10 @@ pub(crate) fn tables(planned: &Planned) -> Vec<ParameterTable> {
         ParameterRow::of("beyond", asked.beyond, length_text),
     ];
     let motion = vec![
-        ParameterRow::of("feed cut", asked.setup.cut_feed, speed),
-        ParameterRow::of("feed free", asked.free_feed, speed),
-        ParameterRow::of("feed travel", asked.setup.travel_feed, speed),
-        ParameterRow::of("feed reorient", asked.setup.reorient_rate, |rate| {
-            format!("{} deg/s", show(rate.to_deg_per_s()))
-        }),
+        ParameterRow::of("feed cut", asked.setup.cut_feed, speed_text),
+        ParameterRow::of("feed free", asked.free_feed, speed_text),
+        ParameterRow::of("feed travel", asked.setup.travel_feed, speed_text),
+        ParameterRow::of("feed reorient", asked.setup.reorient_rate, rate_text),
         ParameterRow::of("clearance", asked.setup.clearance, length_text),
         ParameterRow::of("run_out", asked.setup.run_out, length_text),
         ParameterRow::open(

@@ -6,7 +6,7 @@ use crate::summary::{compared, skipped};
 use vcutc_backend_api::ir::Edges;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::number::show;
-use vcutc_job::description::{ParameterRow, ParameterTable, angle_text, length_text};
+use vcutc_job::description::{ParameterRow, ParameterTable, angle_text, length_text, rate_text, speed_text};
 use vcutc_job::{Bounds, Sourced};
 
 /// The tables: blade, cut, motion, and limits where there are any.
@@ -128,15 +128,9 @@ fn motion(asked: &RoughVcut, planned: &PlannedVcut) -> Vec<ParameterRow> {
             sequence.unwrap_or_else(fastest),
         ),
         ParameterRow::of("direction", asked.setup.direction(), |_| direction.to_owned()),
-        ParameterRow::of("feed cut", asked.setup.cut_feed, |speed| {
-            format!("{} mm/s", show(speed.to_mm_per_s()))
-        }),
-        ParameterRow::of("feed travel", asked.setup.travel_feed, |speed| {
-            format!("{} mm/s", show(speed.to_mm_per_s()))
-        }),
-        ParameterRow::of("feed reorient", asked.setup.reorient_rate, |rate| {
-            format!("{} deg/s", show(rate.to_deg_per_s()))
-        }),
+        ParameterRow::of("feed cut", asked.setup.cut_feed, speed_text),
+        ParameterRow::of("feed travel", asked.setup.travel_feed, speed_text),
+        ParameterRow::of("feed reorient", asked.setup.reorient_rate, rate_text),
         ParameterRow::of("clearance", asked.setup.clearance, length_text),
         ParameterRow::open(
             "extension",
