@@ -7,7 +7,7 @@
 //! roots of [Yang 5, 6] cancel where both principal curvatures are nearly equal. Here the second form is written in
 //! two directions of length 1 that are square to each other, so that its eigenvalues are right everywhere.
 
-use crate::mesh::{cross, dot};
+use vcutc_backend_api::vector::{cross, dot};
 
 /// The curvatures of a surface at a point, in 1/mm.
 #[derive(Clone, Copy, Debug, PartialEq)]

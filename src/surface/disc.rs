@@ -4,10 +4,10 @@
 //! the disc itself, its hub, its holder. A bevel above the edge needs none as long as the axis leans from the vertical by
 //! less than 90 degrees less the angle of the bevel: until then it is hidden from below by the face.
 
-use crate::mesh::dot;
 use core::fmt;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::vector::dot;
 
 /// The largest radius, and the largest height of a stage, in mm.
 const LARGEST: f64 = 1e4;

@@ -6,9 +6,10 @@
 //! suffices to keep which part of each side of a cell can be reached, and to go from cell to cell. Only cells that can be
 //! reached are looked at: of polylines that are near each other, about as many as there are segments.
 
-use crate::mesh::{difference, dot};
+use crate::mesh::difference;
 use core::ops::ControlFlow;
 use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::vector::dot;
 
 /// What is known of two polylines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

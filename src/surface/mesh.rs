@@ -6,6 +6,7 @@
 
 use core::fmt;
 use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::vector::cross;
 use vcutc_geometry::curve::LARGEST_COORDINATE;
 
 /// The most triangles that a mesh may have, and the most corners.
@@ -135,18 +136,6 @@ pub(crate) fn is_degenerate([a, b, c]: [Point3; 3]) -> bool {
 /// What leads from the second point to the first.
 pub(crate) fn difference(a: Point3, b: Point3) -> [f64; 3] {
     [a.x - b.x, a.y - b.y, a.z - b.z]
-}
-
-pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// Bits of a corner's number in a short key.

@@ -1,8 +1,9 @@
 //! The distance of a point from a surface.
 
-use crate::mesh::{difference, dot};
+use crate::mesh::difference;
 use crate::surface::{Cell, Surface};
 use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::vector::dot;
 
 impl Surface {
     /// The distance of a point in mm from the nearest triangle, in mm.

@@ -5,9 +5,10 @@
 //! part has an edge, that of the triangle counts in place of the corner's. They only say how a disc is to stand; where it comes to
 //! rest, the triangles say.
 
-use crate::mesh::{cross, difference, dot};
+use crate::mesh::difference;
 use crate::surface::Surface;
 use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::vector::{cross, dot};
 
 /// Normals that differ by more, as the cosine of the angle, are those of an edge that the part has: 4 degrees.
 const SHARP: f64 = 0.9976;

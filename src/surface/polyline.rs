@@ -1,7 +1,8 @@
 //! Polylines in space: places on them, and parts of them.
 
-use crate::mesh::{difference, dot};
+use crate::mesh::difference;
 use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::vector::dot;
 
 /// A place on a polyline.
 #[derive(Clone, Copy, Debug, PartialEq)]

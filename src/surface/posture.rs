@@ -16,9 +16,9 @@
 //! `sin(lead) = sin T cos(azimuth)`.
 
 use crate::disc::{Axis, Pose};
-use crate::mesh::{cross, dot};
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::vector::{cross, dot};
 
 /// How an axis leans from the normal.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -17,10 +17,11 @@ pub(crate) use bins::{Bins, Cell};
 pub(crate) use clip::clipped;
 pub(crate) use cut::cut;
 
-use crate::mesh::{Mesh, dot, is_in_range};
+use crate::mesh::{Mesh, is_in_range};
 use core::fmt;
 use vcutc_backend_api::geometry::{Frame, Point3};
 use vcutc_backend_api::units::Length;
+use vcutc_backend_api::vector::dot;
 use vcutc_geometry::curve::LARGEST_COORDINATE;
 
 /// The plan of the stock: `0 <= x <= width`, `0 <= y <= depth` in the workpiece frame.

@@ -11,11 +11,11 @@
 
 use crate::disc::Pose;
 use crate::envelope::Envelope;
-use crate::mesh::{cross, dot};
 use crate::section::{Section, Upright};
 use crate::shadow::Uncovered;
 use crate::track::Track;
 use vcutc_backend_api::units::Length;
+use vcutc_backend_api::vector::{cross, dot};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::height_between;
 

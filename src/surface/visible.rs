@@ -5,11 +5,12 @@
 //! one loses the other one keeps.
 
 use crate::coverage::Tangled;
-use crate::mesh::{cross, difference};
+use crate::mesh::difference;
 use crate::region::{Half, Region, SLACK, middle, rectangle, sides, subtract, width, within};
 use crate::surface::{Cell, Surface};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::units::Length;
+use vcutc_backend_api::vector::cross;
 
 /// Polygons that are looked at before a surface counts as too tangled.
 const MOST_LOOKS: usize = 100_000_000;

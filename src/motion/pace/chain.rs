@@ -24,6 +24,7 @@ use super::smooth::{End, Way};
 use super::track::{Part, Slopes};
 use super::{Kept, phase};
 use vcutc_backend_api::ir::{Axis, AxisKind, MOST_AXES};
+use vcutc_backend_api::vector::{length, minus};
 use vcutc_machine::path_limits::PathLimits;
 
 /// The axes, and after them what else has bounds.
@@ -189,14 +190,6 @@ impl Beside {
 /// A cubic from 0 to 1 that is level at both ends, with its first two derivatives.
 const fn eased(x: f64) -> [f64; 3] {
     [x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x), 6.0 - 12.0 * x]
-}
-
-fn length(vector: [f64; 3]) -> f64 {
-    vector.iter().map(|part| part * part).sum::<f64>().sqrt()
-}
-
-fn minus(one: [f64; 3], other: [f64; 3]) -> [f64; 3] {
-    core::array::from_fn(|i| one[i] - other[i])
 }
 
 /// A stretch of a chain: what is left of a piece, or half of a joint.

@@ -11,6 +11,7 @@
 use crate::posture::Feed;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::units::Angle;
+use vcutc_backend_api::vector::cross;
 use vcutc_geometry::curve::Point2;
 use vcutc_simulation::cross_section::Guard;
 use vcutc_simulation::disc::{Disc, SkinPass};
@@ -52,14 +53,6 @@ impl Held {
         let along = self.feed.along(moved[1]);
         [moved[0] / along, moved[2] / along]
     }
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 /// The pose of a disc whose tool is held so; none if its axis does not point up.

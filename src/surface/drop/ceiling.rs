@@ -3,9 +3,10 @@
 //! The plane of a bin rises like its triangles do on average. No part of a triangle within the bin is above it; what
 //! triangles do beyond the bin does not count.
 
-use crate::mesh::{cross, difference, dot};
+use crate::mesh::difference;
 use crate::surface::{Cell, Surface};
 use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::vector::{cross, dot};
 
 /// What is added to each plane for the rounding of heights, in mm.
 const ROUNDING: f64 = 1e-9;

@@ -2,9 +2,10 @@
 
 use super::*;
 use crate::disc::Stage;
-use crate::mesh::{Mesh, cross, dot};
+use crate::mesh::Mesh;
 use crate::testkit::{FIXED, sampled, sheets, surface_over, wavy, with_needle};
 use proptest::prelude::*;
+use vcutc_backend_api::vector::{cross, dot};
 
 const PLAN: [f64; 2] = [100.0, 60.0];
 

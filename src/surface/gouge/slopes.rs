@@ -6,9 +6,10 @@
 //! in bins in which a place has two triangles or more over it, or which such an edge meets.
 
 use crate::coverage::Tangled;
-use crate::mesh::{cross, difference, dot};
+use crate::mesh::difference;
 use crate::surface::{Cell, Surface};
 use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::vector::{cross, dot};
 
 /// Triangles steeper than this, as height for length, count as jumps.
 const STEEP: f64 = 3.0;

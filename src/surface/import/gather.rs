@@ -1,9 +1,10 @@
 //! Corners and polygons as a file gives them, on the way to a mesh.
 
 use super::{DataError, ReadMesh, Remarks, fault};
-use crate::mesh::{MOST_TRIANGLES, Mesh, cross, difference, dot, is_degenerate, remove_doubled};
+use crate::mesh::{MOST_TRIANGLES, Mesh, difference, is_degenerate, remove_doubled};
 use core::ops::Range;
 use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::vector::{cross, dot};
 
 /// A polygon counts as plane when its corners lie within this share of its size of one plane: files print six digits.
 const PLANE_SHARE: f64 = 1e-5;
