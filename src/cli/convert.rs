@@ -7,12 +7,13 @@ use super::files::{Disk, load_program};
 use super::meant::Driven;
 use super::output::one_file;
 use super::{Exit, Targets};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use vcutc_backend_api::readback::{ProgramFile, decoded};
 use vcutc_convert::write::{ProfileFile, ProfileForm};
 use vcutc_convert::{self as convert, Conversion, Refused};
 use vcutc_diagnostics::has_errors;
-use vcutc_diagnostics::source::{Entry, LoadError, Loader};
+use vcutc_diagnostics::overlay::Overlay;
 use vcutc_driver::memory::Memory;
 use vcutc_driver::{Outcome, Request, SearchEffort};
 use vcutc_picture::Prefix;
@@ -93,14 +94,14 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
     for file in sources(args) {
         disk.is_made_from(&file);
     }
-    let overlaid = Overlaid {
-        path: shown.clone(),
-        text: conversion.job.text.clone(),
-        disk,
+    let texts = BTreeMap::from([(shown.clone(), conversion.job.text.as_str())]);
+    let overlay = Overlay {
+        texts: &texts,
+        below: &disk,
     };
     let request = Request {
-        path: &overlaid.path,
-        loader: &overlaid,
+        path: &shown,
+        loader: &overlay,
         overrides: &[],
         machine: None,
         options: product.typed(),
@@ -111,12 +112,12 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
     let mut amend = |outcome: &mut Outcome| {
         convert::point_back(
             &conversion,
-            &overlaid.path,
+            &shown,
             &mut outcome.sources,
             &mut outcome.diagnostics,
         );
-        let job = job_written(args, &path, &conversion, outcome, &overlaid.disk, console)?;
-        let drawn = picture(args, &conversion, outcome, &overlaid.disk)?;
+        let job = job_written(args, &path, &conversion, outcome, &disk, console)?;
+        let drawn = picture(args, &conversion, outcome, &disk)?;
         Ok(Amended {
             placed: [job.placed, drawn.placed].concat(),
             remarks: [job.remarks, drawn.remarks].concat(),
@@ -124,7 +125,7 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
     };
     let carried = Carried {
         memory: &mut Memory::none(),
-        disk: &overlaid.disk,
+        disk: &disk,
         amend: &mut amend,
     };
     compile::carried_out(request, &product, carried, console)
@@ -391,33 +392,4 @@ fn is_every_other_nul(bytes: &[u8]) -> bool {
             .count()
     };
     !bytes.is_empty() && 2 * count(0).max(count(1)) > bytes.len() / 2
-}
-
-/// The job of a conversion over the files that are there.
-struct Overlaid {
-    path: String,
-    text: String,
-    disk: Disk,
-}
-
-impl Loader for Overlaid {
-    fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
-        if path == self.path {
-            Ok(self.text.clone().into_bytes())
-        } else {
-            self.disk.load(path)
-        }
-    }
-
-    fn load_data(&self, path: &str, most: u64) -> Result<Vec<u8>, LoadError> {
-        if path == self.path {
-            Ok(self.text.clone().into_bytes())
-        } else {
-            self.disk.load_data(path, most)
-        }
-    }
-
-    fn list(&self, folder: &str) -> Vec<Entry> {
-        self.disk.list(folder)
-    }
 }

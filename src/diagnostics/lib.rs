@@ -10,6 +10,7 @@ pub mod fix;
 pub mod github;
 pub mod json;
 pub mod number;
+pub mod overlay;
 pub mod position;
 pub mod render;
 pub mod schema;

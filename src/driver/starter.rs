@@ -10,10 +10,12 @@ mod text;
 
 use crate::{self as driver, Request, SearchEffort, Typed};
 use places::{Place, Tool};
+use std::collections::BTreeMap;
 use vcutc_backend_api::backend::Backend;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Axis, AxisValues, MachineKind, Program};
-use vcutc_diagnostics::source::{Entry, LoadError, Loader, SourceMap};
+use vcutc_diagnostics::overlay::Overlay;
+use vcutc_diagnostics::source::{Loader, SourceMap};
 use vcutc_diagnostics::{Diagnostic, has_errors};
 use vcutc_job::sema::kind::Operations;
 use vcutc_machine::Model;
@@ -164,10 +166,10 @@ fn with_tool(
 
 /// What comes of a text, or what is wrong with it.
 fn compiled(asked: &Asked<'_>, text: &str) -> Result<driver::Outcome, (Vec<Diagnostic>, SourceMap)> {
-    let draft = Draft {
-        path: asked.path,
-        text,
-        files: asked.loader,
+    let texts = BTreeMap::from([(asked.path.to_owned(), text)]);
+    let draft = Overlay {
+        texts: &texts,
+        below: asked.loader,
     };
     let request = Request {
         path: asked.path,
@@ -184,35 +186,6 @@ fn compiled(asked: &Asked<'_>, text: &str) -> Result<driver::Outcome, (Vec<Diagn
         Ok(outcome) => Ok(outcome),
         // The draft is in memory: it can always be read.
         Err(driver::RequestError::Unreadable(_)) => Err((Vec::new(), SourceMap::default())),
-    }
-}
-
-/// A text that is not on the disk yet, over the files that are.
-struct Draft<'a> {
-    path: &'a str,
-    text: &'a str,
-    files: &'a dyn Loader,
-}
-
-impl Loader for Draft<'_> {
-    fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
-        if path == self.path {
-            Ok(self.text.as_bytes().to_vec())
-        } else {
-            self.files.load(path)
-        }
-    }
-
-    fn load_data(&self, path: &str, most: u64) -> Result<Vec<u8>, LoadError> {
-        if path == self.path {
-            Ok(self.text.as_bytes().to_vec())
-        } else {
-            self.files.load_data(path, most)
-        }
-    }
-
-    fn list(&self, folder: &str) -> Vec<Entry> {
-        self.files.list(folder)
     }
 }
 

@@ -10,7 +10,8 @@ use super::{Request, Run, Unhurried, target, ways};
 use crate::memory::Memory;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_cancellation::Wanted;
-use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap, Span};
+use vcutc_diagnostics::overlay::Overlay;
+use vcutc_diagnostics::source::{FileId, SourceMap, Span};
 use vcutc_diagnostics::{Code, Diagnostic, Edit, fix, has_errors};
 use vcutc_job::PlannedJob;
 use vcutc_job::sema;
@@ -83,8 +84,9 @@ impl<'t> Trials<'t> {
 
     /// The errors of the changed job, and how many cuts were planned to find them; none where it cannot be compiled at all.
     fn compiled(&self, edits: &[(Span, String)]) -> Option<(Vec<(Code, String)>, usize)> {
-        let loader = Edited {
-            texts: edited(self.sources, edits)?,
+        let texts = edited(self.sources, edits)?;
+        let loader = Overlay {
+            texts: &texts,
             below: self.request.loader,
         };
         let choices = self.request.choices();
@@ -139,30 +141,4 @@ fn edited(sources: &SourceMap, edits: &[(Span, String)]) -> Option<BTreeMap<Stri
             Some((file.name.clone(), fix::apply(&file.text, id, &edits)?))
         })
         .collect()
-}
-
-/// Changed texts over the files of a job.
-struct Edited<'e> {
-    texts: BTreeMap<String, String>,
-    below: &'e dyn Loader,
-}
-
-impl Loader for Edited<'_> {
-    fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
-        match self.texts.get(path) {
-            Some(text) => Ok(text.clone().into_bytes()),
-            None => self.below.load(path),
-        }
-    }
-
-    fn load_data(&self, path: &str, most: u64) -> Result<Vec<u8>, LoadError> {
-        match self.texts.get(path) {
-            Some(text) => Ok(text.clone().into_bytes()),
-            None => self.below.load_data(path, most),
-        }
-    }
-
-    fn list(&self, folder: &str) -> Vec<Entry> {
-        self.below.list(folder)
-    }
 }

@@ -10,7 +10,8 @@ use std::collections::BTreeMap;
 use vcutc_backend_api::backend::Backend;
 use vcutc_cancellation::{Interest, Needless, Wanted};
 use vcutc_diagnostics::Diagnostic;
-use vcutc_diagnostics::source::{Entry, FileId, LoadError, Loader, SourceMap};
+use vcutc_diagnostics::overlay::Overlay;
+use vcutc_diagnostics::source::{FileId, Loader, SourceMap};
 use vcutc_driver::hints::{Hint, hints};
 use vcutc_driver::memory::Memory;
 use vcutc_driver::{
@@ -25,32 +26,6 @@ use vcutc_syntax::ast::{Ast, Item};
 
 /// The texts of open documents, by their paths. They replace the files.
 pub(super) type OpenTexts = BTreeMap<String, Text>;
-
-/// Open documents over files.
-pub(super) struct Overlay<'a> {
-    pub(super) open: &'a OpenTexts,
-    pub(super) below: &'a dyn Loader,
-}
-
-impl Loader for Overlay<'_> {
-    fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
-        match self.open.get(path) {
-            Some(text) => Ok(text.as_str().as_bytes().to_vec()),
-            None => self.below.load(path),
-        }
-    }
-
-    fn load_data(&self, path: &str, most: u64) -> Result<Vec<u8>, LoadError> {
-        match self.open.get(path) {
-            Some(text) => Ok(text.as_str().as_bytes().to_vec()),
-            None => self.below.load_data(path, most),
-        }
-    }
-
-    fn list(&self, folder: &str) -> Vec<Entry> {
-        self.below.list(folder)
-    }
-}
 
 /// What is known of a root file.
 #[derive(Debug)]
@@ -263,7 +238,7 @@ impl Task {
         (patience, tell): (&mut dyn Patience, &mut dyn FnMut(Done)),
     ) -> Done {
         let overlay = Overlay {
-            open: &self.open,
+            texts: &self.open,
             below: files,
         };
         let request = Request {

@@ -1,10 +1,11 @@
 //! The open documents, and the root files from which they are analysed.
 
 use super::Workspace;
-use super::analysis::{Analysis, OpenTexts, Overlay};
+use super::analysis::{Analysis, OpenTexts};
 use super::text::{Encoding, Text};
 use lsp_types::Uri;
 use std::collections::{BTreeMap, BTreeSet};
+use vcutc_diagnostics::overlay::Overlay;
 use vcutc_job::sema::Part;
 use vcutc_job::sema::kind::Operations;
 use vcutc_job::sema::surface::kept::Surfaces;
@@ -172,7 +173,7 @@ impl Documents {
     fn study(&mut self, path: &str, files: &dyn Workspace) -> Option<Analysis> {
         self.stamps += 1;
         let overlay = Overlay {
-            open: &self.texts,
+            texts: &self.texts,
             below: files,
         };
         Analysis::of(path, self.stamps, &overlay, (self.operations, &self.surfaces))

@@ -1,10 +1,11 @@
 //! Names: where they are defined and used, over all files of a job, and what renaming one comes to.
 
-use super::analysis::{Analysis, OpenTexts, Overlay};
+use super::analysis::{Analysis, OpenTexts};
 use super::sites::{Kind, Site, Words, sites};
 use super::text::{Encoding, Text};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_diagnostics::Code;
+use vcutc_diagnostics::overlay::Overlay;
 use vcutc_diagnostics::source::{FileId, Loader, Span};
 use vcutc_job::sema::study::{Definition, Meaning};
 use vcutc_job::sema::surface::kept::Surfaces;
@@ -185,7 +186,7 @@ pub(super) fn changes_meaning(
         changed.insert(path.clone(), text);
     }
     let overlay = Overlay {
-        open: &changed,
+        texts: &changed,
         below,
     };
     let surfaces = Surfaces::default();
