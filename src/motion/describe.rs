@@ -1,7 +1,7 @@
 //! Branches, places and axis values in words.
 
 use vcutc_backend_api::ir::{Axis, AxisKind, OperationId, Program, Site};
-pub use vcutc_machine::kinematics::configuration::{branch_words, kuka_status};
+pub use vcutc_machine::kinematics::configuration::branch_words;
 
 /// A place of a program in words: `layer 7, cut 12`, where there are several operations `layer 7, cut 12 of operation 2`.
 #[must_use]

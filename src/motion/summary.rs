@@ -2,11 +2,12 @@
 
 use crate::axis_range::axis_margin;
 use crate::demand::Extreme;
-use crate::describe::{branch_words, kuka_status, site_words};
+use crate::describe::{branch_words, site_words};
 use crate::solve::{Reached, SlowerTurns};
 use serde::{Serialize, Serializer};
 use vcutc_backend_api::ir::{Axis, AxisKind, Maker, OpId, Program};
 use vcutc_backend_api::motion::{Branch, Stretch};
+use vcutc_backend_api::status::kuka_status;
 use vcutc_diagnostics::number::show;
 
 /// What a program asks of its machine.

@@ -63,6 +63,7 @@ pub mod readback;
 pub mod script;
 pub mod segments;
 pub mod state;
+pub mod status;
 pub mod swivel;
 #[cfg(feature = "testkit")]
 pub mod testkit;

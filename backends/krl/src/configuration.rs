@@ -29,8 +29,9 @@
 //! * [K-TURN] industrialmonitordirect.com, "KUKA PTP turn bit ignored at near zero A6 angles".
 
 use vcutc_backend_api::ir::AxisValues;
-use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
+use vcutc_backend_api::motion::Branch;
 use vcutc_backend_api::readback::Configuration;
+use vcutc_backend_api::status::kuka_status;
 
 /// Status and turn of a pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,35 +55,10 @@ impl StatusAndTurn {
     /// That of an arm on a branch with its axes there; none for a branch that is not of such an arm.
     pub(crate) fn of(branch: Branch, axes: AxisValues) -> Option<Self> {
         Some(Self {
-            status: status(branch)?,
+            status: kuka_status(branch)?.into(),
             turn: turn(axes),
         })
     }
-}
-
-/// `S` of a branch.
-pub(crate) const fn status(branch: Branch) -> Option<u32> {
-    let Branch::Arm {
-        shoulder,
-        elbow,
-        wrist,
-    } = branch
-    else {
-        return None;
-    };
-    let overhead = match shoulder {
-        Shoulder::Front => 0,
-        Shoulder::Back => 1,
-    };
-    let folded_forward = match elbow {
-        Elbow::Forward => 2,
-        Elbow::Backward => 0,
-    };
-    let bent_negative = match wrist {
-        Wrist::Positive => 0,
-        Wrist::Negative => 4,
-    };
-    Some(overhead + folded_forward + bent_negative)
 }
 
 fn turn(axes: AxisValues) -> u32 {
@@ -98,6 +74,7 @@ fn turn(axes: AxisValues) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use vcutc_backend_api::motion::{Elbow, Shoulder, Wrist};
 
     const HOME: [f64; 6] = [0.0, -90.0, 90.0, 0.0, 0.0, 0.0];
 
@@ -115,24 +92,6 @@ mod tests {
         };
         let expected = StatusAndTurn { status: 2, turn: 2 };
         assert_eq!(StatusAndTurn::of(branch, degrees(HOME)), Some(expected));
-    }
-
-    #[test]
-    fn every_way_has_a_status_of_its_own() {
-        let mut found = Vec::new();
-        for shoulder in [Shoulder::Front, Shoulder::Back] {
-            for elbow in [Elbow::Backward, Elbow::Forward] {
-                for wrist in [Wrist::Positive, Wrist::Negative] {
-                    found.extend(status(Branch::Arm {
-                        shoulder,
-                        elbow,
-                        wrist,
-                    }));
-                }
-            }
-        }
-        assert_eq!(found, [0, 4, 2, 6, 1, 5, 3, 7]);
-        assert_eq!(status(Branch::Numbered(0)), None);
     }
 
     #[test]

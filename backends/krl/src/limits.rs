@@ -5,7 +5,6 @@
 //! would otherwise be told a million times.
 
 use crate::change;
-use crate::configuration::status;
 use crate::options::Settings;
 use vcutc_backend_api::arm::{ArmLimits, SpeedUnit, foreign_arm};
 use vcutc_backend_api::backend::BackendIssue;
@@ -16,6 +15,7 @@ use vcutc_backend_api::ir::{
 };
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::script::Part;
+use vcutc_backend_api::status::kuka_status;
 
 const LIMITS: ArmLimits = ArmLimits {
     // KRL's `REAL` has seven digits, so beyond this a hundredth of a millimetre is lost; no robot reaches a tenth of it.
@@ -62,7 +62,7 @@ pub(crate) fn check<'p>(
 ) -> Result<&'p Cell, Vec<BackendIssue>> {
     let cell = driven_cell(program, DRIVES, |cell| {
         foreign_arm(program, cell, Maker::Kuka, |stretch| {
-            status(stretch.branch).is_some()
+            kuka_status(stretch.branch).is_some()
         })
     })?;
     let mut found = Findings::default();

@@ -7,9 +7,10 @@ use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, Maker};
 use vcutc_backend_api::motion::Branch;
+use vcutc_backend_api::status::kuka_status;
 use vcutc_diagnostics::number;
 use vcutc_machine::Model;
-use vcutc_machine::kinematics::configuration::{Border, borders, branch_words, kuka_status, kuka_turn};
+use vcutc_machine::kinematics::configuration::{Border, borders, branch_words, kuka_turn};
 use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// Where axis values bring a machine.

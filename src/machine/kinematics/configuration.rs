@@ -2,9 +2,8 @@
 //!
 //! A pose alone does not determine the branch. Controllers add a few integers to it:
 //!
-//! - **KUKA** status S, bits with the weights 1, 2, 4: the wrist centre behind axis 1; the forearm folded forward
-//!   (`A3 > phi`); A5 negative. Turn T, bits with the weights 1 to 32: A1 to A6 negative. (Beckhoff TF5200 "Status & Turn";
-//!   KUKA's expert manual as quoted on robot-forum.com, threads 7173 and 45777.)
+//! - **KUKA** status S: [`vcutc_backend_api::status`] says what it is. Turn T, bits with the weights 1 to 32: A1 to A6
+//!   negative. (Beckhoff TF5200 "Status & Turn".)
 //! - **ABB** `[cf1, cf4, cf6, cfx]`: [`vcutc_backend_api::confdata`] says what they are.
 //!
 //! On the border between two ways a controller may decide one way or the other; [`borders`] names the borders that axis
@@ -43,24 +42,6 @@ pub fn branch_words(branch: Branch) -> String {
             format!("{shoulder}, {elbow}, {wrist}")
         }
         Branch::Numbered(number) => format!("solution {}", number.saturating_add(1)),
-    }
-}
-
-/// KUKA's status S; none for other machines.
-#[must_use]
-pub const fn kuka_status(branch: Branch) -> Option<u8> {
-    match branch {
-        Branch::Arm {
-            shoulder,
-            elbow,
-            wrist,
-        } => {
-            let behind = matches!(shoulder, Shoulder::Back) as u8;
-            let forward = matches!(elbow, Elbow::Forward) as u8;
-            let negative = matches!(wrist, Wrist::Negative) as u8;
-            Some(behind | forward << 1 | negative << 2)
-        }
-        Branch::Numbered(_) => None,
     }
 }
 

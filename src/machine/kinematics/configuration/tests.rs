@@ -5,6 +5,7 @@ use crate::catalogue;
 use crate::kinematics::Mechanism;
 use vcutc_backend_api::confdata::confdata;
 use vcutc_backend_api::ir::AxisValues;
+use vcutc_backend_api::status::kuka_status;
 
 fn arm(name: &str) -> Opw {
     let mechanism = catalogue::find(name).unwrap().mechanism;
@@ -99,9 +100,4 @@ fn borders_are_named() {
     // Upper arm back by 15.03 deg: 350 - 1350 sin(15.03 deg) = 0, forearm and its offset upright above that.
     let lean = libm::asin((arm.a1 + arm.a2) / arm.c2).to_degrees();
     assert_eq!(on([0.0, -90.0 - lean, lean, 0.0, 30.0, 0.0]), [Border::Shoulder]);
-}
-
-#[test]
-fn numbered_ways_have_no_status() {
-    assert_eq!(kuka_status(Branch::Numbered(0)), None);
 }
