@@ -116,7 +116,8 @@ fn coordinate_of(text: &str, shown: &str) -> Result<f64, String> {
 }
 
 /// The start of a text, short enough for a message.
-fn shortened(text: &str) -> String {
+#[must_use]
+pub fn shortened(text: &str) -> String {
     const MOST: usize = 24;
     if text.chars().count() <= MOST {
         return text.to_owned();

@@ -25,6 +25,7 @@ pub use vcutc_geometry::import::DataError;
 use crate::mesh::Mesh;
 use core::ops::Range;
 use std::collections::BTreeMap;
+use vcutc_geometry::import::shortened;
 
 /// What a file of triangles holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,15 +76,6 @@ fn fault(range: Range<usize>, message: impl Into<String>) -> DataError {
         end: offset(range.end),
         message: message.into(),
     }
-}
-
-/// The start of a text, short enough for a message.
-fn shortened(text: &str) -> String {
-    const MOST: usize = 24;
-    if text.chars().count() <= MOST {
-        return text.to_owned();
-    }
-    text.chars().take(MOST).chain(['.', '.', '.']).collect()
 }
 
 #[cfg(test)]

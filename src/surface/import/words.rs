@@ -1,8 +1,9 @@
 //! Words of a text and the numbers that they stand for. Texts are bytes here: names in files of meshes are in any encoding.
 
-use super::{DataError, fault, shortened};
+use super::{DataError, fault};
 use core::ops::Range;
 use vcutc_geometry::curve::LARGEST_COORDINATE;
+use vcutc_geometry::import::shortened;
 
 /// A word, and where it stands.
 #[derive(Clone, Copy, Debug)]
