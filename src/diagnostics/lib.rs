@@ -109,6 +109,16 @@ impl Diagnostic {
         self
     }
 
+    /// Adds how many more there are, of so many in all: `the same holds for 2 more tracks`.
+    #[must_use]
+    pub fn and_more(self, count: usize, says: &str, [one, many]: [&str; 2]) -> Self {
+        match count {
+            0 | 1 => self,
+            2 => self.note(format!("{says} one more {one}")),
+            _ => self.note(format!("{says} {} more {many}", count - 1)),
+        }
+    }
+
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help.push(help.into());

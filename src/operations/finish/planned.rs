@@ -83,12 +83,7 @@ impl PlannedOperation for Planned {
         _: &mut dyn Trials,
         _: &mut WorksThere<'_>,
     ) -> Diagnostic {
-        let diagnostic = explained(&self.asked, finding);
-        match count {
-            0 | 1 => diagnostic,
-            2 => diagnostic.note("the same holds for one more track"),
-            _ => diagnostic.note(format!("the same holds for {} more tracks", count - 1)),
-        }
+        explained(&self.asked, finding).and_more(count, "the same holds for", ["track", "tracks"])
     }
 
     fn to_remove(&self, _: &Profile, top: &[Point2]) -> Area {

@@ -37,11 +37,7 @@ pub(crate) fn explain(planned: &Planned, finding: Finding, count: usize) -> Diag
         | CutFault::Slit(_)
         | CutFault::Strip(_) => explained(asked, finding),
     };
-    match count {
-        0 | 1 => told,
-        2 => told.note("the same holds for one more slit or strip"),
-        _ => told.note(format!("the same holds for {} more slits and strips", count - 1)),
-    }
+    told.and_more(count, "the same holds for", ["slit or strip", "slits and strips"])
 }
 
 /// A share of the material to cut away that is much, where a body keeps it from being cut.

@@ -148,12 +148,7 @@ impl PlannedOperation for PlannedOnSurface {
         _: &mut dyn Trials,
         _: &mut WorksThere<'_>,
     ) -> Diagnostic {
-        let diagnostic = explained(&self.asked, finding);
-        match count {
-            0 | 1 => diagnostic,
-            2 => diagnostic.note("the same was found in one more place"),
-            _ => diagnostic.note(format!("the same was found in {} more places", count - 1)),
-        }
+        explained(&self.asked, finding).and_more(count, "the same was found in", ["place", "places"])
     }
 
     fn to_remove(&self, _: &Profile, top: &[Point2]) -> Area {
