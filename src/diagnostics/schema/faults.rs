@@ -51,7 +51,12 @@ pub fn missing(code: Code, holder: &str, fields: &[&str], span: Span) -> Diagnos
 
 /// A field that its block has already.
 pub fn twice(code: Code, name: &str, span: Span, first: Span) -> Diagnostic {
-    Diagnostic::new(code, format!("`{name}` is given twice"), span, "given again here")
+    second(code, format!("`{name}` is given twice"), span, first)
+}
+
+/// Something that is given again where it is given once.
+pub fn second(code: Code, headline: impl Into<String>, span: Span, first: Span) -> Diagnostic {
+    Diagnostic::new(code, headline, span, "given again here")
         .and(first, "first given here")
         .help("delete one of the two")
 }

@@ -5,6 +5,7 @@ use super::field_ranges::Range;
 use super::names::did_you_mean;
 use super::read::{Reader, looks_like};
 use super::report::{Checked, Reports};
+use vcutc_diagnostics::schema::faults;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::suggest::nearest;
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -211,14 +212,12 @@ impl<'a> Arguments<'a> {
         };
         let earlier = self.given.iter().take(at).filter_map(|other| other.name.as_ref());
         if let Some(first) = earlier.into_iter().find(|other| other.node == label.node) {
-            let diagnostic = Diagnostic::new(
+            return Some(faults::twice(
                 Code::FieldTwice,
-                format!("`{}` is given twice", label.node),
+                &label.node,
                 label.span,
-                "given again here",
-            )
-            .and(first.span, "first given here");
-            return Some(diagnostic.help("delete one of the two"));
+                first.span,
+            ));
         }
         if parameters.iter().any(|parameter| parameter.name == label.node) {
             return None;

@@ -19,6 +19,7 @@ use super::part::{self, Part};
 use super::report::Checked;
 use super::session::Session;
 use vcutc_backend_api::ir::Stock;
+use vcutc_diagnostics::schema::faults;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::curve::Point2;
@@ -183,7 +184,11 @@ fn sort<'a>(entries: &'a [Entry], place: Place, session: &mut Session<'_>) -> Ch
                     });
                     continue;
                 }
-                (Some(first), [_]) => second_formula(*span, first.span),
+                (Some(first), [_]) => {
+                    let headline = "the profile has two formulas";
+                    faults::second(Code::FieldTwice, headline, *span, first.span)
+                }
+
                 (_, several) => of_several(several, *span),
             },
             Entry::SurfaceFile { kind, span, .. } => no_surface(kind.node.word(), *span),
@@ -254,17 +259,6 @@ fn no_surface(word: &str, span: Span) -> Diagnostic {
         "describes a part that changes along y",
     )
     .help("write `surface { ... }` instead of `profile`")
-}
-
-fn second_formula(second: Span, first: Span) -> Diagnostic {
-    Diagnostic::new(
-        Code::FieldTwice,
-        "the profile has two formulas",
-        second,
-        "given again here",
-    )
-    .and(first, "first given here")
-    .help("delete one of the two")
 }
 
 const FORMS: &str = "a profile contains start, line, arc, bezier, spline, polyline, points, airfoil, dxf, svg, or a \

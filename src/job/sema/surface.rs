@@ -23,6 +23,7 @@ use super::session::Session;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::schema::faults;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::profile::Profile;
@@ -162,7 +163,11 @@ fn sort<'a>(
         };
         match &found {
             None => found = Some(source),
-            Some(first) => fault = Some(session.reports.push(second(source.span(), first.span()))),
+            Some(first) => {
+                let headline = "the surface has two sources";
+                let told = faults::second(Code::FieldTwice, headline, source.span(), first.span());
+                fault = Some(session.reports.push(told));
+            }
         }
     }
     match (found, fault) {
@@ -284,17 +289,6 @@ fn misplaced(what: &str, span: Span) -> Diagnostic {
         span,
         "not a source of a surface",
     )
-}
-
-fn second(second: Span, first: Span) -> Diagnostic {
-    Diagnostic::new(
-        Code::FieldTwice,
-        "the surface has two sources",
-        second,
-        "given again here",
-    )
-    .and(first, "first given here")
-    .help("delete one of the two")
 }
 
 fn empty(place: Place) -> Diagnostic {

@@ -196,7 +196,11 @@ fn loaded(
 ) -> Checked<Option<Loaded>> {
     match (named.kind.node, unit) {
         (SurfaceFile::Grid, _) => return Ok(None),
-        (SurfaceFile::Mesh, None) => return Err(without_unit(named.path, fields, session)),
+        (SurfaceFile::Mesh, None) => {
+            let note = "STL, OBJ and PLY files do not state one";
+            let says = ("numbers without a unit", Some(note));
+            return Err(without_unit(named.path, says, fields, session));
+        }
         (SurfaceFile::Mesh, Some(_)) if reader_of(&named.path.node).is_none() => {
             return Err(session.reports.push(no_mesh(named)));
         }
@@ -215,17 +219,23 @@ fn place(fields: &Fields<'_>, reader: &mut Reader<'_>) -> Checked<Frame> {
     }
 }
 
-fn without_unit(path: &Spanned<String>, fields: &Fields<'_>, session: &mut Session<'_>) -> Reported {
+/// That a file states no unit, and the job does not either.
+pub(super) fn without_unit(
+    path: &Spanned<String>,
+    (label, note): (&str, Option<&str>),
+    fields: &Fields<'_>,
+    session: &mut Session<'_>,
+) -> Reported {
     if let Some(reported) = fields.quiet_about("unit") {
         return reported;
     }
-    let diagnostic = Diagnostic::new(
+    let mut diagnostic = Diagnostic::new(
         Code::MeshWithoutUnit,
         format!("nothing states the unit of `{}`", path.node),
         path.span,
-        "numbers without a unit",
-    )
-    .note("STL, OBJ and PLY files do not state one");
+        label,
+    );
+    diagnostic.notes.extend(note.map(str::to_owned));
     let diagnostic = fields.offer(diagnostic, "state it, for example", "unit = mm");
     session.reports.push(diagnostic)
 }

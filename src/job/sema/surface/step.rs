@@ -2,7 +2,7 @@
 //!
 //! The file states its own unit. One that the job states besides must be the same.
 
-use super::file::{Content, Loaded, Misread, Named, broken, partly_read};
+use super::file::{Content, Loaded, Misread, Named, broken, partly_read, without_unit};
 use super::nurbs;
 use crate::Sourced;
 use crate::sema::fields::{BlockSpec, Fields, Inner, Takes, value};
@@ -63,7 +63,10 @@ pub(super) fn content(
         Err(Fault::Misread(error)) => {
             return Err(broken(misread(error, path), path, &resolved, bytes, session));
         }
-        Err(Fault::NoUnit) => return Err(without_unit(path, fields, session)),
+        Err(Fault::NoUnit) => {
+            let says = ("the file does not state the unit of its lengths", None);
+            return Err(without_unit(path, says, fields, session));
+        }
         Err(Fault::OtherUnit(size)) => return Err(other_unit(size, unit, path, session)),
     };
     session.sources.add(resolved, hash);
@@ -137,21 +140,6 @@ fn misread(error: StepError, path: &Spanned<String>) -> Misread {
         headline,
         help,
     }
-}
-
-fn without_unit(path: &Spanned<String>, fields: &Fields<'_>, session: &mut Session<'_>) -> Reported {
-    if let Some(reported) = fields.quiet_about("unit") {
-        return reported;
-    }
-    let diagnostic = Diagnostic::new(
-        Code::MeshWithoutUnit,
-        format!("nothing states the unit of `{}`", path.node),
-        path.span,
-        "the file does not state the unit of its lengths",
-    );
-    session
-        .reports
-        .push(fields.offer(diagnostic, "state it, for example", "unit = mm"))
 }
 
 fn other_unit(
