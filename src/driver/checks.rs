@@ -69,6 +69,46 @@ pub enum Check {
     ReadBack,
 }
 
+/// What a check is about, as far as others ask.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum About<'c> {
+    /// The rate of this axis.
+    Rate(&'c str),
+    SingularPoses,
+    ElbowAngle,
+    /// Motions of the machine in another way. These checks are made wherever there is a machine.
+    Motions,
+    /// The bodies of these blades.
+    Bodies(&'c [String]),
+    /// Cuts, times, loads, or the text.
+    Others,
+}
+
+impl Check {
+    const fn about(&self) -> About<'_> {
+        match self {
+            Self::AxisRate(axis) => About::Rate(axis.as_str()),
+            Self::SingularPoses => About::SingularPoses,
+            Self::ElbowAngle => About::ElbowAngle,
+            Self::AxisLimits | Self::Branch | Self::Turns => About::Motions,
+            Self::Holder(blades) => About::Bodies(blades.as_slice()),
+            Self::Chips
+            | Self::Part
+            | Self::Tracks
+            | Self::Pockets
+            | Self::Walls
+            | Self::BetweenSections
+            | Self::AboveStock
+            | Self::Torques
+            | Self::Deviation
+            | Self::Unloaded
+            | Self::Accelerations
+            | Self::Collisions
+            | Self::ReadBack => About::Others,
+        }
+    }
+}
+
 /// What came of a check. A check that was made found nothing wrong: otherwise there is no program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
@@ -287,34 +327,12 @@ impl Checks {
     /// Whether everything that this compiler proves of such a job is proven.
     #[must_use]
     pub fn standing(&self) -> Standing {
-        let is_of_the_machine = |checked: &Checked| match (&checked.check, checked.outcome) {
-            (_, Outcome::Made) => false,
+        let is_of_the_machine = |checked: &Checked| match (checked.check.about(), checked.outcome) {
+            (_, Outcome::Made) | (About::Bodies(_) | About::Others, Outcome::NotMade(_)) => false,
             (
-                Check::AxisLimits
-                | Check::AxisRate(_)
-                | Check::SingularPoses
-                | Check::Branch
-                | Check::ElbowAngle
-                | Check::Turns,
+                About::Rate(_) | About::SingularPoses | About::ElbowAngle | About::Motions,
                 Outcome::NotMade(reason),
             ) => reason != Reason::NoMachine,
-            (
-                Check::Chips
-                | Check::Part
-                | Check::Tracks
-                | Check::Pockets
-                | Check::Walls
-                | Check::BetweenSections
-                | Check::AboveStock
-                | Check::Torques
-                | Check::Deviation
-                | Check::Unloaded
-                | Check::Accelerations
-                | Check::Holder(_)
-                | Check::Collisions
-                | Check::ReadBack,
-                Outcome::NotMade(_),
-            ) => false,
         };
         if self.0.iter().any(is_of_the_machine) {
             Standing::InPart

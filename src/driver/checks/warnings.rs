@@ -1,7 +1,7 @@
 //! What there is to warn of: checks of the machine's motions that were not made.
 
 use super::words::listed;
-use super::{Check, Checks, Outcome};
+use super::{About, Checks, Outcome};
 use vcutc_backend_api::ir::MachineKind;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::Machine;
@@ -14,27 +14,12 @@ impl Checks {
     #[must_use]
     pub fn warnings(&self, machine: &Machine, reached: &Reached) -> Vec<Diagnostic> {
         let not_made = self.iter().filter(|checked| checked.outcome != Outcome::Made);
-        let others = not_made.filter_map(|checked| match &checked.check {
-            Check::ElbowAngle => Some(elbow_angle(machine, reached)),
-            Check::SingularPoses => Some(singular_poses(machine)),
-            // These are made wherever there is a machine.
-            Check::AxisLimits | Check::Branch | Check::Turns => None,
+        let others = not_made.filter_map(|checked| match checked.check.about() {
+            About::ElbowAngle => Some(elbow_angle(machine, reached)),
+            About::SingularPoses => Some(singular_poses(machine)),
             // All axes in one warning.
-            Check::AxisRate(_) => None,
-            Check::Chips
-            | Check::Part
-            | Check::Tracks
-            | Check::Pockets
-            | Check::Walls
-            | Check::BetweenSections
-            | Check::AboveStock
-            | Check::Torques
-            | Check::Deviation
-            | Check::Unloaded
-            | Check::Accelerations
-            | Check::Holder(_)
-            | Check::Collisions
-            | Check::ReadBack => None,
+            About::Rate(_) => None,
+            About::Motions | About::Bodies(_) | About::Others => None,
         });
         self.rates(machine).into_iter().chain(others).collect()
     }

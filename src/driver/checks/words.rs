@@ -1,6 +1,6 @@
 //! The checks in words, and as data for other programs.
 
-use super::{Check, Checks, Outcome, Reason, Standing};
+use super::{About, Check, Checks, Outcome, Reason, Standing};
 use serde::Serialize;
 
 /// A check as data.
@@ -155,34 +155,17 @@ impl Checks {
                 Outcome::Made => None,
                 Outcome::NotMade(reason) => Some(reason),
             };
+            let (axis, blades) = match checked.check.about() {
+                About::Rate(axis) => (Some(axis.to_owned()), Vec::new()),
+                About::Bodies(blades) => (None, blades.to_vec()),
+                About::SingularPoses | About::ElbowAngle | About::Motions | About::Others => {
+                    (None, Vec::new())
+                }
+            };
             CheckFigure {
                 check: checked.check.name(),
-                axis: match &checked.check {
-                    Check::AxisRate(axis) => Some(axis.clone()),
-                    Check::Chips
-                    | Check::Part
-                    | Check::Tracks
-                    | Check::Pockets
-                    | Check::Walls
-                    | Check::BetweenSections
-                    | Check::AboveStock
-                    | Check::AxisLimits
-                    | Check::SingularPoses
-                    | Check::Branch
-                    | Check::ElbowAngle
-                    | Check::Turns
-                    | Check::Torques
-                    | Check::Deviation
-                    | Check::Unloaded
-                    | Check::Accelerations
-                    | Check::Holder(_)
-                    | Check::Collisions
-                    | Check::ReadBack => None,
-                },
-                blades: match &checked.check {
-                    Check::Holder(blades) => blades.clone(),
-                    _ => Vec::new(),
-                },
+                axis,
+                blades,
                 made: reason.is_none(),
                 reason: reason.map(Reason::name),
                 words: reason.map(Reason::words),
