@@ -1,7 +1,7 @@
 //! The mean-value estimate of the process time [Cui 8-11].
 //!
 //! It needs only the parameters, not the cuts, which makes it the objective of parameter choice; the program's own time
-//! (`sim::timing`) is what the planned cuts really take.
+//! (`vcutc_simulation::timing`) is what the planned cuts really take.
 
 use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, Length, Speed};
 
