@@ -24,7 +24,7 @@ pub mod trig;
 
 use five_axis::FiveAxis;
 use glam::DVec3;
-use jacobian::{Jacobian, Twist};
+use jacobian::Jacobian;
 use mounted::Mounted;
 use opw::Opw;
 use pose::Pose;
@@ -150,14 +150,6 @@ impl Mechanism {
             Self::Serial(arm) => arm.jacobian(joints, point_in_flange),
             Self::FiveAxis(machine) => machine.jacobian(joints, point_in_flange),
         }
-    }
-
-    /// How fast the axes move when a point fixed to the flange has this twist, seen from the root.
-    ///
-    /// None in singular poses, and where the machine cannot move that way.
-    #[must_use]
-    pub fn joint_rates(&self, joints: &Joints, point_in_flange: DVec3, twist: &Twist) -> Option<Joints> {
-        self.jacobian(joints, point_in_flange).rates(twist)
     }
 
     /// The closed-form arm in it, if there is one: for questions about its singular poses, in which its mounting plays no

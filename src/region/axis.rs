@@ -62,33 +62,7 @@ pub fn largest_circle(region: &Region, reach: f64) -> Result<Circle, AxisFault> 
     // No circle is wider than the box around.
     let bounds = region.bounds();
     let most = bounds.low.distance(bounds.high) + reach;
-    axis.largest(None, 0.0, most)
-}
-
-/// The largest circle of every basin: of every place deeper than all around it by a step, in mm, or more; some less deep ones are
-/// among them.
-///
-/// # Errors
-/// A level could not be computed, or there are too many.
-pub fn maxima(region: &Region, reach: f64, step: f64) -> Result<Vec<Circle>, AxisFault> {
-    let mut axis = Axis::of(region, reach);
-    let mut circles = Vec::new();
-    let mut above = axis.parts(step)?;
-    for level in levels(step)? {
-        let here = axis.parts(step * f64::from(level + 1))?;
-        for part in &above {
-            let has_deeper = here.iter().any(|deeper| part.encloses(deeper.place));
-            if !has_deeper {
-                let (low, high) = (step * f64::from(level), step * f64::from(level + 1));
-                circles.push(axis.largest(Some(part), low, high)?);
-            }
-        }
-        if here.is_empty() {
-            break;
-        }
-        above = here;
-    }
-    Ok(circles)
+    axis.largest(most)
 }
 
 /// The necks between basins: where parts that are apart at one of the distances `step`, `2 step` .. and up to `radius`, in mm, hang
@@ -169,15 +143,14 @@ impl Axis {
             .collect())
     }
 
-    /// The largest circle, of a part or of all, with a radius between two values.
-    fn largest(&mut self, within: Option<&Part>, low: f64, high: f64) -> Result<Circle, AxisFault> {
-        let (mut low, mut high) = (low, high);
-        let mut centre = within.map(|part| middle_of(&part.outline));
-        let is_wanted = |part: &&Part| within.is_none_or(|within| within.encloses(part.place));
+    /// The largest circle, with a radius up to so much.
+    fn largest(&mut self, most: f64) -> Result<Circle, AxisFault> {
+        let (mut low, mut high) = (0.0, most);
+        let mut centre = None;
         while high - low > FINE {
             let middle = f64::midpoint(low, high);
             let parts = self.parts(middle)?;
-            match parts.iter().find(is_wanted) {
+            match parts.first() {
                 Some(part) => {
                     low = middle;
                     centre = Some(middle_of(&part.outline));

@@ -30,12 +30,6 @@ pub struct Volume(f64);
 impl Volume {
     /// Cubic millimetres.
     #[must_use]
-    pub const fn mm3(value: f64) -> Self {
-        Self(value)
-    }
-
-    /// Cubic millimetres.
-    #[must_use]
     pub const fn to_mm3(self) -> f64 {
         self.0
     }

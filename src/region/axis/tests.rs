@@ -55,17 +55,8 @@ fn waist(width: f64) -> Region {
 }
 
 #[test]
-fn basins_and_the_neck_between_them() {
+fn the_neck_between_two_basins() {
     let waist = waist(9.6);
-    let mut circles = maxima(&waist, 0.0, 2.0).unwrap();
-    circles.sort_by(|a, b| a.centre.x.total_cmp(&b.centre.x));
-    let radii: Vec<f64> = circles.iter().map(|circle| circle.radius).collect();
-    // Each room is wider than its square by what the mouth of the corridor lets it bulge out.
-    assert_eq!(radii.len(), 2, "{circles:?}");
-    assert!(
-        radii[0] >= 30.0 - 1e-6 && radii[0] < 31.5 && radii[1] >= 20.0 - 1e-6 && radii[1] < 23.0,
-        "{circles:?}"
-    );
     let necks = necks(&waist, 0.0, 6.0, 1.0).unwrap();
     let [neck] = necks[..] else { panic!("{necks:?}") };
     assert!(

@@ -203,13 +203,6 @@ impl Wheel {
         self.depth - self.sink()
     }
 
-    /// The height of the edge over x when the centre is there; none beyond the rim. All in mm.
-    #[must_use]
-    pub fn edge_over(&self, centre: Point2, x: f64) -> Option<f64> {
-        let (radius, off) = (self.radius.to_mm(), x - centre.x);
-        (off.abs() <= radius).then(|| centre.z - self.lead.sin() * (radius * radius - off * off).sqrt())
-    }
-
     /// The widest strip that it frees out of a layer so thick, and what bounds it. At most zero where the body leaves no room.
     #[must_use]
     pub fn widest_strip(&self, layer: Length) -> (Length, WidthBound) {

@@ -87,12 +87,6 @@ impl VcutParameters {
         fits(self.lattice, self.layer, self.step, &self.flanks)
     }
 
-    /// The step that goes with this layer when it is left open.
-    #[must_use]
-    pub fn step_for_layer(&self) -> Length {
-        widest_step(self.lattice, self.layer, self.overlap, &self.flanks)
-    }
-
     /// What was left open and how it was decided, in the order of the language reference.
     #[must_use]
     pub fn choices(&self, asked: &RoughVcut) -> Vec<Choice> {

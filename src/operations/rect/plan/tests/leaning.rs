@@ -22,6 +22,12 @@ fn swept(wheel: &Wheel, centre: Point2) -> Vec<Point2> {
     circle.collect()
 }
 
+/// The height of the edge over x when the centre is there; none beyond the rim. All in mm.
+fn edge_over(wheel: &Wheel, centre: Point2, x: f64) -> Option<f64> {
+    let (radius, off) = (wheel.radius.to_mm(), x - centre.x);
+    (off.abs() <= radius).then(|| centre.z - wheel.lead.sin() * (radius * radius - off * off).sqrt())
+}
+
 fn leaning(lead: f64, beyond: f64) -> Wheel {
     let mut wheel = blades().wheel;
     wheel.lead = Angle::deg(lead);
@@ -45,7 +51,7 @@ fn measures_of_the_edge() {
             },
             Side::Left,
         );
-        let fall = wheel.edge_over(centre, 10.0).unwrap() - wheel.edge_over(centre, 0.0).unwrap();
+        let fall = edge_over(&wheel, centre, 10.0).unwrap() - edge_over(&wheel, centre, 0.0).unwrap();
         close(fall, falls);
     }
     let wheel = leaning(3.0, 0.5);
@@ -97,7 +103,7 @@ impl Raster {
     fn pass(&mut self, bound: &Profile, wheel: &Wheel, strip: &Strip) {
         let shave = wheel.sink().to_mm() + 1e-6;
         let ends = |x: f64, side: Side| {
-            let edge = wheel.edge_over(strip.centre, x).unwrap();
+            let edge = edge_over(wheel, strip.centre, x).unwrap();
             let by_slit = self
                 .slits
                 .iter()
@@ -125,7 +131,7 @@ impl Raster {
             .collect();
         for i in 0..self.heights.len() {
             let x = Self::x(i);
-            let Some(edge) = wheel.edge_over(strip.centre, x) else {
+            let Some(edge) = edge_over(wheel, strip.centre, x) else {
                 continue;
             };
             assert!(
