@@ -8,7 +8,7 @@ use super::progress::Progress;
 use super::{Exit, Targets};
 use std::path::{Path, PathBuf};
 use vcutc_backend_api::bundle::Sink;
-use vcutc_optimize::{Optimisation, Refusal, report};
+use vcutc_optimize::{Optimisation, Refusal, json, report};
 
 /// Optimises one job.
 pub(super) fn optimize(args: &OptimizeArgs, targets: &Targets, console: &Console) -> Exit {
@@ -50,7 +50,7 @@ fn tell(optimisation: &Optimisation, picture: Option<&Picture>, console: &Consol
     if picture.is_some() && written.is_empty() {
         text += "\nno picture: only operations of V cuts have a trade-off to draw\n";
     }
-    console.answer("optimisation", &text, report::body(optimisation))
+    console.answer("optimisation", &text, json::body(optimisation))
 }
 
 /// Where Pareto pictures go.

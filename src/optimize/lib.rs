@@ -6,6 +6,7 @@
 
 mod bounds;
 mod came;
+pub mod json;
 mod others;
 mod rect;
 pub mod report;

@@ -506,7 +506,7 @@ fn optimising_reports_what_has_no_formulas_and_both_processes() {
     ] {
         assert!(text.contains(line), "{text}");
     }
-    let body = serde_json::to_value(optimize::report::body(&optimised)).unwrap();
+    let body = serde_json::to_value(optimize::json::body(&optimised)).unwrap();
     assert_eq!(body["processes"][0]["process"], "rect");
     assert_eq!(body["processes"][1]["cuts"], 41);
     assert_eq!(body["others"][0]["operation"], 1);

@@ -1,0 +1,261 @@
+//! What came of optimising, for programs.
+
+use super::bounds::Relaxed;
+use super::others::{self, OtherBody, ProcessBody};
+use super::rect::{RectBody, RectOptimum};
+use super::{Came, FoundBy, GivenOperation, OperationOptimum, Optimisation, Plan, Role, Row};
+use serde::Serialize;
+use vcutc_vcut::plan::optimum::{Bound, Optimum};
+
+/// What came of optimising.
+#[derive(Debug, Serialize)]
+pub struct OptimisationBody<'a> {
+    job: &'a str,
+    /// In mm, simulated.
+    scallop: f64,
+    operations: Vec<OperationBody<'a>>,
+    /// Operations along tips that the job gives.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    given: Vec<GivenBody<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    others: Vec<OtherBody<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    processes: Vec<ProcessBody<'a>>,
+    /// Rectangular roughing: limits and prices.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    rects: Vec<RectBody<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct GivenBody<'a> {
+    operation: u16,
+    place: &'a str,
+    tips: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct OperationBody<'a> {
+    operation: u16,
+    place: &'a str,
+    objective: &'static str,
+    model: &'static str,
+    lattice_given: Option<&'a str>,
+    best: Vec<RowBody>,
+    planned: PlannedBody,
+    binding: Vec<BindingBody<'a>>,
+    trade_off: Vec<PointBody>,
+}
+
+/// A point of the trade-off: the optimum of the formulas, and the plan under the same limit.
+#[derive(Debug, Serialize)]
+struct PointBody {
+    #[serde(flatten)]
+    formula: ParametersBody,
+    /// None where the formulas alone speak of it.
+    planned: Option<PlanBody>,
+}
+
+/// Lengths in mm, angles in deg, times in s.
+#[derive(Debug, Serialize)]
+struct PlanBody {
+    lattice: &'static str,
+    swing: f64,
+    layer: f64,
+    step: f64,
+    time: f64,
+    cuts: usize,
+    leaves: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct RowBody {
+    lattice: &'static str,
+    model: &'static str,
+    chosen: bool,
+    parameters: Option<ParametersBody>,
+    trouble: Option<String>,
+}
+
+/// Lengths in mm, angles in deg, times in s.
+#[derive(Debug, Serialize)]
+struct ParametersBody {
+    lattice: &'static str,
+    swing: f64,
+    layer: f64,
+    step: f64,
+    overlap: f64,
+    time: f64,
+    cuts: f64,
+    scallop: f64,
+    edge: f64,
+    gap: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct PlannedBody {
+    lattice: &'static str,
+    swing: f64,
+    layer: f64,
+    step: f64,
+    /// In s.
+    time: f64,
+    /// In s, by the model.
+    model: f64,
+    /// As a share of the planned time.
+    model_above: Option<f64>,
+    cuts: usize,
+    layers: usize,
+    /// Whether simulation found these parameters; `binding` then is that of the marked line alone.
+    simulated: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct BindingBody<'a> {
+    bound: &'static str,
+    words: &'a str,
+    place: Option<&'a str>,
+    relaxed: &'a str,
+    /// Of time by the model, in s, whatever the objective.
+    saves: f64,
+    /// Of the objective, in its unit: s, mm or cuts.
+    gain: f64,
+    /// Of the objective.
+    share: f64,
+}
+
+/// The same as data.
+#[must_use]
+pub fn body(optimisation: &Optimisation) -> OptimisationBody<'_> {
+    OptimisationBody {
+        job: &optimisation.job,
+        scallop: optimisation.scallop.to_mm(),
+        operations: optimisation.operations.iter().map(operation_body).collect(),
+        given: optimisation.given.iter().map(given_body).collect(),
+        others: optimisation.others.iter().map(others::body).collect(),
+        processes: optimisation
+            .comparisons
+            .iter()
+            .flat_map(others::process_bodies)
+            .collect(),
+        rects: optimisation.rects.iter().map(RectOptimum::body).collect(),
+    }
+}
+
+fn given_body(given: &GivenOperation) -> GivenBody<'_> {
+    GivenBody {
+        operation: given.number,
+        place: &given.place,
+        tips: given.tips,
+    }
+}
+
+fn operation_body(operation: &OperationOptimum) -> OperationBody<'_> {
+    let planned = &operation.planned;
+    let points = operation
+        .trade_off
+        .points
+        .iter()
+        .zip(&operation.trade_off.planned);
+    OperationBody {
+        operation: operation.number,
+        place: &operation.place,
+        objective: operation.objective.word(),
+        model: operation.formulas.word(),
+        lattice_given: operation.lattice_given.as_deref(),
+        best: operation.rows.iter().map(row_body).collect(),
+        planned: PlannedBody {
+            lattice: planned.parameters.lattice.word(),
+            swing: planned.parameters.swing.to_deg(),
+            layer: planned.parameters.layer.to_mm(),
+            step: planned.parameters.step.to_mm(),
+            time: planned.time.to_s(),
+            model: planned.model.to_s(),
+            model_above: planned.model_above(),
+            cuts: planned.cuts,
+            layers: planned.layers,
+            simulated: match planned.found {
+                FoundBy::Formulas => false,
+                FoundBy::Simulation { .. } => true,
+            },
+        },
+        binding: operation.binding.iter().map(binding_body).collect(),
+        trade_off: points.map(|(best, came)| point_body(best, came)).collect(),
+    }
+}
+
+fn point_body(best: &Optimum, came: &Came) -> PointBody {
+    PointBody {
+        formula: parameters_body(best),
+        planned: match came {
+            Came::Planned(plan) => Some(plan_body(plan)),
+            Came::Nothing | Came::FormulaOnly => None,
+        },
+    }
+}
+
+fn plan_body(plan: &Plan) -> PlanBody {
+    let parameters = &plan.parameters;
+    PlanBody {
+        lattice: parameters.lattice.word(),
+        swing: parameters.swing.to_deg(),
+        layer: parameters.layer.to_mm(),
+        step: parameters.step.to_mm(),
+        time: plan.time.to_s(),
+        cuts: plan.cuts,
+        leaves: plan.leaves.to_mm(),
+    }
+}
+
+fn row_body(row: &Row) -> RowBody {
+    RowBody {
+        lattice: row.lattice.word(),
+        model: row.formulas.word(),
+        chosen: row.role == Role::Chosen,
+        parameters: row.best.as_ref().ok().map(parameters_body),
+        trouble: row.best.as_ref().err().cloned(),
+    }
+}
+
+fn parameters_body(best: &Optimum) -> ParametersBody {
+    ParametersBody {
+        lattice: best.lattice.word(),
+        swing: best.swing.to_deg(),
+        layer: best.layer.to_mm(),
+        step: best.step.to_mm(),
+        overlap: best.overlap,
+        time: best.time.to_s(),
+        cuts: best.cuts,
+        scallop: best.scallop.to_mm(),
+        edge: best.edge.to_mm(),
+        gap: best.gap,
+    }
+}
+
+fn binding_body(relaxed: &Relaxed) -> BindingBody<'_> {
+    BindingBody {
+        bound: bound_key(relaxed.bound),
+        words: &relaxed.words,
+        place: relaxed.place.as_deref(),
+        relaxed: &relaxed.relaxed,
+        saves: relaxed.saves.to_s(),
+        gain: relaxed.gain,
+        share: relaxed.share,
+    }
+}
+
+const fn bound_key(bound: Bound) -> &'static str {
+    match bound {
+        Bound::SwingLeast => "swing_least",
+        Bound::SwingMost => "swing_most",
+        Bound::LayerLeast => "layer_least",
+        Bound::LayerMost => "layer_most",
+        Bound::StepLeast => "step_least",
+        Bound::StepMost => "step_most",
+        Bound::OverlapLeast => "overlap_least",
+        Bound::OverlapMost => "overlap_most",
+        Bound::Scallop => "scallop",
+        Bound::Edge => "edge",
+        Bound::Time => "time",
+        Bound::Cuts => "cuts",
+    }
+}
