@@ -29,7 +29,8 @@ use vcutc_driver::summary::verdict;
 use vcutc_dynamics::deviation::figures::DeviationFigures;
 use vcutc_dynamics::figures::TorqueFigures;
 use vcutc_dynamics::modes::figures::ModeFigures;
-use vcutc_motion::summary::{self as reach_summary, ReachFigures};
+use vcutc_motion::figures::ReachFigures;
+use vcutc_motion::summary as reach_summary;
 
 /// Version of the JSON objects this module writes.
 const SCHEMA: u32 = 1;

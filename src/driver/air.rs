@@ -15,8 +15,8 @@ use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::CheckedJob;
 use vcutc_job::sema::units;
+use vcutc_motion::figures as reach_figures;
 use vcutc_motion::solve::{Changes, LEAST_CLEARANCE, Reached, Unreached, solve};
-use vcutc_motion::summary as reach_summary;
 use vcutc_motion::verdict as reach_verdict;
 use vcutc_simulation::timing::times;
 
@@ -210,7 +210,7 @@ fn told(job: &CheckedJob, cutting: &Compiled, program: Finished) -> Compiled {
     let paced = paced(job, &program);
     let mut report = cutting.report.clone();
     report.times = times(program.verified(), &paced.times);
-    let figures = program.reached().map(reach_summary::figures);
+    let figures = program.reached().map(reach_figures::figures);
     let head = cutting.program.verified().program().head.as_ref();
     let head = head.map(|head| Head {
         time: report.times.all.total(),

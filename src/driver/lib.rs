@@ -60,9 +60,9 @@ use vcutc_job::CheckedJob;
 use vcutc_job::PlannedJob;
 use vcutc_job::sema;
 use vcutc_job::sema::kind::Operations;
+use vcutc_motion::figures::{self as reach_figures, ReachFigures};
 use vcutc_motion::pace::{self, Paced};
 use vcutc_motion::solve::Reached;
-use vcutc_motion::summary::{self as reach_summary, ReachFigures};
 use vcutc_motion::verdict as reach_verdict;
 use vcutc_process::plan;
 use vcutc_process::verdict;
@@ -457,7 +457,7 @@ fn compiled(
     mut report: Report,
     sources: &SourceMap,
 ) -> Compiled {
-    let figures = program.reached().map(reach_summary::figures);
+    let figures = program.reached().map(reach_figures::figures);
     let paced = paced(job, &program);
     report.times = times(program.verified(), &paced.times);
     let program = program.headed(Some(Head {

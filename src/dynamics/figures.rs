@@ -11,8 +11,8 @@ use vcutc_machine::Model;
 use vcutc_machine::kinematics::opw::Coupling;
 use vcutc_machine::masses::{Backing, Covered};
 use vcutc_motion::describe::site_words;
+use vcutc_motion::figures::PlaceFigure;
 use vcutc_motion::parts::Motions;
-use vcutc_motion::summary::PlaceFigure;
 
 /// What a program asks of the drives of an arm.
 #[derive(Clone, Debug, PartialEq, Serialize)]

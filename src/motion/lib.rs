@@ -9,6 +9,7 @@ pub mod ceiling;
 pub mod critical;
 pub mod demand;
 pub mod describe;
+pub mod figures;
 pub mod ladder;
 pub mod moves;
 pub mod pace;

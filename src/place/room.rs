@@ -3,9 +3,9 @@
 use vcutc_backend_api::ir::{OpId, Program, Site};
 use vcutc_machine::Model;
 use vcutc_motion::describe::site_words;
+use vcutc_motion::figures::{AxisFigure, figures};
 use vcutc_motion::path::Violation;
 use vcutc_motion::solve::{Reached, Unreached};
-use vcutc_motion::summary::{AxisFigure, figures};
 use vcutc_motion::trouble::{Failing, Trouble};
 
 /// What room a program leaves its machine.

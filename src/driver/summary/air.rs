@@ -4,8 +4,9 @@ use super::{IN_HAND, row, time, times};
 use crate::air_cut::{TIP_SPEED, TURNING_RATE};
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::show;
+use vcutc_motion::figures::ReachFigures;
 use vcutc_motion::pace::Basis;
-use vcutc_motion::summary::{self as reach_summary, ReachFigures};
+use vcutc_motion::summary as reach_summary;
 use vcutc_simulation::report::Report;
 
 /// An air cut.

@@ -15,7 +15,7 @@ use vcutc_job::Gravity;
 use vcutc_job::forces::Forces;
 use vcutc_machine::masses::Backing;
 use vcutc_motion::describe::site_words;
-use vcutc_motion::summary::PlaceFigure;
+use vcutc_motion::figures::PlaceFigure;
 
 /// How far the forces of its blades push the cuts of a program off.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -8,7 +8,8 @@ use vcutc_diagnostics::number::{rounded, show};
 use vcutc_dynamics::deviation::figures::{DeviationFigures, ShiftFigure, SwingFigure, millimetres};
 use vcutc_dynamics::figures::{TorqueFigures, percent};
 use vcutc_dynamics::modes::figures::ModeFigures;
-use vcutc_motion::summary::{self as reach_summary, AxisFigure, ReachFigures, SingularFigure, margin_words};
+use vcutc_motion::figures::{AxisFigure, ReachFigures, SingularFigure};
+use vcutc_motion::summary::{self as reach_summary, margin_words};
 use vcutc_picture::Prefix;
 
 /// An axis with less than this share of half its range left, or of its rate, is marked, as in the picture.
