@@ -70,6 +70,7 @@ mod progress;
 mod report;
 mod shell;
 mod snapshot;
+mod summary;
 mod targets;
 mod tools;
 mod verify;

@@ -2,7 +2,7 @@
 
 use super::args::{Arguments, CheckArgs, CompileArgs, InnerForm, Overrides};
 use super::batch::{self, Unit};
-use super::console::{Console, Failure, Summary, Warnings};
+use super::console::{Console, Failure, Warnings};
 use super::files::{Disk, job_near};
 use super::hints;
 use super::inner::{self, Progressed};
@@ -11,6 +11,7 @@ use super::output::{Destination, Headings, Output, Placed};
 use super::patience;
 use super::progress::Progress;
 use super::snapshot::{self, Differences, Fate, Made, NotReady};
+use super::summary::Summary;
 use super::targets;
 use super::{Exit, Targets};
 use std::path::{Path, PathBuf};

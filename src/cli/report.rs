@@ -3,7 +3,7 @@
 use super::args::ReportArgs;
 use super::browser;
 use super::compile::unreadable;
-use super::console::{Console, Failure, Summary};
+use super::console::{Console, Failure};
 use super::files::{Disk, stem};
 use super::hints::of_a_page;
 use super::meant::Driven;
@@ -11,6 +11,7 @@ use super::output::{Placed, one_file};
 use super::patience;
 use super::progress::Progress;
 use super::snapshot::read_back;
+use super::summary::Summary;
 use super::{Exit, Targets, targets};
 use std::path::Path;
 use std::slice;

@@ -1,10 +1,11 @@
 //! `vcutc verify JOB PROGRAM...`: a program compared with the job that it was made from.
 
 use super::args::VerifyArgs;
-use super::console::{Console, Failure, Summary};
+use super::console::{Console, Failure};
 use super::files::{Disk, load_program};
 use super::meant::Driven;
 use super::progress::Progress;
+use super::summary::Summary;
 use super::{Exit, Targets, compile, snapshot, targets};
 use std::path::Path;
 use std::slice;
