@@ -377,7 +377,7 @@ pub(super) struct CompileArgs {
 pub(super) struct WarningArgs {
     /// Treat warnings as errors: exit with 1 and write nothing
     ///
-    /// For continuous integration, where nobody reads and accepts warnings.
+    /// For continuous integration, where no one reads and accepts warnings.
     #[arg(long)]
     deny_warnings: bool,
 

@@ -252,7 +252,7 @@ pub struct AxisValues(pub [f64; MOST_AXES]);
 pub struct Axis {
     /// Its name on the controller, such as `A1` or `X`.
     pub name: String,
-    /// How it moves, which also tells the unit of the numbers below: rad or mm, and a second.
+    /// How it moves, which also determines the unit of the numbers below: rad or mm, and a second.
     pub kind: AxisKind,
     /// Smallest position.
     pub min: f64,

@@ -141,7 +141,7 @@ pub enum Effect {
     Unknown,
     /// It is no statement of the dialect; what would be one stands in the text.
     Unreadable {
-        /// What was expected, such as `a number behind X`.
+        /// What was expected, such as `a number after X`.
         expected: String,
     },
 }

@@ -89,7 +89,7 @@ fn objection(line: &str, place: Place, own: &[u32]) -> Option<String> {
         Phrase::Ext { .. } | Phrase::Declaration(_) if place == Place::End => {
             "is a declaration, and those stand in front of all instructions"
         }
-        Phrase::Unreadable { expected } => return Some(format!("`{line}` is no KRL: expected {expected}")),
+        Phrase::Unreadable { expected } => return Some(format!("`{line}` is not KRL: expected {expected}")),
         Phrase::Ext { .. }
         | Phrase::Declaration(_)
         | Phrase::Assignment { .. }

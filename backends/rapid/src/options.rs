@@ -51,7 +51,7 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
     ),
     OptionSpec::text(
         READY_SIGNAL,
-        "Name of the input that tells the generator is up; di7 for input(7) when not given.",
+        "Name of the input that says that the generator is up; di7 for input(7) when not given.",
     ),
     OptionSpec::text(
         CHANGE_ROUTINE,

@@ -29,8 +29,8 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
         },
         Zoom::Free,
         &format!(
-            "How high material stands straight above the part after {}: {}. {}: besides \
-             scallops, material stays where the part lies below its shadow.{}",
+            "How high material stands straight above the part after {}: {}. {}: in addition \
+             to scallops, material stays where the part lies below its shadow.{}",
             if is_finished { "roughing" } else { "all cuts" },
             residual.figures(),
             alike,
