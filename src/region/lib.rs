@@ -3,7 +3,6 @@
 //! Everything here lies in the x-y plane of the workpiece frame, in mm and rad. A [`region::Region`] is bounded by
 //! loops of lines and arcs. Arcs stay arcs: from the drawing to the program nothing is flattened.
 
-pub mod axis;
 pub mod boxes;
 pub mod clearance;
 pub mod coverage;

@@ -211,7 +211,7 @@ impl Scene {
             let rings = rings.chain([(from, radius / 2.0), (from, 0.0)]);
             rings.flat_map(|(height, radius)| {
                 (0..36).map(move |i| {
-                    let (sine, cosine) = f64::from(10 * i).to_radians().sin_cos();
+                    let (sine, cosine) = libm::sincos(f64::from(10 * i).to_radians());
                     Vector3::new(radius * cosine, radius * sine, -height)
                 })
             })

@@ -121,7 +121,7 @@ fn wide_cuts_after_narrow_ones_are_blocked_by_their_walls() {
         panic!("{first:?}")
     };
     // Swing 45 deg at a rake of 60 deg.
-    let flank = first.tip.z + (at.x - first.tip.x).abs() * 60.0_f64.to_radians().sin();
+    let flank = first.tip.z + (at.x - first.tip.x).abs() * libm::sin(60.0_f64.to_radians());
     assert!((at.z - flank - by.to_mm()).abs() < 1e-6, "{first:?}");
     assert!(by > Length::ZERO, "{first:?}");
 }

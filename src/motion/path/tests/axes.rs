@@ -29,7 +29,7 @@ fn solids() -> Vec<Solid> {
 /// Points of each of them, in T: those of the rims of the stage are close to one another.
 fn points() -> [Vec<DVec3>; 2] {
     let rims = (0..360).flat_map(|degrees| {
-        let (sine, cosine) = f64::from(degrees).to_radians().sin_cos();
+        let (sine, cosine) = libm::sincos(f64::from(degrees).to_radians());
         [-90.0, -150.0].map(|z| DVec3::new(70.0 * cosine, 70.0 * sine, z))
     });
     [BLADE.to_vec(), rims.collect()]
