@@ -149,6 +149,8 @@ codes! {
     CannotFollow = "VC0248", Error, "cuts that cannot follow the part";
     /// A field that has no meaning for fitted tips.
     FieldBesideFitted = "VC0249", Error, "field that does not go with fitted tips";
+    /// A field of `clear pocket` that its pattern does not use.
+    FieldOfAnotherPattern = "VC0250", Error, "field of another pattern";
 
     /// A job that leaves nothing to cut.
     NothingToCut = "VC0301", Error, "nothing to cut";

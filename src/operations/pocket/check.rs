@@ -1,5 +1,7 @@
 //! `clear pocket { ... }`: clearing a pocket with a crusher.
 
+mod pattern;
+
 use crate::asked::{Axis, ClearPocket, Limits, Pattern};
 use crate::refused;
 use vcutc_backend_api::units::{Area, Length};
@@ -129,6 +131,9 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<ClearPocket
 /// What the fields contradict each other in.
 fn fault(asked: &ClearPocket, written: Written<'_>) -> Option<vcutc_diagnostics::Diagnostic> {
     let crusher = &asked.crusher;
+    if let Some(found) = pattern::field_of_another(asked) {
+        return Some(found);
+    }
     if let Auto::Given(step) = asked.step.value
         && step >= crusher.radius.value * 2.0
     {
