@@ -128,6 +128,49 @@ pub fn robot(number: u64) -> String {
     )
 }
 
+/// The job of a number with one of its choices made, for each of these choices: its name, and the job.
+#[must_use]
+pub fn fixed(number: u64) -> Vec<(&'static str, String)> {
+    // Other numbers than those of the job and the robot.
+    let mut dice = Dice(number.rotate_left(32));
+    let text = text(number);
+    let edge = stated(&text, "cutting_length = ").unwrap_or_default();
+    let widest = stated(&text, "swing <= ").unwrap_or(60.0);
+    let choices = [
+        ("lattice = free", "lattice = free".to_owned()),
+        ("lattice = interlaced", "lattice = interlaced".to_owned()),
+        ("lattice = fitted", "lattice = fitted".to_owned()),
+        (
+            "swing",
+            format!("swing = {} deg", dice.whole(0.4 * widest, widest)),
+        ),
+        (
+            "layer",
+            format!("layer = {:.1} mm", edge * dice.between(0.3, 0.95)),
+        ),
+        ("step", format!("step = {:.1} mm", edge * dice.between(0.3, 1.5))),
+        (
+            "residual",
+            format!(
+                "residual = {}",
+                dice.one_of(["mixed", "discard", "lift", "shift"])
+            ),
+        ),
+        ("objective = cuts", "objective = cuts".to_owned()),
+    ];
+    let with = |line: String| text.replace("rough vcut {\n", &format!("rough vcut {{\n  {line}\n"));
+    choices
+        .into_iter()
+        .map(|(name, line)| (name, with(line)))
+        .collect()
+}
+
+/// The number that follows a word of a job.
+fn stated(text: &str, word: &str) -> Option<f64> {
+    let (_, rest) = text.split_once(word)?;
+    rest.split(' ').next()?.parse().ok()
+}
+
 /// The job of a number.
 #[must_use]
 pub fn text(number: u64) -> String {

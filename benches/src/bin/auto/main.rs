@@ -1,13 +1,20 @@
 //! How fast the programs are that compilers find for jobs which leave all parameters to them.
 //!
+//! `cargo run --release --bin auto -- [robots] fixed JOBS COMPILER` compiles each of so many random jobs as it is, and once more with
+//! each of eight choices made that it leaves open, such as a lattice or a swing. It lists the choices with the jobs whose programs are
+//! faster by more than [`SLOWER`]: the compiler should have found these.
+//!
 //! `cargo run --release --bin auto -- [robots] JOBS COMPILER [OTHER]` has each of so many random jobs compiled by one compiler, and by
 //! another one beside it, and prints the sums: planned times of the programs, and the time that it took to find them, on one
 //! thread. With another compiler it lists the jobs whose programs are slower by more than [`SLOWER`]. With `robots` each job has a
 //! robot, and time includes what its axes ask for.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
-use std::time::Instant;
+mod compile;
+mod fixed;
+
+use compile::{Found, compile};
+use std::path::PathBuf;
+use std::process::ExitCode;
 use vcutc_benches::auto;
 
 /// By which share of itself a program may be slower and not be listed.
@@ -19,13 +26,19 @@ fn main() -> ExitCode {
         Some(_) => auto::robot,
         None => |_| String::new(),
     };
+    let is_fixed = arguments.next_if_eq("fixed").is_some();
     let jobs = arguments.next().and_then(|jobs| jobs.parse::<u64>().ok());
     let compilers: Vec<PathBuf> = arguments.map(PathBuf::from).collect();
     let (Some(jobs), false) = (jobs, compilers.is_empty()) else {
-        eprintln!("usage: auto [robots] JOBS COMPILER [OTHER]");
+        eprintln!("usage: auto [robots] [fixed] JOBS COMPILER [OTHER]");
         return ExitCode::FAILURE;
     };
     let file = std::env::temp_dir().join(format!("vcutc-auto-{}.vcut", std::process::id()));
+    if let (true, [compiler]) = (is_fixed, &compilers[..]) {
+        fixed::compare(compiler, jobs, &file, robot);
+        let _ = std::fs::remove_file(&file);
+        return ExitCode::SUCCESS;
+    }
     let mut sums = vec![Sum::default(); compilers.len()];
     let mut slower = Vec::new();
     for number in 0..jobs {
@@ -76,16 +89,6 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// What comes of a job.
-#[derive(Clone)]
-struct Found {
-    /// The planned time of its program, in s.
-    planned: f64,
-    cuts: u64,
-    /// How long it took to compile, in s.
-    taken: f64,
-}
-
 #[derive(Clone, Default)]
 struct Sum {
     jobs: u32,
@@ -101,53 +104,4 @@ impl Sum {
         self.cuts += found.cuts;
         self.taken += found.taken;
     }
-}
-
-/// Has a job compiled; none where that fails.
-fn compile(compiler: &Path, job: &Path) -> Option<Found> {
-    let start = Instant::now();
-    let output = Command::new(compiler)
-        .arg("check")
-        .arg(job)
-        .arg("-v")
-        .env("RAYON_NUM_THREADS", "1")
-        .output()
-        .expect("the compiler can be started");
-    let taken = start.elapsed().as_secs_f64();
-    if !output.status.success() {
-        return None;
-    }
-    let text = [output.stdout, output.stderr].concat();
-    let text = String::from_utf8_lossy(&text);
-    let line = text
-        .lines()
-        .find_map(|line| line.trim_start().strip_prefix("time "))?;
-    let (planned, _) = line.split_once('=')?;
-    let cuts = text.lines().find_map(|line| {
-        let (before, _) = line
-            .split_once(" cuts in ")
-            .or_else(|| line.split_once(" cut in "))?;
-        before.rsplit(' ').next()?.parse().ok()
-    })?;
-    Some(Found {
-        planned: seconds(planned)?,
-        cuts,
-        taken,
-    })
-}
-
-/// A time as the summary has it, such as `1 h 03 min 23.3 s`, in s.
-fn seconds(words: &str) -> Option<f64> {
-    let words: Vec<&str> = words.split_whitespace().collect();
-    let each = words.chunks(2).map(|pair| {
-        let [number, unit] = pair else { return None };
-        let in_seconds = match *unit {
-            "h" => 3600.0,
-            "min" => 60.0,
-            "s" => 1.0,
-            _ => return None,
-        };
-        Some(number.parse::<f64>().ok()? * in_seconds)
-    });
-    each.sum()
 }
