@@ -1,4 +1,4 @@
-//! A fresh program held against the files of an earlier run, as text.
+//! A fresh program compared with the files of an earlier run, as text.
 //!
 //! Unlike `vcutc verify`, which asks what a controller would do, this asks whether a repository holds the very bytes that a
 //! job gives today. Nothing is read or written here: who holds the files hands their bytes over.

@@ -1,4 +1,4 @@
-//! What the blade sweeps where a five-axis machine turns it, held against what is left of the stock.
+//! What the blade sweeps where a five-axis machine turns it, compared with what is left of the stock.
 //!
 //! A robot turns the blade about one fixed axis, and the extension of the cuts is planned for that. Rotary axes that go each at a
 //! constant rate ([`super::path::five_axis`]) turn it on another way: a C axis carries a tilted blade round a cone, and in the
@@ -8,7 +8,7 @@
 //!
 //! **The blade** is a triangle between its tip and the ends of both edges, and above it a strip as wide as the edges are apart; a
 //! round one its two rims, and above them two such strips square to each other. Strips end where a stated body begins, whose stages
-//! are cylinders, and else at the spindle, as the last stage does. **The work** is the stock as far along y as it is deep, below the
+//! are cylinders, the last one as far up as the spindle is away; else at the spindle. **The work** is the stock as far along y as it is deep, below the
 //! surface that the cuts before have left. At one place of the motion both are compared exactly. What lies in planes is clipped to
 //! the sides of the work, and what remains has to lie above the corners of the surface and above the surface with its own corners;
 //! of cylinders [`body::meets`] has the shadow.
@@ -181,11 +181,11 @@ struct Outline {
 
 impl Outline {
     fn of(blade: &Blade, rig: &Rig<'_>) -> Self {
-        let spindle_height = -rig.flange_in_blade.position.z;
-        let stages = blade.stages(Length::mm(spindle_height));
+        let spindle = rig.flange_in_blade.position;
+        let stages = blade.stages(Length::mm(spindle.length()));
         let strip_height = match &blade.body {
             Some(body) => body.first().map_or(0.0, |first| first.from.to_mm()),
-            None => spindle_height,
+            None => -spindle.z,
         };
         let bare = match blade.shape {
             Shape::Straight(straight) => {

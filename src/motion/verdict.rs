@@ -14,7 +14,7 @@ use crate::solve::{LEAST_CLEARANCE, Unreachable};
 use crate::stray::{LARGEST, Stray};
 use crate::sweep::{BladePart, Cure, Sweep};
 use crate::trouble::{Count, Failing, Leads, Trouble};
-use crate::way::Obstacle;
+use crate::way::{Obstacle, Obstruction};
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Axis, AxisKind, MachineKind, OpId, Program, Site};
 use vcutc_backend_api::motion::Branch;
@@ -439,18 +439,26 @@ impl<'s> Scene<'s> {
             Leads::ToHome => "the axis move home".to_owned(),
             Leads::ToChange => "the axis move to where the blade is changed".to_owned(),
         };
-        let headline = match obstacle.lowest {
-            Some((part, lowest)) => format!(
-                "{way} leads through the stock: the {} comes down to x {} mm, y {} mm, z {} mm",
-                match part {
-                    BladePart::Edge => "blade",
-                    BladePart::Body => "body of the blade",
-                },
-                show(lowest.x),
-                show(lowest.y),
-                show(lowest.z)
+        let part_words = |part: BladePart| match part {
+            BladePart::Edge => "blade",
+            BladePart::Body => "body of the blade",
+        };
+        let place_words = |place: Point3| {
+            let [x, y, z] = [place.x, place.y, place.z].map(show);
+            format!("x {x} mm, y {y} mm, z {z} mm")
+        };
+        let headline = match obstacle.what {
+            Obstruction::Stock(part, lowest) => format!(
+                "{way} leads through the stock: the {} comes down to {}",
+                part_words(part),
+                place_words(lowest)
             ),
-            None => format!("{way} begins or ends beyond the limit of an axis"),
+            Obstruction::Unproven(part, lowest) => format!(
+                "{way} cannot be shown to keep the {} out of the stock; beside it, it comes down to {}",
+                part_words(part),
+                place_words(lowest)
+            ),
+            Obstruction::Limit => format!("{way} begins or ends beyond the limit of an axis"),
         };
         Diagnostic::new(
             Code::WayThroughStock,

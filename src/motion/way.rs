@@ -14,8 +14,18 @@ use vcutc_machine::kinematics::Joints;
 pub struct Obstacle {
     /// Where on the way, from 0 to 1.
     pub at: f64,
-    /// What of the blade is in the stock there, and its lowest point in W; none where an axis is beyond its limit instead.
-    pub lowest: Option<(BladePart, Point3)>,
+    pub what: Obstruction,
+}
+
+/// Why an axis move is no way. Places are the lowest of that part of the blade, in W.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Obstruction {
+    /// An axis is beyond its limit.
+    Limit,
+    /// A part of the blade is in the stock.
+    Stock(BladePart, Point3),
+    /// A part of the blade cannot be shown to stay out of the stock.
+    Unproven(BladePart, Point3),
 }
 
 /// Proves that an axis move keeps blade and tool out of the stock.
@@ -23,19 +33,25 @@ pub(super) fn clear(survey: &Survey<'_>, from: &Joints, to: &Joints) -> Result<(
     let solids = solids(survey);
     prove_axes(&survey.rig, from, to, &solids, &stock(survey.program)).map_err(|breach| Obstacle {
         at: breach.at,
-        lowest: match breach.what {
-            AxesViolation::Stock { solid, lowest } => {
-                // The blade itself is the first one.
-                let part = if solid == 0 {
-                    BladePart::Edge
-                } else {
-                    BladePart::Body
-                };
-                Some((part, Point3::new(lowest.x, lowest.y, lowest.z)))
-            }
-            AxesViolation::Limit { .. } => None,
+        what: match breach.what {
+            AxesViolation::Stock { solid, lowest } => Obstruction::Stock(part(solid), point(lowest)),
+            AxesViolation::Unproven { solid, lowest } => Obstruction::Unproven(part(solid), point(lowest)),
+            AxesViolation::Limit { .. } => Obstruction::Limit,
         },
     })
+}
+
+/// What one of the [`solids`] is: the blade itself is the first one.
+const fn part(solid: usize) -> BladePart {
+    if solid == 0 {
+        BladePart::Edge
+    } else {
+        BladePart::Body
+    }
+}
+
+fn point(place: DVec3) -> Point3 {
+    Point3::new(place.x, place.y, place.z)
 }
 
 /// Whether samples show what [`clear`] would find out about the stock, sooner.
@@ -51,8 +67,8 @@ fn stock(program: &Program) -> Block {
     }
 }
 
-/// What the axes carry: all between the blade at hand and the flange, then the stages of its body, where they are stated, up to the
-/// height of the flange. The arm beyond the flange is farther away from the work than these.
+/// What the axes carry: all between the blade at hand and the flange, then the stages of its body, where they are stated. The last one
+/// ends as far from the tip as the flange is. The arm beyond the flange is farther away from the work than these.
 fn solids(survey: &Survey<'_>) -> Vec<Solid> {
     let flange = survey.rig.flange_in_blade.position;
     let Some(blade) = survey.program.blade(survey.tool) else {
@@ -60,10 +76,13 @@ fn solids(survey: &Survey<'_>) -> Vec<Solid> {
     };
     let hull = blade.hull().into_iter().map(DVec3::from_array);
     let hull = Solid::Hull(hull.chain([flange]).collect());
-    let stages = blade.stages(Length::mm(-flange.z)).into_iter().map(|stage| {
-        let ends = stage.heights.map(|height| DVec3::new(0.0, 0.0, -height.to_mm()));
-        let radius = stage.radius.to_mm();
-        Solid::Cylinder { ends, radius }
-    });
+    let stages = blade
+        .stages(Length::mm(flange.length()))
+        .into_iter()
+        .map(|stage| {
+            let ends = stage.heights.map(|height| DVec3::new(0.0, 0.0, -height.to_mm()));
+            let radius = stage.radius.to_mm();
+            Solid::Cylinder { ends, radius }
+        });
     core::iter::once(hull).chain(stages).collect()
 }

@@ -416,7 +416,7 @@ pub fn blocked(span: Span, finding: Finding, at: Point2, by: Length) -> Diagnost
     Diagnostic::new(
         Code::BladeBlocked,
         format!(
-            "above {}, {} mm of uncut material are in the way of the blade",
+            "above {}, {} mm of uncut material is in the way of the blade",
             place(&finding),
             show(by.to_mm())
         ),

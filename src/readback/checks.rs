@@ -252,7 +252,7 @@ impl Read<'_> {
 
     fn entry(&self, bounds: &[vcutc_simulation::prove::Bound<'_>], cut: &CutAt) -> Option<Entry> {
         let program = self.program();
-        // A cut that belongs to nothing is held against the first operation's bound.
+        // A cut that belongs to nothing is compared with the first operation's bound.
         let operation = cut
             .site
             .operation()
@@ -425,7 +425,7 @@ impl Read<'_> {
             ),
             CutFault::Blocked { at, by } => (
                 format!(
-                    "above {place}, {} mm of uncut material are in the way of the blade",
+                    "above {place}, {} mm of uncut material is in the way of the blade",
                     show(by.to_mm())
                 ),
                 format!("the blade meets it at x {} mm, z {} mm", show(at.x), show(at.z)),

@@ -8,7 +8,7 @@
 //! On straight ways through the air the same holds of those discs of a body that come over the stock; each counts whole
 //! where any of it does. While the blade turns, or its tip goes on an arc, the way is cut into spans: the cylinders of the middle
 //! of a span, grown by how far any of their points gets in half of it, contain all that the body covers meanwhile ([`turn`]).
-//! Moves of all axes have no straight way and are not looked at.
+//! Moves of all axes have no straight way; the proof of the machine's motions compares bodies with the whole stock in them.
 //!
 //! Where cuts follow a spine, the work is its section raised by the spine at every y. It lies below a plane that touches the spine
 //! below the blade and is raised above it wherever the body is ([`slant`]); seen along that plane, all of this holds as before.

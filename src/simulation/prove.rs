@@ -20,6 +20,7 @@
 //! On a piece of a chain the blade itself is followed, with its thickness and the chain's blend ([`piece`]).
 
 mod along;
+mod blocked;
 mod cleared;
 mod compensation;
 mod edge;
@@ -46,7 +47,7 @@ pub use edge::UsedEdge;
 pub use entry::below_top;
 pub(super) use entry::merge_heights;
 pub use findings::Findings;
-use findings::{is_more_blocked, note};
+use findings::note;
 use flank::{FlankGeometry, flanks};
 use piece::Piece;
 pub use slit::{Slit, SlitFault};
@@ -134,7 +135,7 @@ pub enum CutFault {
     },
     /// Beyond the point where the flank comes out, material stands in the way of the blade's body.
     Blocked {
-        /// The first corner that does.
+        /// The corner that stands highest above the flank.
         at: Point2,
         /// How far it stands above the flank, along z.
         by: Length,
@@ -497,16 +498,6 @@ impl<'p> Player<'p> {
             }
         }
         self.release(cut, vee, Length::ZERO);
-    }
-
-    /// Keeps the cut above whose flank most stands.
-    fn note_blocked(&mut self, at: Option<Point2>, tip: Point2, geometry: FlankGeometry, cut: &Cut) {
-        let program = self.program;
-        if let Some(at) = at {
-            let by = Length::mm(at.z - tip.z - (at.x - tip.x).abs() * geometry.slope);
-            let finding = cut.finding(program, CutFault::Blocked { at, by });
-            note(&mut self.findings.blocked, finding, is_more_blocked);
-        }
     }
 
     /// Counts a cut in its layer.

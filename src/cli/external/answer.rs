@@ -1,4 +1,4 @@
-//! What an outside program has written, held against what a program of a machine may be.
+//! What an outside program has written, compared with what a program of a machine may be.
 
 use super::description::{Described, kept};
 use super::fault::{fault, fault_at, line};

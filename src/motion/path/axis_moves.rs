@@ -53,8 +53,15 @@ pub enum AxesViolation {
         axis: usize,
         value: f64,
     },
-    /// One of the solids cannot be shown to be outside of the stock.
+    /// One of the solids is in the stock, as samples of it show.
     Stock {
+        /// Which one, from 0.
+        solid: usize,
+        /// Its lowest point, in W, in mm.
+        lowest: DVec3,
+    },
+    /// One of the solids cannot be shown to be outside of the stock: no face has all of it on its outer side.
+    Unproven {
         /// Which one, from 0.
         solid: usize,
         /// Its lowest point, in W, in mm.
@@ -94,17 +101,29 @@ pub fn prove_axes(
         }
     })
     .map(|_| ())
-    .map_err(|(at, solid)| AxesBreach {
-        at,
-        what: AxesViolation::Stock {
-            solid,
-            lowest: solids[solid].lowest(&blade_at(rig, from, to, at)),
-        },
+    .map_err(|(at, number)| {
+        let (solid, blade) = (&solids[number], blade_at(rig, from, to, at));
+        let lowest = solid.lowest(&blade);
+        let what = if solid.is_seen_in(stock, &blade) {
+            AxesViolation::Stock {
+                solid: number,
+                lowest,
+            }
+        } else {
+            AxesViolation::Unproven {
+                solid: number,
+                lowest,
+            }
+        };
+        AxesBreach { at, what }
     })
 }
 
 /// Parts of a move at whose ends samples are taken.
 const PARTS: u32 = 16;
+
+/// Parts of a solid at whose ends samples are taken, in each direction.
+const SAMPLES: u32 = 32;
 
 /// How far inside the stock a sample has to be to count, in mm: far more than rounding.
 const SURELY: f64 = 1e-3;
@@ -150,6 +169,36 @@ impl Solid {
                     })
                 });
                 Sides::of(rims.into_iter(), block).any()
+            }
+        }
+    }
+
+    /// Whether samples of it are in a block where the blade is held like this.
+    fn is_seen_in(&self, block: &Block, blade_in_work: &Pose) -> bool {
+        let shares = || (0..=SAMPLES).map(|sample| f64::from(sample) / f64::from(SAMPLES));
+        let between = |one: DVec3, other: DVec3| {
+            shares().any(|share| {
+                let place = in_work(blade_in_work, one.lerp(other, share));
+                place.cmpgt(block.low).all() && place.cmplt(block.high).all()
+            })
+        };
+        match self {
+            Self::Hull(points) => {
+                let mut pairs = points.iter().enumerate().flat_map(|(number, one)| {
+                    points.iter().skip(number + 1).map(move |other| (*one, *other))
+                });
+                pairs.any(|(one, other)| between(one, other))
+            }
+            Self::Cylinder { ends, radius } => {
+                let (aside, across) = (ends[1] - ends[0]).normalize_or_zero().any_orthonormal_pair();
+                let spokes = shares().map(|share| {
+                    let (sine, cosine) = libm::sincos(share * core::f64::consts::TAU);
+                    (aside * cosine + across * sine) * *radius
+                });
+                spokes.into_iter().any(|spoke| {
+                    between(ends[0] + spoke, ends[1] + spoke)
+                        || ends.iter().any(|&end| between(end, end + spoke))
+                })
             }
         }
     }

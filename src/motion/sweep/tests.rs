@@ -335,34 +335,64 @@ proptest! {
     }
 }
 
-/// A blade tilted by 40 degrees whose C axis goes round by half a turn leans over the work in the middle of it, by the sine of the
-/// tilt, though at both ends it leans along the work's side.
-#[test]
-fn a_c_axis_carries_the_blade_over_the_work() {
+/// A blade without width, 20 mm long and tilted by 40 degrees, whose tip is so far beside the work and 20 mm below its top, while a C axis
+/// goes round by half a turn: at both ends it leans along the side of the work.
+fn led_round(out: f64, stages: Vec<Stage>) -> Scene {
     let half_turn = core::f64::consts::PI;
-    let tilt = 40.0_f64.to_radians();
     // The work is turned by 0.4 rad, so C is too.
-    let start = [0.0, 0.0, 0.0, 0.4 + half_turn / 2.0, tilt, 0.0];
-    let end = [0.0, 0.0, 0.0, 0.4 + 1.5 * half_turn, tilt, 0.0];
-    let scene = |out: f64| Scene {
+    let axes = [0.5, 1.5].map(|turns| [0.0, 0.0, 0.0, 0.4 + turns * half_turn, TILT, 0.0]);
+    Scene {
         kind: Kind::HeadCa,
-        axes: [start, end],
+        axes,
         tip: [DVec3::new(40.0, -out, 20.0); 2],
-        outline: Outline::straight(0.0, 20.0, 20.0),
+        outline: Outline {
+            stages,
+            ..Outline::straight(0.0, 20.0, 20.0)
+        },
         vees: Vec::new(),
-    };
-    let overhang = 20.0 * libm::sin(tilt);
-    let mechanism = machine(Kind::HeadCa);
+    }
+}
+
+/// 40 degrees.
+const TILT: f64 = core::f64::consts::PI * 2.0 / 9.0;
+
+/// What is wrong with such a motion, and what would clear it.
+fn judged(scene: &Scene) -> Option<(BladePart, Cure)> {
+    let mechanism = machine(scene.kind);
     let rig = rig(&mechanism);
-    let judged = |out: f64| {
-        let scene = scene(out);
-        let turn = scene.turn(&rig);
-        let work = turn.work(&mut scene.surface());
-        turn.prove(&work, DVec3::ZERO).map_err(|_| turn.cure(&work, 0.0))
-    };
-    assert!(judged(overhang).is_ok());
-    match judged(overhang - 1.0) {
-        Err(Cure::FartherOut(by)) => assert!((by.to_mm() - 1.0).abs() < 0.03, "{by:?}"),
+    let turn = scene.turn(&rig);
+    let work = turn.work(&mut scene.surface());
+    let hit = turn.prove(&work, DVec3::ZERO).err()?;
+    Some((hit.part, turn.cure(&work, 0.0)))
+}
+
+/// Asserts that a motion clears the work at this distance, and that a millimetre less is too little by a millimetre.
+fn assert_clears_from(overhang: f64, stages: &[Stage], part: BladePart) {
+    assert_eq!(judged(&led_round(overhang, stages.to_vec())), None);
+    match judged(&led_round(overhang - 1.0, stages.to_vec())) {
+        Some((found, Cure::FartherOut(by))) => {
+            assert_eq!(found, part);
+            assert!((by.to_mm() - 1.0).abs() < 0.03, "{by:?}");
+        }
         other => panic!("{other:?}"),
     }
+}
+
+/// In the middle of the way the blade leans over the work, by the sine of the tilt.
+#[test]
+fn a_c_axis_carries_the_blade_over_the_work() {
+    assert_clears_from(20.0 * libm::sin(TILT), &[], BladePart::Edge);
+}
+
+/// The lower rim of a stage overhangs farthest where it is as high as the top of the work.
+#[test]
+fn a_c_axis_carries_the_body_over_the_work() {
+    let radius = 5.0;
+    let stage = Stage {
+        heights: [20.0, 60.0].map(Length::mm),
+        radius: Length::mm(radius),
+    };
+    let (sine, cosine) = libm::sincos(TILT);
+    let along = (20.0 + radius * sine) / cosine;
+    assert_clears_from(along * sine + radius * cosine, &[stage], BladePart::Body);
 }

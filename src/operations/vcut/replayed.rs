@@ -120,8 +120,8 @@ fn wide_cuts_after_narrow_ones_are_blocked_by_their_walls() {
     let CutFault::Blocked { at, by } = first.fault else {
         panic!("{first:?}")
     };
-    // Swing 45 deg at a rake of 60 deg.
-    let flank = first.tip.z + (at.x - first.tip.x).abs() * libm::sin(60.0_f64.to_radians());
+    // At a swing of 45 deg flanks rise as far as they go aside.
+    let flank = first.tip.z + (at.x - first.tip.x).abs();
     assert!((at.z - flank - by.to_mm()).abs() < 1e-6, "{first:?}");
     assert!(by > Length::ZERO, "{first:?}");
 }
@@ -166,7 +166,7 @@ fn a_later_operation_may_come_closer_to_the_part() {
     let plan = plan_job(&job).0.unwrap();
     let proven = prove(&plan, &SourceMap::default()).unwrap();
     assert_eq!(proven.findings, Findings::default());
-    // The earlier one is still held against its own bound.
+    // The earlier one is still compared with its own bound.
     let program = verify(lower(&plan, &SourceMap::default())).unwrap();
     let [rough, fine] = [0, 1].map(|index| PlannedVcut::of(&*plan.operations[index]).unwrap());
     let bound = |part, drop| Bound {

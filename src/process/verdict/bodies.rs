@@ -1,11 +1,10 @@
 //! A blade's body that enters the work, in the user's words, and which change keeps it out.
 //!
-//! At most one change of each kind is offered: a smaller swing, smaller swings only where the blade does not fit, a steeper rake, more
-//! room where the body enters the work on a way, a body that begins higher. Each was tried: all but the last planned and proven
-//! again, the last replayed on the same program.
+//! At most one change of each kind is offered: a smaller swing, smaller swings only where the blade does not fit, a steeper rake, a
+//! body that begins higher. Each was tried: all but the last planned and proven again, the last replayed on the same program.
 
 use super::attempts::Attempts;
-use super::changes::{with_more_room, with_narrower_flanks, with_smaller_swing, with_steeper_rake};
+use super::changes::{with_narrower_flanks, with_smaller_swing, with_steeper_rake};
 use super::{Proven, bodies, point};
 use vcutc_backend_api::ir::{BodyStage, Program, Site, ToolId};
 use vcutc_backend_api::units::Length;
@@ -32,22 +31,18 @@ pub(super) fn explained(
     let planned = plan.operation(contact.passage.operation)?;
     let program = proven.program.program();
     let blade = blade_of(planned.asked(), program, contact)?;
-    let told = told(planned.asked(), blade, count, contact)?;
+    let diagnostic = enters(planned.asked(), blade, count, contact)?;
     // First, because replays take the least work.
     let higher = higher_body(plan, proven, (blade, contact), attempts);
-    let told = with_smaller_swing(told, planned, attempts, works_there);
-    let told = with_narrower_flanks(told, planned, attempts, works_there);
-    let told = with_steeper_rake(told, planned.asked(), attempts, works_there);
-    let told = match contact.during {
-        During::Cut => told,
-        During::Way => with_more_room(told, planned, attempts, works_there),
-    };
+    let diagnostic = with_smaller_swing(diagnostic, planned, attempts, works_there);
+    let diagnostic = with_narrower_flanks(diagnostic, planned, attempts, works_there);
+    let diagnostic = with_steeper_rake(diagnostic, planned.asked(), attempts, works_there);
     Some(match higher {
-        Some(higher) => higher.offered(told, attempts),
-        None if told.fixes.is_empty() && told.help.is_empty() => {
-            told.help("use a blade with a longer or thinner shank")
+        Some(higher) => higher.offered(diagnostic, attempts),
+        None if diagnostic.fixes.is_empty() && diagnostic.help.is_empty() => {
+            diagnostic.help("use a blade with a longer or thinner shank")
         }
-        None => told,
+        None => diagnostic,
     })
 }
 
@@ -57,7 +52,7 @@ fn blade_of<'a>(asked: &'a dyn Operation, program: &Program, contact: Contact) -
     asked.blades().into_iter().find(|blade| blade.name() == name)
 }
 
-fn told(asked: &dyn Operation, blade: BladeRef<'_>, count: usize, contact: Contact) -> Option<Diagnostic> {
+fn enters(asked: &dyn Operation, blade: BladeRef<'_>, count: usize, contact: Contact) -> Option<Diagnostic> {
     let setup = asked.setup();
     let body = blade.body()?;
     let stage = body.stages.get(contact.passage.stage)?;
@@ -106,10 +101,10 @@ struct Higher {
 
 impl Higher {
     /// As a change that others try once more; as mere advice where nothing is tried any more.
-    fn offered(self, told: Diagnostic, attempts: &Attempts<'_>) -> Diagnostic {
+    fn offered(self, diagnostic: Diagnostic, attempts: &Attempts<'_>) -> Diagnostic {
         match self.edits {
-            Some(edits) if attempts.are_wanted() => told.fix_all(self.advice, &edits),
-            Some(_) | None => told.help(self.advice),
+            Some(edits) if attempts.are_wanted() => diagnostic.fix_all(self.advice, &edits),
+            Some(_) | None => diagnostic.help(self.advice),
         }
     }
 }

@@ -1,28 +1,19 @@
 //! Changes of an operation, each tried before it is offered: planned and proven again, and within reach of the machine.
 
-use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::units::Angle;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::number::show;
 use vcutc_job::PlannedOperation;
 use vcutc_job::operation::{Operation, Trials, Variant, Variation, WorksThere};
 
 /// By how many degrees the swing is made smaller, one after the other.
-const SMALLER: [f64; 6] = [2.0, 5.0, 10.0, 20.0, 30.0, 40.0];
+const SMALLER: [f64; 9] = [2.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0];
 
 /// How often the gap between a swing that works and one that does not is halved.
 const HALVINGS: usize = 3;
 
 /// By how many degrees the rake is made steeper, one after the other.
 const STEEPER: [f64; 4] = [5.0, 10.0, 15.0, 20.0];
-
-/// By how much more room beside the stock the blade turns, one after the other.
-const FARTHER: [Length; 5] = [
-    Length::mm(2.0),
-    Length::mm(5.0),
-    Length::mm(10.0),
-    Length::mm(20.0),
-    Length::mm(50.0),
-];
 
 /// Offers the widest swing below the planned one that works, of those that are tried.
 #[must_use]
@@ -108,31 +99,6 @@ pub(super) fn with_steeper_rake(
         });
     match works {
         Some(rake) => diagnostic.fix(format!("use a `rake` of {}", text(rake)), span, text(rake)),
-        None => diagnostic,
-    }
-}
-
-/// Offers to turn the blade farther beside the stock.
-pub(super) fn with_more_room(
-    diagnostic: Diagnostic,
-    planned: &dyn PlannedOperation,
-    trials: &mut dyn Trials,
-    works_there: &mut WorksThere<'_>,
-) -> Diagnostic {
-    let setup = planned.asked().setup();
-    let (field, span) = setup.turning_field();
-    let now = setup.turning_room(planned.extension());
-    let rooms = FARTHER.map(|more| Length::mm((now + more).to_mm().ceil()));
-    let text = |room: Length| format!("{} mm", show(room.to_mm()));
-    let works = rooms.into_iter().find(|&room| {
-        trials.proves(&|operation| operation.setup_mut().set_turning_room(room))
-            && works_there(&setup.stated(field, span, &text(room)))
-    });
-    match works {
-        Some(room) => diagnostic.fix_all(
-            format!("use `{field} = {}`", text(room)),
-            &setup.stated(field, span, &text(room)),
-        ),
         None => diagnostic,
     }
 }

@@ -26,12 +26,14 @@ impl Cylinder {
         stages.into_iter().map(Self::from).collect()
     }
 
-    /// A cylinder that all points no farther than this from it lie in.
+    /// A cylinder that all points no farther than this from it lie in. With a negative number, the one of its points that lie so deep
+    /// in it; where there are none, the nearest that there is to that: a disc in its middle, or its axis.
     pub(super) fn grown(self, by: f64) -> Self {
+        let middle = f64::midpoint(self.from, self.to);
         Self {
-            from: self.from - by,
-            to: self.to + by,
-            radius: self.radius + by,
+            from: (self.from - by).min(middle),
+            to: (self.to + by).max(middle),
+            radius: (self.radius + by).max(0.0),
         }
     }
 

@@ -178,7 +178,7 @@ impl Blade {
         }
     }
 
-    /// The stages of its body below a height above the tip.
+    /// The stages of its body, the last one up to a height above the tip.
     #[must_use]
     pub fn stages(&self, top: Length) -> Vec<Stage> {
         Stage::all(self.body.as_deref().unwrap_or_default(), top)
@@ -206,11 +206,11 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// The stages of a body, each up to where the next one begins, and the last one up to a height. Those that begin there or higher
-    /// are left out.
+    /// The stages of a body, each up to where the next one begins, and the last one up to a height above the tip. If it begins there
+    /// or higher, it is left out.
     #[must_use]
     pub fn all(body: &[BodyStage], top: Length) -> Vec<Self> {
-        let ends = body.iter().skip(1).map(|next| next.from.min(top)).chain([top]);
+        let ends = body.iter().skip(1).map(|next| next.from).chain([top]);
         let stages = body.iter().zip(ends).map(|(stage, to)| Self {
             heights: [stage.from, to],
             radius: stage.radius,
@@ -354,6 +354,24 @@ mod tests {
             }),
             body: None,
         }
+    }
+
+    /// The end of a stage is where the next one begins, wherever the flange is; only the last one has none of its own.
+    #[test]
+    fn the_last_stage_ends_where_it_is_cut_off() {
+        let body = [(10.0, 4.0), (50.0, 9.0)].map(|(from, radius)| BodyStage {
+            from: Length::mm(from),
+            radius: Length::mm(radius),
+        });
+        let ends = |top: f64| -> Vec<[f64; 2]> {
+            let stages = Stage::all(&body, Length::mm(top));
+            stages
+                .iter()
+                .map(|stage| stage.heights.map(Length::to_mm))
+                .collect()
+        };
+        assert_eq!(ends(200.0), [[10.0, 50.0], [50.0, 200.0]]);
+        assert_eq!(ends(30.0), [[10.0, 50.0]]);
     }
 
     /// A disc that leads by 3 degrees along +y: out of the edge is down, and back by the lead.

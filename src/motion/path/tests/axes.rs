@@ -100,7 +100,14 @@ fn moves_of_all_axes_stay_out_of_the_stock_as_sampled() {
                         model.name
                     );
                     refused += 1;
-                    by_the_body += u32::from(matches!(breach.what, AxesViolation::Stock { solid: 1, .. }));
+                    match breach.what {
+                        AxesViolation::Stock { solid, .. } => {
+                            assert!(each[solid] < 0.0, "{}, move {number}", model.name);
+                            by_the_body += solid;
+                        }
+                        AxesViolation::Unproven { solid, .. } => by_the_body += solid,
+                        AxesViolation::Limit { .. } => {}
+                    }
                 }
             }
         }

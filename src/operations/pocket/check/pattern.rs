@@ -44,9 +44,11 @@ fn diagnostic(asked: &ClearPocket, (field, span): (&str, Span), pattern: Pattern
         format!("only `pattern = {word}` uses it"),
     );
     match asked.pattern.span {
-        Some(place) => diagnostic
-            .and(place, why)
-            .fix(format!("use `pattern = {word}`, or delete `{field}`"), place, word),
+        Some(place) => diagnostic.and(place, why).fix(
+            format!("use `pattern = {word}`, or delete `{field}`"),
+            place,
+            word,
+        ),
         None => diagnostic.help(format!("add `pattern = {word}`, or delete `{field}`")),
     }
 }

@@ -1,4 +1,4 @@
-//! Limits on time and cuts, held against the plan itself.
+//! Limits on time and cuts, compared with the plan itself.
 //!
 //! The mean-value model says before there is a plan how long an operation takes and how many cuts it has, a few percent off. So
 //! where parameters are searched for by what is simulated, these limits are not asked of the model; what the formulas

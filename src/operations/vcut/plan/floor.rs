@@ -15,7 +15,7 @@ use vcutc_geometry::profile::Profile;
 use vcutc_job::PlanningJob;
 use vcutc_simulation::surface::{Surface, Vee};
 
-/// Most corners that are held against the part: of longer contours every second one, or every third, and so on.
+/// Most corners that are compared with the part: of longer contours every second one, or every third, and so on.
 const MOST_CORNERS: usize = 4000;
 
 /// An operation on what those before it left, to be asked what lattices leave of it.

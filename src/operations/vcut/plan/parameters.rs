@@ -58,11 +58,11 @@ pub struct VcutParameters {
     pub clear_height: Length,
     /// Bounds that the choice of open parameters came up against.
     pub binding: Vec<Bound>,
-    /// How the limit on scallop was held against them.
+    /// How the limit on scallop was compared with them.
     pub scallop_by: ScallopBy,
 }
 
-/// What is held against a limit on scallop.
+/// What is compared with a limit on scallop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScallopBy {
     /// The lattice's bound [Cui 12].

@@ -1,4 +1,4 @@
-//! The least scallop and the least edge in use, held against what the least time comes to under limits on them.
+//! The least scallop and the least edge in use, compared with what the least time comes to under limits on them.
 
 use super::{Open, gentle, hill, planned_and_proven, vcut};
 use crate::asked::Objective;

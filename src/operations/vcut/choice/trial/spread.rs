@@ -79,10 +79,10 @@ const FITTED_LAYERS: [f64; 9] = [1.0, 0.95, 0.9, 0.85, 0.79, 0.72, 0.64, 0.5, 0.
 /// Into how many steps of the last row one of the rows above is divided at least.
 const FITTED_PARTS: [f64; 3] = [1.0, 2.0, 3.0];
 
-/// The first step that is held against the limit, as a share of the one that leaves as much on a level part.
+/// The first step that is compared with the limit, as a share of the one that leaves as much on a level part.
 const WIDEST_STEP: f64 = 1.4;
 
-/// Each step that is held against the limit as a share of the one before.
+/// Each step that is compared with the limit as a share of the one before.
 const CLOSER: f64 = 0.95;
 
 /// As many of them: down to an eighth.
