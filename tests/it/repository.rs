@@ -42,11 +42,17 @@ pub(crate) fn read(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// All files below a folder whose names end so, in order of their paths.
-pub(crate) fn files(folder: &str, ending: &str) -> Vec<TextFile> {
+/// The paths of all files below a folder, in their order, without what is built.
+pub(crate) fn paths(folder: &str) -> Vec<PathBuf> {
     let mut paths = Vec::new();
     collect(&root().join(folder), &mut paths);
     paths.sort();
+    paths
+}
+
+/// All files below a folder whose names end so, in order of their paths.
+pub(crate) fn files(folder: &str, ending: &str) -> Vec<TextFile> {
+    let paths = paths(folder);
     let files: Vec<_> = paths
         .iter()
         .filter_map(|path| {

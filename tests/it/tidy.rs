@@ -2,12 +2,15 @@
 //!
 //! A rule reports all breaches in one run, each with file and line.
 
-use crate::repository::{TextFile, files, read, root};
+use crate::repository::{TextFile, files, paths, read, root};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc::diagnostics::Code;
 
 /// Longest source file. Beyond it a file is about more than one subject.
 const MOST_LINES: usize = 700;
+
+/// Most bytes of a file. Larger ones are results of a build or packages, which have no place here.
+const MOST_BYTES: u64 = 1 << 20;
 
 /// Packages and library modules, and the only files (or folders) of `src` that may name them.
 const ONLY_IN: &[(&str, &[&str])] = &[
@@ -279,6 +282,15 @@ fn links_between_documents_lead_somewhere() {
 }
 
 /// Comments say `docs/process.md`, documents `src/geometry/grid.rs`: what stands so in backquotes is a file or a folder.
+#[test]
+fn no_file_is_large() {
+    let paths = paths("").into_iter();
+    let sizes = paths.map(|path| (std::fs::metadata(&path).unwrap().len(), path));
+    let large = sizes.filter(|(bytes, _)| *bytes > MOST_BYTES);
+    let words = large.map(|(bytes, path)| format!("{}: {bytes} bytes", path.display()));
+    assert_none(&words.collect::<Vec<_>>());
+}
+
 #[test]
 fn files_that_are_cited_exist() {
     let mut breaches = Vec::new();
