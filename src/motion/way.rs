@@ -17,7 +17,7 @@ pub struct Obstacle {
     pub what: Obstruction,
 }
 
-/// Why an axis move is no way. Places are the lowest of that part of the blade, in W.
+/// What is wrong with an axis move. Places are the lowest of that part of the blade, in W.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Obstruction {
     /// An axis is beyond its limit.

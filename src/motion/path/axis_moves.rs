@@ -1,7 +1,7 @@
 //! Axis moves at once: each goes straight from its value to the next, all at the same time (PTP, MoveJ).
 //!
-//! Limits that hold at both ends hold between. What the axes carry goes along no line, though: its points are computed [`Along`]
-//! spans of the move, and a span is proven when each solid is on the outer side of one of the stock's faces.
+//! Limits that hold at both ends hold between. What the axes carry does not move along lines, though: its points are computed
+//! [`Along`] spans of the move, and a span is proven when each solid is on the outer side of one of the stock's faces.
 //! What is between points is then out there too, since a half space that has the points has their convex hull. A cylinder reaches
 //! beyond the centres of its ends by its radius times the sine of the angle between its axis and the normal of the face.
 
