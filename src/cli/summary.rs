@@ -114,7 +114,7 @@ struct StageBody {
 }
 
 impl Summary<'_> {
-    /// The same for programs; `with_stages` tells how long each took.
+    /// The same for programs; `with_stages` adds how long each took.
     pub(super) fn body<'s>(&'s self, failure: Option<&'s str>, with_stages: bool) -> SummaryBody<'s> {
         let (errors, warnings) = count(self.diagnostics);
         SummaryBody {

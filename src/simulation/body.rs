@@ -117,9 +117,9 @@ pub fn clears(
     })
 }
 
-/// Where something that is no farther than `by` mm from a stage is over the stock and below the top of its section, which is given
-/// by its corners, with the tip at one place and the stage above it along a unit vector. With a negative `by`, where something of the
-/// stage that lies so deep in it is. Each disc of the stage counts whole where any of it is over the stock.
+/// Where a stage, grown by `by` mm on all sides, enters the section of the stock; in x and z, in mm. The tip is at one place, the unit
+/// vector points from it to the shank, and the section is given by its corners. A negative `by` shrinks the stage. Each disc of it
+/// counts whole where any of it is over the stock.
 #[must_use]
 pub fn meets(
     stage: Stage,

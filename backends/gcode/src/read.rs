@@ -15,7 +15,7 @@
 //! * Blocks that the job gives (`tcp_on`, `on_code`, ...) and lines of the machine's profile, as texts.
 //!
 //! Letters may be small, blanks and zeros missing, coordinates left out that stay as they were. Everything else (`G91`,
-//! `G20`, variables, loops, other M codes) is told as not understood: nothing is guessed. Motions of all axes are compared with the
+//! `G20`, variables, loops, other M codes) is reported as not understood: nothing is guessed. Motions of all axes are compared with the
 //! job's `home_speed` ([`rates`]).
 
 mod arcs;

@@ -165,8 +165,8 @@ fn sort<'a>(
             None => found = Some(source),
             Some(first) => {
                 let headline = "the surface has two sources";
-                let told = faults::second(Code::FieldTwice, headline, source.span(), first.span());
-                fault = Some(session.reports.push(told));
+                let diagnostic = faults::second(Code::FieldTwice, headline, source.span(), first.span());
+                fault = Some(session.reports.push(diagnostic));
             }
         }
     }

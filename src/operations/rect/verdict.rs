@@ -26,7 +26,7 @@ fn idle(asked: &dyn Operation, finding: &Finding) -> Diagnostic {
 /// and the program.
 pub(crate) fn explain(planned: &Planned, finding: Finding, count: usize) -> Diagnostic {
     let asked: &dyn Operation = &planned.asked;
-    let told = match finding.fault {
+    let diagnostic = match finding.fault {
         CutFault::NotFreed { needed, .. } if !needed.is_finite() => idle(asked, &finding),
         CutFault::NotFreed { .. }
         | CutFault::Blocked { .. }
@@ -37,7 +37,7 @@ pub(crate) fn explain(planned: &Planned, finding: Finding, count: usize) -> Diag
         | CutFault::Slit(_)
         | CutFault::Strip(_) => explained(asked, finding),
     };
-    told.and_more(count, "the same holds for", ["slit or strip", "slits and strips"])
+    diagnostic.and_more(count, "the same holds for", ["slit or strip", "slits and strips"])
 }
 
 /// A share of the material to cut away that is much, where a body keeps it from being cut.
