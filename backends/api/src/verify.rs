@@ -5,6 +5,15 @@
 //! number finite, every speed positive, every straight motion starts from a known pose, the first motion is `Home` where
 //! there is a home and the next one a move of all axes, no rotation is ambiguous, the blade only meets the stock in cuts,
 //! and every cut has one flank on either side at most.
+//!
+//! | Rules of | Here |
+//! | --- | --- |
+//! | the program as a whole, references, order, the end | this file |
+//! | the numbers of its tables | `sound` |
+//! | ways through the air, turns | `air` |
+//! | cuts straight through the stock | `cuts` |
+//! | chains, blade by blade | `chain` |
+//! | generator and spindle | `drives` |
 
 mod air;
 mod capability;
@@ -15,8 +24,9 @@ mod chain_tests;
 #[cfg(test)]
 #[cfg(feature = "testkit")]
 mod change_tests;
+mod cuts;
 mod drives;
-mod posture;
+mod rules;
 mod sound;
 #[cfg(test)]
 #[cfg(feature = "testkit")]
@@ -28,21 +38,20 @@ mod tests;
 pub use air::hang;
 pub use capability::{Capabilities, Capability};
 pub use chain::{LARGEST_KINK, LARGEST_SLIP, LARGEST_SWEEP};
-pub use posture::UPRIGHT;
+pub use cuts::UPRIGHT;
+pub use rules::Rule;
 
-use crate::geometry::{Orientation, Point3};
+use crate::geometry::Orientation;
 use crate::ir::{
-    Action, Extent, Flank, Head, IR_VERSION, Op, OpId, Operation, OperationId, OrientationId, Program,
-    Purpose, Site, Switch, ToolId,
+    Action, Extent, Head, IR_VERSION, Op, OpId, Operation, OperationId, OrientationId, Program, Purpose,
+    Site, Switch, ToolId,
 };
 use crate::segments::Segment;
 use crate::state::{Place, State};
 use crate::units::{Angle, Length};
 use air::Extents;
 use chain::{Cleared, OpenChain};
-use core::fmt;
-use core::num::NonZeroU32;
-use posture::posture_fits;
+use cuts::Pass;
 
 /// A program that has passed [`verify`].
 #[derive(Clone, Debug, PartialEq)]
@@ -100,101 +109,6 @@ pub struct Fault {
     pub rule: Rule,
 }
 
-/// The rules of a program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rule {
-    /// The program states the version that this crate knows.
-    Version,
-    /// Every id refers to an entry of its table.
-    TableReference,
-    /// Every number is finite, every length, speed and time that must be positive is.
-    Number,
-    /// The machine has at least one axis and at most [`MOST_AXES`](crate::ir::MOST_AXES), each with a range, and rates that are positive.
-    Axes,
-    /// The first motion is `Home` where there is a cell with a home, and the first to a pose is an `AxisTravel`: the way of
-    /// a straight move from axis values would depend on the arm.
-    KnownStart,
-    /// `Home` needs a cell with home angles.
-    HomeAngles,
-    /// Rotations between consecutive poses are below [`LARGEST_TURN`].
-    AmbiguousTurn,
-    /// Moves through the air keep the tip out of the stock.
-    AirMoveThroughStock,
-    /// Turns happen with the blade clear of the stock.
-    TurnInStock,
-    /// A cut runs along y through the whole depth of the stock.
-    CutAcrossStock,
-    /// In a cut a straight blade's shank leans along the feed, and to the side of its flank or to none, and a cutting edge leads.
-    CutPosture,
-    /// The blade vibrates while it cuts.
-    SilentCut,
-    /// A blade that spins does so while it cuts.
-    StillCut,
-    /// Where generator or spindle are switched on, their readiness is awaited before the cut.
-    ReadyNotAwaited,
-    /// A machine has a spindle where a blade of the program spins.
-    NoSpindle,
-    /// The spindle runs with a blade only that spins.
-    IdleSpindle,
-    /// Generator and spindle are off at the end, and the machine at home where there is one.
-    Ending,
-    /// A cut is a cut of an operation, a chain too, and has no flank twice: one left and one right flank, or one of them.
-    CutFlanks,
-    /// In an air cut the blade stays above the stock, all along and by half its thickness at least, and generator and spindle off.
-    AirCut,
-    /// The machine has a tool for every blade, and a changer that goes by places has one of its own for each.
-    Tools,
-    /// Blades are changed at the change place, with generator and spindle off.
-    ChangeAway,
-    /// A motion of the blade serves an operation that cuts with the blade at hand.
-    OtherBlade,
-    /// Three points make the arc of a piece of a chain, which goes round by less than [`LARGEST_SWEEP`].
-    Arc,
-    /// Where a piece of a chain is not to end in a stop the next one of the same cut follows at once, in the same direction but for
-    /// [`LARGEST_KINK`].
-    ChainJoint,
-    /// All along a piece of a chain a straight blade stands in the plane of its way but for [`LARGEST_SLIP`], and a cutting edge
-    /// leads. The shank of any blade leans along the way or square to it; a crusher may go down as steeply as its
-    /// ramp, and straight to where it has been.
-    ChainPosture,
-    /// Operations come in order, and the cuts of each layer are numbered from 1 without gaps. In which order an operation
-    /// visits them is for the proof to judge.
-    Order,
-}
-
-impl fmt::Display for Rule {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Version => "the program is of another version",
-            Self::TableReference => "an id refers to nothing",
-            Self::Number => "a number is not finite or not positive",
-            Self::Axes => "the machine has no axes, too many, or one without a range",
-            Self::KnownStart => "a motion starts from an unknown pose",
-            Self::HomeAngles => "the machine has no home angles",
-            Self::AmbiguousTurn => "a rotation of nearly half a turn has two ways round",
-            Self::AirMoveThroughStock => "a move through the air leads through the stock",
-            Self::TurnInStock => "the blade turns within the stock",
-            Self::CutAcrossStock => "a cut does not run along y through the whole stock",
-            Self::CutPosture => "a cut holds the blade wrongly",
-            Self::SilentCut => "a cut without vibration",
-            Self::StillCut => "a cut with a spindle that stands still",
-            Self::ReadyNotAwaited => "generator or spindle are not awaited before a cut",
-            Self::NoSpindle => "the machine has no spindle for a blade that spins",
-            Self::IdleSpindle => "the spindle is switched on with a blade that does not spin",
-            Self::Ending => "the program does not end at home with generator and spindle off",
-            Self::CutFlanks => "a cut that is of no operation, or has a flank twice",
-            Self::AirCut => "an air cut lets the blade down to the stock, or starts a drive",
-            Self::Tools => "the machine has not one tool and one place for each blade",
-            Self::ChangeAway => "the blade is changed away from the change place, or with a drive on",
-            Self::OtherBlade => "an operation has another blade at hand than its own",
-            Self::Arc => "three points do not make the arc of a piece of a chain",
-            Self::ChainJoint => "a chain does not go on in the same direction, or does not end",
-            Self::ChainPosture => "a chain holds the blade wrongly",
-            Self::Order => "operations are out of order, or a layer's cuts are not all there",
-        })
-    }
-}
-
 /// Rotations of this size and more are not interpolated in one move: at 180 degrees there are two ways round.
 pub const LARGEST_TURN: Angle = Angle::deg(175.0);
 
@@ -230,15 +144,6 @@ pub fn verify(program: Program) -> Result<VerifiedProgram, Vec<Fault>> {
     } else {
         Err(faults)
     }
-}
-
-/// A cut of one flank.
-#[derive(Clone, Copy)]
-struct Pass {
-    layer: NonZeroU32,
-    cut: NonZeroU32,
-    flank: Flank,
-    op: OpId,
 }
 
 struct Walk<'p> {
@@ -419,64 +324,10 @@ impl<'p> Walk<'p> {
         }
     }
 
-    /// Each cut has no flank twice, each layer its cuts from 1 on.
-    fn finish_operation(&mut self) {
-        let mut passes = core::mem::take(&mut self.passes);
-        passes.sort_by_key(|pass| (pass.layer, pass.cut, pass.flank as u8));
-        let mut before: Option<(NonZeroU32, u32)> = None;
-        for cut in passes.chunk_by(|a, b| (a.layer, a.cut) == (b.layer, b.cut)) {
-            let [first, ..] = cut else { continue };
-            let follows = match before {
-                Some((layer, number)) if layer == first.layer => first.cut.get() == number.saturating_add(1),
-                Some(_) | None => first.cut.get() == 1,
-            };
-            if !follows {
-                self.fault_at(first.op, Rule::Order);
-            }
-            match cut {
-                [single] => self.singles.push(single.op),
-                [left, right] if left.flank != right.flank => {}
-                [.., last] => self.fault_at(last.op, Rule::CutFlanks),
-                [] => {}
-            }
-            before = Some((first.layer, first.cut.get()));
-        }
-    }
-
     fn home(&mut self, before: State) {
         self.needs = self.needs.with(Capability::JointMove);
         self.require(self.has_home(), Rule::HomeAngles);
         self.leaves_for_axis_values(before.place, before.tool);
-    }
-
-    fn cut(&mut self, segment: &Segment<'_>, flank: Flank, to: Point3) {
-        self.needs = self.needs.with(Capability::LinearMove);
-        self.require(to.is_finite(), Rule::Number);
-        let Some(from) = segment.start() else {
-            self.fault(Rule::KnownStart);
-            return;
-        };
-        self.require(self.crosses_stock(from.tip, to), Rule::CutAcrossStock);
-        self.is_driven(segment.before);
-        let Site::Cut { layer, cut, .. } = segment.op.site else {
-            self.fault(Rule::CutFlanks);
-            return;
-        };
-        let program = self.program;
-        if let (Some(blade), Some(held)) = (
-            program.blade(segment.before.tool),
-            program.orientation(from.orientation),
-        ) {
-            let good = (blade.straight())
-                .is_some_and(|straight| posture_fits(straight, held, flank, to.y - from.tip.y));
-            self.require(good, Rule::CutPosture);
-        }
-        self.passes.push(Pass {
-            layer,
-            cut,
-            flank,
-            op: self.current,
-        });
     }
 
     fn turn(&mut self, segment: &Segment<'_>, to: OrientationId) {
@@ -529,12 +380,5 @@ impl<'p> Walk<'p> {
             segment.turn().is_none_or(|turn| turn < LARGEST_TURN),
             Rule::AmbiguousTurn,
         );
-    }
-
-    fn crosses_stock(&self, from: Point3, to: Point3) -> bool {
-        let depth = self.program.stock.depth.to_mm();
-        let straight = (to.x - from.x).abs() < SAME && (to.z - from.z).abs() < SAME;
-        let (low, high) = (from.y.min(to.y), from.y.max(to.y));
-        straight && low <= SAME && high >= depth - SAME
     }
 }
