@@ -145,7 +145,7 @@ fn needs_more_edge(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Opti
     };
     let what = format!(
         "{}, with its tip offset, may need {} mm of edge, and {} mm may be used",
-        verdict::place(&finding),
+        verdict::words::place(&finding),
         show((needed.to_mm() * 1000.0).ceil() / 1000.0),
         show(available.to_mm()),
     );
@@ -158,7 +158,7 @@ fn enters_part(job: &CheckedJob, plan: &PlannedJob, proven: &Proven, yields: &Yi
     let operation = job.operations.get(usize::from(finding.operation.0))?;
     let what = format!(
         "{} would enter the part by up to {} where less pushes the blade",
-        verdict::place(&finding),
+        verdict::words::place(&finding),
         millimetres(depth.to_mm())
     );
     let diagnostic = offset_too_far(job, plan, &finding, what)?;

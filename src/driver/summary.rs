@@ -18,7 +18,7 @@ use vcutc_motion::figures::ReachFigures;
 use vcutc_motion::pace::Basis;
 use vcutc_motion::summary as reach_summary;
 use vcutc_simulation::body::Passage;
-use vcutc_simulation::prove::{Cleared, Slit, Tracked};
+use vcutc_simulation::prove::{Cleared, Passes, Slit, Tracked};
 use vcutc_simulation::report::Report;
 use vcutc_surface::residual::{Over, Volume};
 
@@ -98,7 +98,7 @@ fn of_machine(reach: Option<&ReachFigures>) -> impl Iterator<Item = String> {
 #[must_use]
 pub fn is_of_regions(plan: &PlannedJob) -> bool {
     let mut operations = plan.operations.iter();
-    operations.all(|planned| planned.clearing().is_some() || planned.slitting().is_some())
+    operations.all(|planned| matches!(planned.bound().passes, Some(Passes::Region)))
 }
 
 /// `1.53 m in 2 layers; 0.00 mm2 uncut, 27.3 mm2 in corners beyond reach; rim in the material 78 deg on average, at most 121 deg`.

@@ -5,6 +5,7 @@
 //! motions, explains what a proof finds wrong with it, and describes itself for summary, report and editor. The stages know
 //! no more of it than that.
 
+pub mod judged;
 pub mod less;
 pub mod planned;
 pub mod planning;

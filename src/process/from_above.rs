@@ -25,12 +25,15 @@ pub fn highest(surface: &mut Surface, region: &Region, reach: f64) -> f64 {
     surface.highest(bounds.low.x - reach, bounds.high.x + reach)
 }
 
-pub(crate) const fn place_of(point: Point3) -> Place {
+/// A point in the plan.
+#[must_use]
+pub const fn place_of(point: Point3) -> Place {
     Place::new(point.x, point.y)
 }
 
 /// A way at one height in the plan; none of others.
-pub(crate) fn level(line: &LinearSegment) -> Option<Piece> {
+#[must_use]
+pub fn level(line: &LinearSegment) -> Option<Piece> {
     let [from, to] = [line.from.tip, line.to.tip];
     let is_level = [Some(to), line.via]
         .iter()
@@ -52,12 +55,14 @@ pub(crate) fn level(line: &LinearSegment) -> Option<Piece> {
 }
 
 /// Whether a place lies over a stock, not on its sides.
-pub(crate) fn is_over(stock: Stock, at: Place) -> bool {
+#[must_use]
+pub fn is_over(stock: Stock, at: Place) -> bool {
     let within = |at: f64, length: Length| at > ROUNDING && at < length.to_mm() - ROUNDING;
     within(at.x, stock.width) && within(at.y, stock.depth)
 }
 
 /// The sides of a stock through which a region is not open.
-pub(crate) fn closed_sides(region: &Region, stock: Stock) -> Walls {
+#[must_use]
+pub fn closed_sides(region: &Region, stock: Stock) -> Walls {
     Walls::of_pieces(sides::closed(region, stock).into_iter().enumerate())
 }

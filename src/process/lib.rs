@@ -3,14 +3,12 @@
 //! What an operation does at each stage is its own affair (`src/operations`); here is what they have in common.
 
 pub mod beside;
-pub mod clearing;
+pub mod chains;
 pub mod comparison;
 pub mod from_above;
 pub mod lower;
 pub mod pen;
 pub mod plan;
 pub mod posture;
-pub mod slitting;
 pub mod standoff;
-pub mod tracks;
 pub mod verdict;

@@ -431,20 +431,20 @@ impl Read<'_> {
                 format!("the blade meets it at x {} mm, z {} mm", show(at.x), show(at.z)),
             ),
             CutFault::Strip(fault) => {
-                let (what, label) = verdict::strip_words(fault);
+                let (what, label) = verdict::words::strip_words(fault);
                 (format!("at {place}, {what}"), label)
             }
             CutFault::Clearing(fault) => {
                 let y = finding.y.unwrap_or_default();
                 (
-                    format!("at {place}, {}", verdict::clearing_words(fault)),
+                    format!("at {place}, {}", verdict::words::clearing_words(fault)),
                     format!("at x {} mm, y {} mm", show(finding.tip.x), show(y)),
                 )
             }
             CutFault::Slit(fault) => {
                 let y = finding.y.unwrap_or_default();
                 (
-                    format!("at {place}, {}", verdict::slit_words(fault)),
+                    format!("at {place}, {}", verdict::words::slit_words(fault)),
                     format!("at x {} mm, y {} mm", show(finding.tip.x), show(y)),
                 )
             }
@@ -456,7 +456,7 @@ impl Read<'_> {
                 format!("at y {} mm", show(y.to_mm())),
             ),
             CutFault::Stays { at, height, limit } => {
-                let (what, label) = verdict::stays_words(at, height, limit);
+                let (what, label) = verdict::words::stays_words(at, height, limit);
                 (format!("beside {place}, {what}"), label)
             }
             // The slits of changed cuts have been told already, and are the same.

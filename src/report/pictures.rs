@@ -17,6 +17,7 @@ mod strips;
 mod time;
 mod torques;
 mod wave;
+mod ways;
 
 pub use blade::blade;
 pub use by_forces::by_forces;

@@ -18,10 +18,10 @@ use taken::Taken;
 use timeline::Timeline;
 use track::Track;
 use vcutc_backend_api::geometry::{Orientation, Point3};
-use vcutc_backend_api::ir::{self, Action, Axis, Blade, Program, Stock, ToolId};
+use vcutc_backend_api::ir::{self, Action, Axis, Blade, OperationId, Program, Stock, ToolId};
 use vcutc_driver::{Compiled, Finished};
 use vcutc_geometry::curve::Point2;
-use vcutc_job::{PlannedJob, PlannedOperation};
+use vcutc_job::PlannedJob;
 use vcutc_machine::kinematics::linkage::Linkage;
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_motion::rigs::Rigs;
@@ -106,8 +106,8 @@ impl<'a> Playback<'a> {
             blades: &program.blades,
             changes: changes(program),
             operations: program.operations.len(),
-            pockets: numbered(plan, |planned| planned.clearing().is_some()),
-            walls: numbered(plan, |planned| planned.slitting().is_some()),
+            pockets: numbered(compiled.report.cleared.iter().map(|cleared| cleared.operation)),
+            walls: numbered(compiled.report.slit.iter().map(|slit| slit.operation)),
             taken: Taken::of(compiled.program.verified(), &verdict::bounds(plan)),
             orientations: &program.orientations,
             timeline: Timeline::of(program, &compiled.op_times),
@@ -116,11 +116,9 @@ impl<'a> Playback<'a> {
     }
 }
 
-/// The numbers of some operations of a plan, counted from 1.
-fn numbered(plan: &PlannedJob, is_one: impl Fn(&dyn PlannedOperation) -> bool) -> Vec<u16> {
-    let operations = (1..).zip(&plan.operations);
-    let ones = operations.filter(|(_, planned)| is_one(&***planned));
-    ones.map(|(number, _)| number).collect()
+/// The numbers of operations, counted from 1.
+fn numbered(operations: impl Iterator<Item = OperationId>) -> Vec<u16> {
+    operations.map(|operation| operation.0 + 1).collect()
 }
 
 fn changes(program: &Program) -> Vec<(usize, ToolId)> {

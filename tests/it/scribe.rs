@@ -28,7 +28,7 @@ use vcutc::job::sema::written::Written;
 use vcutc::job::{BladeRef, PlannedOperation, Setup, Sourced, StraightBlade};
 use vcutc::picture::Prefix;
 use vcutc::process::posture::{Feed, Holder};
-use vcutc::process::verdict::explained;
+use vcutc::process::verdict::words::explained;
 use vcutc::registry;
 use vcutc::report::page::Further;
 use vcutc::report::{self, Material};

@@ -22,7 +22,7 @@ use vcutc::job::sema::setup;
 use vcutc::job::sema::written::Written;
 use vcutc::job::{BladeRef, Disc, PlannedOperation, Setup, Sourced};
 use vcutc::process::posture::{Feed, Holder};
-use vcutc::process::verdict::explained;
+use vcutc::process::verdict::words::explained;
 use vcutc::readback::{Fresh, Reference};
 use vcutc::registry;
 use vcutc::report;

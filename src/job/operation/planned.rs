@@ -1,19 +1,20 @@
 //! The planned job: every choice made, nothing promised. What a plan of an operation is to the stages after it.
 
+use super::judged::{FromAbove, Judged};
 use super::search::RouteSet;
 use super::{Operation, Trials, WorksThere};
 use crate::description::{ParameterFigure, ParameterTable};
-use crate::{BladeRef, Clearing, Machine, Order, Shaded, Slitting, Sourced};
+use crate::{BladeRef, Machine, Order, Shaded, SoundField, Sourced};
 use core::any::Any;
 use core::fmt::Debug;
 use std::sync::Arc;
 use vcutc_backend_api::builder::ProgramBuilder;
-use vcutc_backend_api::ir::{OperationId, SourceRef, Stock};
+use vcutc_backend_api::ir::{OperationId, Program, SourceRef, Stock};
 use vcutc_backend_api::units::{Angle, Area, Duration, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
-use vcutc_simulation::prove::{Bound, Compensation, Finding, Passes};
+use vcutc_simulation::prove::{Bound, Compensation, Finding, Passes, Replay};
 use vcutc_simulation::report::Report;
 use vcutc_simulation::surface::Side;
 
@@ -111,13 +112,16 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
     /// What the proof holds its cuts to.
     fn bound(&self) -> Bound<'_>;
 
-    /// What its passes over a region are held to; none where it clears no region.
-    fn clearing(&self) -> Option<Clearing> {
+    /// Judges what no section shows of it, after the replay of the cuts that sections show: adds what is wrong, and what it does.
+    fn judge(&self, _: Judged<'_>, _: &mut Replay) {}
+
+    /// Its cuts from above, as a program states them; none where sections show them.
+    fn seen_from_above(&self, _: OperationId, _: &Program) -> Option<FromAbove> {
         None
     }
 
-    /// What its slits along the walls of a region are held to; none where it makes no such slits.
-    fn slitting(&self) -> Option<Slitting> {
+    /// The sound field that its passes follow, if they follow one.
+    fn sound_field(&self) -> Option<SoundField> {
         None
     }
 

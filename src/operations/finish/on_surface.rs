@@ -4,11 +4,18 @@
 //! | --- | --- |
 //! | one track: poses, run-in, run-out | [`lay`] |
 //! | all of them: step, lead, side tilt, order | [`plan`] |
+//! | does the disc enter the part in its poses, or between them | [`entry`] |
+//! | what comes free, and what stays, in sections across the tracks | [`way`], [`sections`] |
+//! | both of a finished program, as findings | `proof` |
 //! | the plan, and what stages ask of it | `planned` |
 
+pub mod entry;
 pub mod lay;
 pub mod plan;
 mod planned;
+mod proof;
+pub mod sections;
+pub mod way;
 
 pub use planned::PlannedOnSurface;
 

@@ -14,7 +14,7 @@ use vcutc_job::PlannedOperation;
 use vcutc_job::description::{ParameterFigure, ParameterTable};
 use vcutc_job::operation::{Operation, Trials, WorksThere};
 use vcutc_job::planned::{CutShape, Estimate, PlannedTip, TipOrigin};
-use vcutc_process::verdict::explained;
+use vcutc_process::verdict::words::explained;
 use vcutc_simulation::prove::{Bound, Finding, Passes, Skin};
 use vcutc_simulation::report::{Report, area_under};
 

@@ -14,7 +14,7 @@ use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::operation::{Ground, Operation, Unplanned, WorksThere};
-use vcutc_process::verdict::strip_words;
+use vcutc_process::verdict::words::strip_words;
 use vcutc_simulation::disc::{Hold, PassFault};
 use vcutc_simulation::surface::Surface;
 use vcutc_surface::track::NoTrack;

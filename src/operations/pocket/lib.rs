@@ -8,15 +8,19 @@
 //! | why there is no plan | `refused` |
 //! | every choice made, and what stages ask of it | `decided`, `planned` |
 //! | motions | `lower` |
+//! | the proof, and what pictures show, from the finished program | `proof`, `from_above` |
+//! | what the proof finds wrong, in words | `verdict` |
 //! | words for summary, report and editor | `words` |
 
 pub mod asked;
 mod check;
 mod decided;
+mod from_above;
 mod lower;
 mod operation;
 pub mod plan;
 mod planned;
+mod proof;
 mod refused;
 mod verdict;
 mod words;

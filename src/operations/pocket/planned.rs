@@ -2,19 +2,21 @@
 
 use crate::asked::Axis;
 use crate::decided::Planned;
-use crate::{lower, verdict, words};
+use crate::from_above::from_above;
+use crate::{lower, proof, verdict, words};
 use std::sync::Arc;
 use vcutc_backend_api::builder::ProgramBuilder;
-use vcutc_backend_api::ir::SourceRef;
+use vcutc_backend_api::ir::{OperationId, Program, SourceRef};
 use vcutc_backend_api::units::{Angle, Area, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 use vcutc_job::description::{ParameterFigure, ParameterTable};
+use vcutc_job::operation::judged::{FromAbove, Judged};
 use vcutc_job::operation::{Operation, Trials, WorksThere};
 use vcutc_job::planned::{Estimate, PlannedTip};
-use vcutc_job::{Clearing, PlannedOperation, SoundField, Sources};
-use vcutc_simulation::prove::{Bound, Finding, Passes};
+use vcutc_job::{PlannedOperation, SoundField, Sources};
+use vcutc_simulation::prove::{Bound, Finding, Passes, Replay};
 use vcutc_simulation::report::Report;
 
 impl PlannedOperation for Planned {
@@ -50,24 +52,25 @@ impl PlannedOperation for Planned {
         }
     }
 
-    fn clearing(&self) -> Option<Clearing> {
-        let asked = &self.asked;
-        Some(Clearing {
-            region: Arc::clone(&asked.region.region),
-            floor: asked.floor.value,
-            allowance: asked.allowance.value,
-            uncut: asked.limits.uncut.value,
-            engagement: asked.limits.engagement.map(|limit| limit.value),
-            slow: asked.plunge_feed.value,
-            field: self.plan.field.map(|field| SoundField {
-                step: self.plan.step,
-                lift: field.lift,
-                sources: match asked.axis.value {
-                    Axis::Exact => Sources::OnAxis,
-                    Axis::Simplified => Sources::Simplified,
-                },
-                radius: asked.crusher.radius.value,
-            }),
+    fn judge(&self, judged: Judged<'_>, replay: &mut Replay) {
+        proof::judge(&self.asked, judged, replay);
+    }
+
+    fn seen_from_above(&self, operation: OperationId, program: &Program) -> Option<FromAbove> {
+        from_above(&self.asked, operation, program)
+    }
+
+    fn sound_field(&self) -> Option<SoundField> {
+        let field = self.plan.field?;
+        Some(SoundField {
+            region: Arc::clone(&self.asked.region.region),
+            step: self.plan.step,
+            lift: field.lift,
+            sources: match self.asked.axis.value {
+                Axis::Exact => Sources::OnAxis,
+                Axis::Simplified => Sources::Simplified,
+            },
+            radius: self.asked.crusher.radius.value,
         })
     }
 

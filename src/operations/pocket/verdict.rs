@@ -8,7 +8,7 @@ use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::Auto;
 use vcutc_job::operation::{Operation, Trials};
-use vcutc_process::verdict::explained as in_words;
+use vcutc_process::verdict::words::explained as in_words;
 use vcutc_simulation::prove::{ClearingFault, CutFault, Finding};
 
 /// Shares of the radius that are tried as step.

@@ -8,7 +8,7 @@ use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::operation::Operation;
 use vcutc_job::planned::{Balance, Compile};
-use vcutc_process::verdict::{explained, place};
+use vcutc_process::verdict::words::{explained, place};
 use vcutc_simulation::prove::{CutFault, Finding};
 
 /// A slit that is still there when all strips are out.

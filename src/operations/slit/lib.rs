@@ -8,6 +8,7 @@
 //! | what prevents a plan | `refused` |
 //! | every choice made, and what stages ask of it | `decided`, `planned` |
 //! | motions | `lower` |
+//! | the proof, from the finished program | `proof` |
 //! | what a proof finds wrong, in words | `verdict` |
 //! | words for summary, report and editor | `words` |
 
@@ -18,6 +19,7 @@ mod lower;
 mod operation;
 pub mod plan;
 mod planned;
+mod proof;
 mod refused;
 mod verdict;
 mod words;

@@ -1,19 +1,19 @@
 //! The plan of slits along walls as the stages after planning see it.
 
 use crate::decided::Planned;
-use crate::{lower, verdict, words};
-use std::sync::Arc;
+use crate::{lower, proof, verdict, words};
 use vcutc_backend_api::builder::ProgramBuilder;
-use vcutc_backend_api::ir::SourceRef;
+use vcutc_backend_api::ir::{OperationId, Program, SourceRef};
 use vcutc_backend_api::units::{Angle, Area, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
+use vcutc_job::PlannedOperation;
 use vcutc_job::description::{ParameterFigure, ParameterTable};
+use vcutc_job::operation::judged::{FromAbove, Judged};
 use vcutc_job::operation::{Operation, Trials, WorksThere};
 use vcutc_job::planned::{Estimate, PlannedTip};
-use vcutc_job::{PlannedOperation, Slitting};
-use vcutc_simulation::prove::{Bound, Finding, Passes};
+use vcutc_simulation::prove::{Bound, Finding, Passes, Replay};
 use vcutc_simulation::report::Report;
 
 impl PlannedOperation for Planned {
@@ -49,14 +49,12 @@ impl PlannedOperation for Planned {
         }
     }
 
-    fn slitting(&self) -> Option<Slitting> {
-        let asked = &self.asked;
-        Some(Slitting {
-            region: Arc::clone(&asked.region.region),
-            floor: asked.floor.value,
-            allowance: asked.allowance.value,
-            residual: asked.residual.value,
-        })
+    fn judge(&self, judged: Judged<'_>, replay: &mut Replay) {
+        proof::judge(&self.asked, judged, replay);
+    }
+
+    fn seen_from_above(&self, operation: OperationId, program: &Program) -> Option<FromAbove> {
+        proof::from_above(&self.asked, operation, program)
     }
 
     fn estimate(&self) -> Estimate {

@@ -5,7 +5,7 @@ use crate::plan::Plan;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_process::verdict::explained as in_words;
+use vcutc_process::verdict::words::explained as in_words;
 use vcutc_region::distance::Walls;
 use vcutc_region::foot::RESOLUTION;
 use vcutc_region::place::Place;

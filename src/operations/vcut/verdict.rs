@@ -17,7 +17,7 @@ use blocked::blocked;
 use not_freed::{Chips, not_freed};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_job::operation::{Trials, WorksThere};
-use vcutc_process::verdict::{explained, overcut};
+use vcutc_process::verdict::words::{explained, overcut};
 use vcutc_simulation::prove::{CutFault, Finding};
 
 /// Explains a cut whose chip does not come free, or whose way is blocked.

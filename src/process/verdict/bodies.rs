@@ -5,7 +5,8 @@
 
 use super::attempts::Attempts;
 use super::changes::{with_narrower_flanks, with_smaller_swing, with_steeper_rake};
-use super::{Proven, bodies, point};
+use super::words::point;
+use super::{Proven, bodies};
 use vcutc_backend_api::ir::{BodyStage, Program, Site, ToolId};
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::{VerifiedProgram, verify};

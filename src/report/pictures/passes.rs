@@ -1,56 +1,50 @@
 //! The passes over pockets, from above.
 
+use super::ways::points;
 use crate::Material;
+use vcutc_backend_api::ir::OperationId;
 use vcutc_backend_api::units::Length;
+use vcutc_job::operation::judged::FromAbove;
 use vcutc_picture::Prefix;
 use vcutc_picture::passes::{self, Heading, Passes, Stretch};
-use vcutc_process::clearing::shown::{Shown, points, shown};
-use vcutc_process::slitting;
 use vcutc_region::piece::Piece;
 
-/// How far points of arcs lie apart.
-const APART: Length = Length::mm(0.5);
-
-/// The passes of the first layer of each pocket, by how much of the tool's rim is in the material (`picture::passes`); none of a job
-/// without pockets.
+/// The passes of the first layer of each pocket, by how much of the tool's rim is in the material (`picture::passes`), and slits along
+/// walls; none of a job without either.
 #[must_use]
 pub fn passes(material: &Material<'_>, ids: Prefix) -> Option<String> {
     let program = material.compiled.program.verified().program();
-    let shown = shown(material.plan, program);
-    let slit = slitting::shown(material.plan, program);
-    if shown.is_empty() && slit.is_empty() {
+    let operations = (0..).map(OperationId).zip(&material.plan.operations);
+    let seen = operations.filter_map(|(operation, planned)| planned.seen_from_above(operation, program));
+    let seen: Vec<FromAbove> = seen.collect();
+    if seen.is_empty() {
         return None;
     }
-    let lines = |of: fn(&Shown) -> &[Piece]| -> Vec<Vec<[f64; 2]>> {
-        shown.iter().flat_map(of).map(|piece| line(*piece)).collect()
+    let lines = |of: fn(&FromAbove) -> &[Piece]| -> Vec<Vec<[f64; 2]>> {
+        seen.iter().flat_map(of).map(|piece| points(*piece)).collect()
     };
-    let mut walls = lines(|shown| &shown.walls);
-    let slit_walls = slit.iter().flat_map(|slit| &slit.walls).map(|wall| line(*wall));
-    for wall in slit_walls {
+    // A pocket and the slits along its walls have the same walls.
+    let mut walls: Vec<Vec<[f64; 2]>> = Vec::new();
+    for wall in lines(|seen| &seen.walls) {
         if !walls.contains(&wall) {
             walls.push(wall);
         }
     }
-    let ways = slit.iter().flat_map(|slit| &slit.ways);
-    let slits: Vec<Vec<[f64; 2]>> = ways
-        .map(|way| way.iter().flat_map(|piece| line(*piece)).collect())
+    let slits = seen.iter().flat_map(|seen| &seen.slits);
+    let slits: Vec<Vec<[f64; 2]>> = slits
+        .map(|way| way.iter().flat_map(|piece| points(*piece)).collect())
         .collect();
-    let stretches: Vec<Stretch> = shown
-        .iter()
-        .flat_map(|shown| &shown.stretches)
+    let stretches = seen.iter().flat_map(|seen| &seen.stretches);
+    let stretches: Vec<Stretch> = stretches
         .map(|(piece, engagement)| Stretch {
-            points: line(*piece),
+            points: points(*piece),
             engagement: engagement.to_degrees(),
         })
         .collect();
-    let entries: Vec<[f64; 2]> = shown
-        .iter()
-        .flat_map(|shown| &shown.entries)
-        .map(|at| [at.x, at.y])
-        .collect();
-    let uncut: Vec<[f64; 4]> = shown
-        .iter()
-        .flat_map(|shown| &shown.uncut)
+    let entries = seen.iter().flat_map(|seen| &seen.entries);
+    let entries: Vec<[f64; 2]> = entries.map(|at| [at.x, at.y]).collect();
+    let uncut = seen.iter().flat_map(|seen| &seen.uncut);
+    let uncut: Vec<[f64; 4]> = uncut
         .map(|square| {
             let (low, side) = (square.low, square.side);
             [low.x, low.x + side, low.y, low.y + side]
@@ -65,7 +59,7 @@ pub fn passes(material: &Material<'_>, ids: Prefix) -> Option<String> {
         },
         size: [stock.width, stock.depth].map(Length::to_mm),
         walls: &walls,
-        open: &lines(|shown| &shown.open),
+        open: &lines(|seen| &seen.open),
         slits: &slits,
         stretches: &stretches,
         entries: &entries,
@@ -106,8 +100,4 @@ fn title(material: &Material<'_>) -> String {
         "passes of the first layer of each pocket"
     };
     format!("{}: {what}", material.plan.name)
-}
-
-fn line(piece: Piece) -> Vec<[f64; 2]> {
-    points(piece, APART).into_iter().map(|at| [at.x, at.y]).collect()
 }

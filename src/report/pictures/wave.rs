@@ -1,7 +1,7 @@
 //! The sound field that passes of a pocket follow.
 
+use super::ways::points;
 use crate::Material;
-use vcutc_backend_api::units::Length;
 use vcutc_field::axis::{Detail, axis};
 use vcutc_field::field::Field;
 use vcutc_field::lines::lines;
@@ -10,7 +10,6 @@ use vcutc_field::wave::surface;
 use vcutc_job::{SoundField, Sources};
 use vcutc_picture::Prefix;
 use vcutc_picture::wave::{self, Heading, Wave};
-use vcutc_process::clearing::shown::points;
 use vcutc_region::piece::Piece;
 
 /// Cells to a step: a wave is two steps long.
@@ -21,21 +20,18 @@ const CELLS: f64 = 6.0;
 const AXIS_OFF: f64 = 0.01;
 const REFERENCE: f64 = 3.0;
 
-/// How far points of arcs lie apart.
-const APART: Length = Length::mm(0.5);
-
 /// The wave of the first pocket that is cleared along a sound field (`picture::wave`); none of a job without such a pocket.
 #[must_use]
 pub fn wave(material: &Material<'_>, ids: Prefix) -> Option<String> {
     let planned = material.plan.operations.iter();
-    let held = planned.filter_map(|planned| planned.clearing());
-    let (held, asked) = held.filter_map(|held| Some((held.clone(), held.field?))).next()?;
+    let mut followed = planned.filter_map(|planned| planned.sound_field());
     let SoundField {
+        region,
         step,
         lift,
         sources,
         radius,
-    } = asked;
+    } = followed.next()?;
     let detail = match sources {
         Sources::OnAxis => Detail::True,
         Sources::Simplified => Detail::Simplified,
@@ -46,22 +42,20 @@ pub fn wave(material: &Material<'_>, ids: Prefix) -> Option<String> {
         lift: lift.to_mm(),
         reference: REFERENCE * step,
     };
-    let axis = axis(&held.region, detail, AXIS_OFF * step).ok()?;
+    let axis = axis(&region, detail, AXIS_OFF * step).ok()?;
     let field = Field::new(&axis.segments, &tuning).ok()?;
     let pitch = step / CELLS;
-    let surface = surface(&held.region, &field, radius.to_mm(), pitch).ok()?;
+    let surface = surface(&region, &field, radius.to_mm(), pitch).ok()?;
     let grid = &surface.grid;
     let edge = |low: f64, number: usize| low + (number as f64 - 0.5) * pitch;
     let low = grid.place(0, 0);
     let columns: Vec<f64> = (0..=grid.columns).map(|column| edge(low.x, column)).collect();
     let rows: Vec<f64> = (0..=grid.rows).map(|row| edge(low.y, row)).collect();
-    let drawn = lines(&held.region, &field, radius.to_mm()).ok()?;
-    let along = |pieces: &[Piece]| -> Vec<[f64; 2]> {
-        let places = pieces.iter().flat_map(|piece| points(*piece, APART));
-        places.map(|at| [at.x, at.y]).collect()
-    };
+    let drawn = lines(&region, &field, radius.to_mm()).ok()?;
+    let along =
+        |pieces: &[Piece]| -> Vec<[f64; 2]> { pieces.iter().flat_map(|piece| points(*piece)).collect() };
     let zero: Vec<Vec<[f64; 2]>> = drawn.iter().map(|line| along(&line.pass.pieces)).collect();
-    let walls: Vec<Vec<[f64; 2]>> = held.region.edges().map(|edge| along(&[edge.piece])).collect();
+    let walls: Vec<Vec<[f64; 2]>> = region.edges().map(|edge| along(&[edge.piece])).collect();
     Some(wave::draw(&Wave {
         heading: Heading {
             ids,

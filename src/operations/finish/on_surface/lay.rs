@@ -4,6 +4,8 @@
 //! there, until all of its edge is beyond the stock. A track that might enter the part deeper than it may is raised by as much as
 //! it might.
 
+use super::entry::{deepest, turns};
+use super::way::{Way, pose_of};
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{Blade, Joint};
 use vcutc_backend_api::units::{Angle, Length};
@@ -12,8 +14,6 @@ use vcutc_geometry::grid;
 use vcutc_process::beside::Stand;
 use vcutc_process::lower::BLEND;
 use vcutc_process::posture::Feed;
-use vcutc_process::tracks::entry::{deepest, turns};
-use vcutc_process::tracks::way::{Way, pose_of};
 use vcutc_surface::disc::{Disc, Pose};
 use vcutc_surface::gouge::Moves;
 use vcutc_surface::normals::Normals;

@@ -1,11 +1,14 @@
 //! The plan of tracks on a surface.
 //!
 //! Each track has a lead of its own at each place: the least one with which the disc comes down to the part there, not below that of the
-//! plan. What tracks leave, and whether strips come free, is found in sections across them (`vcutc_process::tracks::sections`).
+//! plan. What tracks leave, and whether strips come free, is found in sections across them ([`super::sections`]).
 //! As on profiles the least lead with which everything comes free is taken, and tracks are put closer until no more stays than
 //! may. The first step is that which leaves the limit where the part asks for the least, by its curvature and slope across.
 
+use super::entry::solid;
 use super::lay::{Asked, Care, GOUGE, Layout, Track, Unlaid};
+use super::sections::{Fault, Left, Sections};
+use super::way::Way;
 use crate::asked::{AIR, FinishDisc, Sequence};
 use crate::plan::model;
 use crate::plan::order::{Run, runs};
@@ -20,9 +23,6 @@ use vcutc_job::operation::Ground;
 use vcutc_job::{Auto, BladeRef, Direction};
 use vcutc_process::lower::BLEND;
 use vcutc_process::posture::Feed;
-use vcutc_process::tracks::entry::solid;
-use vcutc_process::tracks::sections::{Fault, Left, Sections};
-use vcutc_process::tracks::way::Way;
 use vcutc_simulation::disc::{Disc, PassFault};
 use vcutc_simulation::prove::{Skin, Tracks};
 use vcutc_simulation::surface::{Side, Surface as Stock};

@@ -1,6 +1,7 @@
 //! Tracks on a surface as the stages after planning see them.
 
 use super::plan::{PlannedTracks, held_to};
+use super::proof;
 use crate::asked::FinishDisc;
 use crate::lower::KIND;
 use crate::words::{self, Chosen};
@@ -16,12 +17,13 @@ use vcutc_geometry::profile::Profile;
 use vcutc_geometry::spine::Spine;
 use vcutc_job::PlannedOperation;
 use vcutc_job::description::{ParameterFigure, ParameterTable};
+use vcutc_job::operation::judged::Judged;
 use vcutc_job::operation::{Operation, Trials, WorksThere};
 use vcutc_job::planned::{CutShape, Estimate, PlannedTip, TipOrigin};
 use vcutc_process::beside::{Drive, Stage, Writer};
 use vcutc_process::lower::BLEND;
-use vcutc_process::verdict::explained;
-use vcutc_simulation::prove::{Bound, Finding, Passes};
+use vcutc_process::verdict::words::explained;
+use vcutc_simulation::prove::{Bound, Finding, Passes, Replay};
 use vcutc_simulation::report::{Report, area_under};
 
 /// Finishing a surface with a disc, planned.
@@ -106,6 +108,10 @@ impl PlannedOperation for PlannedOnSurface {
             passes: Some(Passes::Tracks(held_to(&self.asked))),
             ..Bound::of(&self.shadow)
         }
+    }
+
+    fn judge(&self, judged: Judged<'_>, replay: &mut Replay) {
+        proof::judge(held_to(&self.asked), judged, replay);
     }
 
     fn estimate(&self) -> Estimate {

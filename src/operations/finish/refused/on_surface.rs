@@ -8,7 +8,7 @@ use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_process::verdict::{stays_words, strip_words};
+use vcutc_process::verdict::words::{stays_words, strip_words};
 use vcutc_surface::track::NoTrack;
 
 fn mm(value: f64) -> String {

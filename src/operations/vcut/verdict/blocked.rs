@@ -20,7 +20,7 @@ pub(super) fn blocked(
 ) -> Diagnostic {
     let asked = &vcut.asked;
     let span = asked.swing.span.unwrap_or(asked.setup.head_span);
-    let diagnostic = verdict::blocked(span, finding, at, by)
+    let diagnostic = verdict::words::blocked(span, finding, at, by)
         .note("an operation before this one left walls steeper than this operation's flanks");
     let diagnostic = with_mixed_residual(diagnostic, vcut, trials, works_there);
     let diagnostic = verdict::with_smaller_swing(diagnostic, vcut, trials, works_there);

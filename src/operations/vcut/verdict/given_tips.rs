@@ -9,7 +9,7 @@ use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::grid;
 use vcutc_job::Auto;
-use vcutc_process::verdict::place;
+use vcutc_process::verdict::words::place;
 use vcutc_simulation::prove::Finding;
 
 /// What to change so that all chips come free.

@@ -10,7 +10,7 @@ use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::operation::WorksThere;
-use vcutc_process::verdict::place;
+use vcutc_process::verdict::words::place;
 use vcutc_simulation::prove::Finding;
 
 /// Chips that are not cut free: the one that needs the longest edge, and how many there are.

@@ -1,17 +1,17 @@
 //! The proof of slits along the walls of regions, from the lines and arcs of a finished program.
 //!
-//! Nothing of it comes from the plan but the region and what the operation is held to ([`Slitting`]). The walls and the plane of
-//! the blade are upright, so what the blade passes is seen from above, where it is widest: at the top of the walls.
+//! Nothing of it comes from the plan: the operation says what it is held to. The walls and the plane of the blade are upright, so what the blade passes is seen from above, where it is widest: at the top of the walls.
 
 mod stated;
 
-use crate::from_above::{closed_sides, highest, is_over};
+use crate::asked::SlitWalls;
 use core::num::NonZeroU32;
 use stated::{Motion, Stated, stated};
 use vcutc_backend_api::ir::{Blade, OperationId, Program, Straight, ToolId};
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
-use vcutc_job::{PlannedJob, Slitting};
+use vcutc_job::operation::judged::{FromAbove, Judged};
+use vcutc_process::from_above::{closed_sides, highest, is_over};
 use vcutc_region::boxes::Dense;
 use vcutc_region::clearance::clearance;
 use vcutc_region::distance::Walls;
@@ -21,37 +21,30 @@ use vcutc_region::piece::Piece;
 use vcutc_region::place::Place;
 use vcutc_region::plate::Stroke;
 use vcutc_region::region::Side;
-use vcutc_simulation::prove::{CutFault, Finding, Findings, Slit, SlitFault};
+use vcutc_simulation::prove::{CutFault, Finding, Findings, Replay, Slit, SlitFault};
 use vcutc_simulation::surface::Surface;
 
 /// How far a number of a program may be beyond its limit by rounding, in mm.
 const ROUNDING: f64 = 1e-6;
 
-/// Judges the slits along walls of a program, in what its other cuts leave: adds what is wrong, and says what they do.
-#[must_use]
-pub fn judged(
-    plan: &PlannedJob,
-    before: &mut Surface,
-    program: &Program,
-    findings: &mut Findings,
-) -> Vec<Slit> {
-    let numbered = (0..).map(OperationId).zip(&plan.operations);
-    let held = numbered.filter_map(|(operation, planned)| Some((operation, planned.slitting()?)));
-    let judged = held.filter_map(|(operation, held)| {
-        let (tool, blade) = blade_of(program, operation)?;
-        let judge = Judge {
-            operation,
-            held: &held,
-            program,
-            tool,
-            blade,
-            straight: blade.straight()?,
-            walls: Walls::of(&held.region),
-            findings,
-        };
-        Some(judge.all(before))
-    });
-    judged.collect()
+/// Judges the slits of a program, in what its other cuts leave: adds what is wrong, and what they do.
+pub(crate) fn judge(asked: &SlitWalls, judged: Judged<'_>, replay: &mut Replay) {
+    let (program, operation) = (judged.program, judged.operation);
+    let Some((tool, blade)) = blade_of(program, operation) else {
+        return;
+    };
+    let Some(straight) = blade.straight() else { return };
+    let judge = Judge {
+        operation,
+        asked,
+        program,
+        tool,
+        blade,
+        straight,
+        walls: Walls::of(&asked.region.region),
+        findings: &mut replay.findings,
+    };
+    replay.slit.push(judge.all(&mut replay.surface));
 }
 
 /// The blade of an operation that has one.
@@ -78,38 +71,23 @@ fn ways<'s>(moves: impl Iterator<Item = &'s Stated>) -> Vec<Vec<Piece>> {
     ways
 }
 
-/// Slits along the walls of a region for pictures: the ways of the tip, slit by slit, with the walls.
-#[derive(Clone, Debug, Default)]
-pub struct Shown {
-    pub walls: Vec<Piece>,
-    pub ways: Vec<Vec<Piece>>,
-}
-
-/// The slits along walls of a program, operation by operation.
-#[must_use]
-pub fn shown(plan: &PlannedJob, program: &Program) -> Vec<Shown> {
-    let numbered = (0..).map(OperationId).zip(&plan.operations);
-    let shown = numbered.filter_map(|(operation, planned)| {
-        let held = planned.slitting()?;
-        let (_, blade) = blade_of(program, operation)?;
-        let moves = stated(
-            program,
-            operation,
-            blade.straight()?,
-            program.stock.height.to_mm(),
-        );
-        let walls = held.region.edges().filter(|edge| edge.side == Side::Wall);
-        Some(Shown {
-            walls: walls.map(|edge| edge.piece).collect(),
-            ways: ways(moves.iter()),
-        })
-    });
-    shown.collect()
+/// The slits of a program from above; none of one that has none.
+pub(crate) fn from_above(asked: &SlitWalls, operation: OperationId, program: &Program) -> Option<FromAbove> {
+    let (_, blade) = blade_of(program, operation)?;
+    let top = program.stock.height.to_mm();
+    let moves = stated(program, operation, blade.straight()?, top);
+    let walls = asked.region.region.edges();
+    let walls = walls.filter(|edge| edge.side == Side::Wall);
+    Some(FromAbove {
+        walls: walls.map(|edge| edge.piece).collect(),
+        slits: ways(moves.iter()),
+        ..FromAbove::default()
+    })
 }
 
 struct Judge<'j> {
     operation: OperationId,
-    held: &'j Slitting,
+    asked: &'j SlitWalls,
     program: &'j Program,
     tool: ToolId,
     blade: &'j Blade,
@@ -120,16 +98,16 @@ struct Judge<'j> {
 
 impl Judge<'_> {
     fn all(mut self, before: &mut Surface) -> Slit {
-        let top = highest(before, &self.held.region, self.beside());
+        let top = highest(before, &self.asked.region.region, self.beside());
         let moves = stated(self.program, self.operation, self.straight, top);
-        let sides = closed_sides(&self.held.region, self.program.stock);
+        let sides = closed_sides(&self.asked.region.region, self.program.stock);
         let mut to_wall = f64::INFINITY;
         for stated in &moves {
             self.heights(stated, top);
             to_wall = to_wall.min(self.clear(stated, &sides));
         }
         self.astray(&moves);
-        let floor = self.held.floor.to_mm() + ROUNDING;
+        let floor = self.asked.floor.value.to_mm() + ROUNDING;
         let slits = ways(moves.iter().filter(|stated| stated.floor <= floor));
         let pieces: Vec<Piece> = slits.iter().flatten().copied().collect();
         let edge = moves.iter().map(|stated| stated.edge).fold(0.0, f64::max);
@@ -171,7 +149,7 @@ impl Judge<'_> {
     /// Floor, edge and body.
     fn heights(&mut self, stated: &Stated, top: f64) {
         let at = stated.at;
-        let below = self.held.floor.to_mm() - stated.floor;
+        let below = self.asked.floor.value.to_mm() - stated.floor;
         if below > ROUNDING {
             self.note(
                 stated,
@@ -225,7 +203,7 @@ impl Judge<'_> {
             return f64::INFINITY;
         };
         let free = near.distance - stated.slack - self.program.blend.to_mm();
-        let by = self.held.allowance.to_mm() - free;
+        let by = self.asked.allowance.value.to_mm() - free;
         // Where sides of a blade cross a wall, that is nearest at 0, however deep they are.
         let by = if near.distance == 0.0 {
             by + 2.0 * stroke.half
@@ -284,7 +262,7 @@ impl Judge<'_> {
             pieces: vec![way],
         };
         let passes: Vec<Pass> = strokes.iter().map(|(_, way)| pass(*way)).collect();
-        let astray = clearance(&self.held.region, &passes).astray;
+        let astray = clearance(&self.asked.region.region, &passes).astray;
         let mut astray = astray.into_iter().filter_map(|number| strokes.get(number));
         let found = astray.find(|(_, way)| is_over(self.program.stock, way.at(0.5)));
         if let Some(&(stated, way)) = found {
@@ -296,8 +274,8 @@ impl Judge<'_> {
     /// What stays at the foot of walls, and in acute corners, beyond what must.
     fn foot(&mut self, ways: &[Piece]) -> [Length; 2] {
         let thickness = self.straight.thickness.to_mm();
-        let allowance = self.held.allowance.to_mm();
-        let found = foot(&self.held.region, ways, Sides { thickness, allowance });
+        let allowance = self.asked.allowance.value.to_mm();
+        let found = foot(&self.asked.region.region, ways, Sides { thickness, allowance });
         let beyond = |left: Option<Left>, kept: f64| {
             let far = left.map_or(0.0, |left| left.distance);
             Length::mm((far - thickness / 2.0 - kept).max(0.0))
@@ -305,14 +283,14 @@ impl Judge<'_> {
         let (fault, at, left) = match found {
             Err(Dense) => (Some(SlitFault::Undecided), None, [Length::ZERO; 2]),
             Ok(Foot { walls, corners }) => {
-                let (by, limit) = (beyond(walls, allowance), self.held.residual);
+                let (by, limit) = (beyond(walls, allowance), self.asked.residual.value);
                 let fault = (by > limit).then_some(SlitFault::Stays { by, limit });
                 (fault, walls, [by, beyond(corners, 0.0)])
             }
         };
         if let Some(fault) = fault {
-            let at = at.map_or(self.held.region.bounds().low, |left| left.at);
-            let tip = Point2::new(at.x, self.held.floor.to_mm());
+            let at = at.map_or(self.asked.region.region.bounds().low, |left| left.at);
+            let tip = Point2::new(at.x, self.asked.floor.value.to_mm());
             // It is no single slit that leaves something: the first one stands for all.
             self.note_of_cut((NonZeroU32::MIN, NonZeroU32::MIN), tip, at.y, fault);
         }

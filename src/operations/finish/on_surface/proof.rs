@@ -9,16 +9,16 @@ use super::way::{Way, pose_of};
 use core::num::NonZeroU32;
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::{Orientation, Point3};
-use vcutc_backend_api::ir::{Action, OperationId, Program, Site, ToolId};
-use vcutc_backend_api::segments::LinearSegment;
+use vcutc_backend_api::ir::{OperationId, Program, ToolId};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::curve::Point2;
-use vcutc_simulation::prove::{Bound, CutFault, Finding, Findings, Passes, Tracked, Tracks};
+use vcutc_job::operation::judged::Judged;
+use vcutc_process::chains::{ChainPiece, pieces};
+use vcutc_simulation::prove::{CutFault, Finding, Findings, Replay, Tracked, Tracks};
 use vcutc_simulation::surface::Surface;
 use vcutc_surface::disc::Pose;
 use vcutc_surface::drop::Dropper;
 use vcutc_surface::gouge::Moves;
-use vcutc_surface::surface;
 
 /// How far a bound may be above its limit by rounding of the numbers of a program.
 const ROUNDING: Length = Length::mm(2e-4);
@@ -37,45 +37,28 @@ struct Stated {
     is_upright: bool,
 }
 
-/// Judges the tracks of a program on a surface, over what its other cuts leave: adds what is wrong, and says what they do.
-#[must_use]
-pub fn judged(
-    part: &surface::Surface,
-    before: &Surface,
-    program: &Program,
-    bounds: &[Bound<'_>],
-    findings: &mut Findings,
-) -> Vec<Tracked> {
-    let numbered = (0..).map(OperationId).zip(bounds);
-    let operations: Vec<(OperationId, Tracks)> = numbered
-        .filter_map(|(operation, bound)| match bound.passes {
-            Some(Passes::Tracks(tracks)) => Some((operation, tracks)),
-            Some(Passes::Skin(_) | Passes::Strips(_) | Passes::Region) | None => None,
-        })
-        .collect();
-    if operations.is_empty() {
-        return Vec::new();
-    }
+/// Judges the tracks of a program, over what its other cuts leave: adds what is wrong, and what they do.
+pub(super) fn judge(tracks: Tracks, judged: Judged<'_>, replay: &mut Replay) {
+    let (plan, program) = (judged.plan, judged.program);
+    let Some(part) = plan.surface.as_ref().map(|part| part.surface()) else {
+        return;
+    };
     let dropper = Dropper::new(part);
     // Checking a job refuses surfaces that are too tangled, or have no height somewhere.
-    let spine = bounds.iter().find_map(|bound| bound.spine);
+    let spine = plan.operations.iter().find_map(|planned| planned.bound().spine);
     let spine = spine.map(|spine| (spine, spine.left_above(program.longest_edge(), program.blend)));
-    let sections = Sections::of(part, spine);
-    let (Ok(moves), Ok(sections)) = (Moves::new(&dropper), sections) else {
-        return Vec::new();
+    let (Ok(moves), Ok(sections)) = (Moves::new(&dropper), Sections::of(part, spine)) else {
+        return;
     };
-    let judged = operations.into_iter().filter_map(|(operation, tracks)| {
-        Judge {
-            moves: &moves,
-            sections: &sections,
-            program,
-            operation,
-            tracks,
-            findings,
-        }
-        .all(before)
-    });
-    judged.collect()
+    let judge = Judge {
+        moves: &moves,
+        sections: &sections,
+        program,
+        operation: judged.operation,
+        tracks,
+        findings: &mut replay.findings,
+    };
+    replay.tracked.extend(judge.all(&replay.surface));
 }
 
 struct Judge<'j, 'd, 's> {
@@ -250,27 +233,14 @@ fn count(kept: &mut Option<(usize, Finding)>, finding: Finding) {
 fn stated(program: &Program, operation: OperationId) -> Vec<Stated> {
     let mut tracks: Vec<Stated> = Vec::new();
     let mut places: BTreeMap<(NonZeroU32, NonZeroU32), usize> = BTreeMap::new();
-    for segment in program.segments() {
-        let (
-            Site::Cut {
-                operation: own,
-                layer,
-                cut,
-            },
-            Action::Follow { .. },
-        ) = (segment.op.site, segment.op.action)
-        else {
-            continue;
-        };
-        let Some(line) = segment.line().filter(|_| own == operation) else {
-            continue;
-        };
+    for piece in pieces(program, operation) {
+        let ChainPiece { layer, cut, tool, .. } = piece;
         let place = *places.entry((layer, cut)).or_insert(tracks.len());
         if place == tracks.len() {
             tracks.push(Stated {
                 layer,
                 cut,
-                tool: segment.before.tool,
+                tool,
                 poses: Vec::new(),
                 held: Vec::new(),
                 bow: Length::ZERO,
@@ -278,23 +248,20 @@ fn stated(program: &Program, operation: OperationId) -> Vec<Stated> {
             });
         }
         if let Some(track) = tracks.get_mut(place) {
-            track.go_on(program, &line);
+            track.go_on(&piece);
         }
     }
     tracks
 }
 
 impl Stated {
-    fn go_on(&mut self, program: &Program, line: &LinearSegment) {
-        let ends = match self.poses.last() {
-            Some(last) if last.centre == line.from.tip => vec![line.to],
-            Some(_) | None => vec![line.from, line.to],
-        };
-        for end in ends {
-            let held = program.orientation(end.orientation);
-            let pose = held.and_then(|held| Some((pose_of(end.tip, held)?, held)));
-            match pose {
-                Some((pose, held)) => {
+    fn go_on(&mut self, piece: &ChainPiece) {
+        let line = &piece.line;
+        let ends = [line.from, line.to].into_iter().zip(piece.held);
+        let goes_on = self.poses.last().is_some_and(|last| last.centre == line.from.tip);
+        for (end, held) in ends.skip(usize::from(goes_on)) {
+            match pose_of(end.tip, held) {
+                Some(pose) => {
                     self.poses.push(pose);
                     self.held.push(held);
                 }

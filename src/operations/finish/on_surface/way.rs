@@ -8,11 +8,11 @@
 //! which makes half a micrometre for tracks 16 mm apart on a dome of 3 m, with a disc of 25 mm; with side tilt it is larger on the
 //! side of the strip.
 
-use crate::posture::Feed;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::units::Angle;
 use vcutc_backend_api::vector::cross;
 use vcutc_geometry::curve::Point2;
+use vcutc_process::posture::Feed;
 use vcutc_simulation::cross_section::Guard;
 use vcutc_simulation::disc::{Disc, SkinPass};
 use vcutc_simulation::prove::Skin;

@@ -1,10 +1,11 @@
 //! The passes over a region as a program states them.
 
-use crate::from_above::{level, place_of};
 use core::num::NonZeroU32;
-use vcutc_backend_api::ir::{Action, OperationId, Program, Site, ToolId};
+use vcutc_backend_api::ir::{OperationId, Program, ToolId};
 use vcutc_backend_api::segments::LinearSegment;
 use vcutc_backend_api::units::Speed;
+use vcutc_process::chains::{ChainPiece, pieces};
+use vcutc_process::from_above::{level, place_of};
 use vcutc_region::pass::Pass;
 use vcutc_region::piece::Piece;
 use vcutc_region::place::Place;
@@ -20,17 +21,17 @@ const CHORD: f64 = 1e-3;
 
 /// The passes of a layer.
 #[derive(Clone, Debug)]
-pub(super) struct Layer {
-    pub(super) number: NonZeroU32,
+pub(crate) struct Layer {
+    pub(crate) number: NonZeroU32,
     /// The first chain of it.
-    pub(super) cut: NonZeroU32,
-    pub(super) tool: ToolId,
+    pub(crate) cut: NonZeroU32,
+    pub(crate) tool: ToolId,
     /// Where the tool goes down the farthest first.
-    pub(super) lowest: Place,
+    pub(crate) lowest: Place,
     /// Where the tool does not stand upright, if anywhere.
-    pub(super) leaning: Option<Place>,
+    pub(crate) leaning: Option<Place>,
     /// How far what stands for ways down may be off them, in mm.
-    pub(super) slack: f64,
+    pub(crate) slack: f64,
     floor: f64,
     /// The speed of each piece of `flat`.
     speeds: Vec<Vec<Option<Speed>>>,
@@ -40,71 +41,41 @@ pub(super) struct Layer {
 
 impl Layer {
     /// How far down the tool goes, in mm.
-    pub(super) const fn floor(&self) -> f64 {
+    pub(crate) const fn floor(&self) -> f64 {
         self.floor
     }
 
     /// What runs along the floor, chain by chain.
-    pub(super) fn flat(&self) -> &[Pass] {
+    pub(crate) fn flat(&self) -> &[Pass] {
         &self.flat
     }
 
     /// The programmed speed of a piece of that.
-    pub(super) fn speed(&self, pass: usize, piece: usize) -> Option<Speed> {
+    pub(crate) fn speed(&self, pass: usize, piece: usize) -> Option<Speed> {
         *self.speeds.get(pass)?.get(piece)?
     }
 
     /// All ways, those down and up among them.
-    pub(super) fn all(&self) -> Vec<Pass> {
+    pub(crate) fn all(&self) -> Vec<Pass> {
         self.flat.iter().chain(&self.sloping).cloned().collect()
     }
 }
 
-/// A piece of a chain, and how the tool is held on it.
-struct Stated {
-    layer: NonZeroU32,
-    cut: NonZeroU32,
-    tool: ToolId,
-    line: LinearSegment,
-    is_upright: bool,
-}
-
 /// The layers of an operation, in the order of the program.
-pub(super) fn layers(program: &Program, operation: OperationId) -> Vec<Layer> {
-    let stated: Vec<Stated> = stated(program, operation).collect();
-    let layers = stated.chunk_by(|one, next| one.layer == next.layer);
+pub(crate) fn layers(program: &Program, operation: OperationId) -> Vec<Layer> {
+    let pieces: Vec<ChainPiece> = pieces(program, operation).collect();
+    let layers = pieces.chunk_by(|one, next| one.layer == next.layer);
     layers.filter_map(layer).collect()
 }
 
-fn stated(program: &Program, operation: OperationId) -> impl Iterator<Item = Stated> {
-    program.segments().filter_map(move |segment| {
-        let (
-            Site::Cut {
-                operation: of,
-                layer,
-                cut,
-            },
-            Action::Follow { .. },
-        ) = (segment.op.site, segment.op.action)
-        else {
-            return None;
-        };
-        let line = segment.line().filter(|_| of == operation)?;
-        let is_upright = [line.from, line.to].iter().all(|pose| {
-            let held = program.orientation(pose.orientation);
-            held.is_some_and(|held| held.matrix()[2][2] <= -1.0 + UPRIGHT)
-        });
-        Some(Stated {
-            layer,
-            cut,
-            tool: segment.before.tool,
-            line,
-            is_upright,
-        })
-    })
+fn is_upright(piece: &ChainPiece) -> bool {
+    piece
+        .held
+        .iter()
+        .all(|held| held.matrix()[2][2] <= -1.0 + UPRIGHT)
 }
 
-fn layer(pieces: &[Stated]) -> Option<Layer> {
+fn layer(pieces: &[ChainPiece]) -> Option<Layer> {
     let first = pieces.first()?;
     let ends = pieces
         .iter()
@@ -126,7 +97,7 @@ fn layer(pieces: &[Stated]) -> Option<Layer> {
         let mut flat = Vec::new();
         let mut speeds = Vec::new();
         for piece in chain {
-            if !piece.is_upright && layer.leaning.is_none() {
+            if !is_upright(piece) && layer.leaning.is_none() {
                 layer.leaning = Some(place_of(piece.line.from.tip));
             }
             match along_floor(&piece.line, layer.floor) {

@@ -1,10 +1,11 @@
 //! The slits of an operation as a program states them.
 
-use crate::from_above::{level, place_of};
 use core::num::NonZeroU32;
 use vcutc_backend_api::geometry::Orientation;
-use vcutc_backend_api::ir::{Action, OperationId, Program, Site, Straight};
+use vcutc_backend_api::ir::{OperationId, Program, Straight};
 use vcutc_backend_api::segments::LinearSegment;
+use vcutc_process::chains::{ChainPiece, pieces};
+use vcutc_process::from_above::{level, place_of};
 use vcutc_region::piece::Piece;
 use vcutc_region::place::Place;
 use vcutc_region::plate::{Reach, Stroke};
@@ -51,21 +52,14 @@ pub(super) struct Stated {
 
 /// The moves of an operation, in the order of the program. Walls reach up to `top`, in mm.
 pub(super) fn stated(program: &Program, operation: OperationId, blade: Straight, top: f64) -> Vec<Stated> {
-    let moves = program.segments().filter_map(|segment| {
-        let (
-            Site::Cut {
-                operation: of,
-                layer,
-                cut,
-            },
-            Action::Follow { .. },
-        ) = (segment.op.site, segment.op.action)
-        else {
-            return None;
-        };
-        let line = segment.line().filter(|_| of == operation)?;
-        let [from, to] = [line.from, line.to].map(|pose| program.orientation(pose.orientation));
-        let held = [from?, to?];
+    let moves = pieces(program, operation).map(|piece| {
+        let ChainPiece {
+            layer,
+            cut,
+            line,
+            held,
+            ..
+        } = piece;
         let floor = line.from.tip.z.min(line.to.tip.z);
         let height = (top - floor).max(0.0);
         let way = level(&line).filter(|way| way.from != way.to);
@@ -85,7 +79,7 @@ pub(super) fn stated(program: &Program, operation: OperationId, blade: Straight,
         if floor >= top - SAME {
             stated.motion = Motion::Above;
         } else if !is_upright {
-            return Some(stated);
+            return stated;
         } else if let Some(way) = way {
             let turn = held[0].rotation_to(held[1]);
             if let Some((stroke, slack)) = along(way, poses, half, turn) {
@@ -96,7 +90,7 @@ pub(super) fn stated(program: &Program, operation: OperationId, blade: Straight,
             let [pose, _] = poses;
             stated.motion = Motion::Down(pose.standing(stated.at, half));
         }
-        Some(stated)
+        stated
     });
     moves.collect()
 }

@@ -1,64 +1,51 @@
 //! The proof of passes over regions, from the lines and arcs of a finished program.
 //!
-//! Nothing of it comes from the plan but the region and what the operation is held to ([`Clearing`]). Walls are upright, so all is
-//! seen in the plan: the tool is a circle, its way at each floor is lines and arcs, and its ways down and up keep from the walls as
-//! its passes do.
+//! Nothing of it comes from the plan: the operation says what it is held to. Walls are upright, so all is seen in the plan: the tool
+//! is a circle, its way at each floor is lines and arcs, and its ways down and up keep from the walls as its passes do.
 
-pub mod shown;
-mod stated;
+pub(crate) mod stated;
 
-use crate::from_above::{closed_sides, highest, is_over};
-use crate::lower::ROUNDING_ROOM;
+use crate::asked::ClearPocket;
 use core::num::NonZeroU32;
 use stated::{Layer, layers};
 use vcutc_backend_api::ir::{Blade, BodyStage, Crusher, OperationId, Program, Shape, ToolId};
 use vcutc_backend_api::units::{Angle, Area, Length};
 use vcutc_geometry::curve::Point2;
-use vcutc_job::{Clearing, PlannedJob};
+use vcutc_job::operation::judged::Judged;
+use vcutc_process::from_above::{closed_sides, highest, is_over};
+use vcutc_process::lower::ROUNDING_ROOM;
 use vcutc_region::clearance::{Clearance, clearance};
 use vcutc_region::coverage::{Coverage, Tool, coverage, unreachable};
 use vcutc_region::engagement::{Engagement, engagement};
 use vcutc_region::pass::Pass;
 use vcutc_region::place::Place;
-use vcutc_simulation::prove::{Cleared, ClearingFault, CutFault, Finding, Findings};
+use vcutc_simulation::prove::{Cleared, ClearingFault, CutFault, Finding, Findings, Replay};
 use vcutc_simulation::surface::Surface;
 
 /// How far a number of a program may be beyond its limit by rounding, in mm.
 const ROUNDING: f64 = 1e-6;
 
-/// Judges the passes over regions of a program, in what its other cuts leave: adds what is wrong, and says what they do.
-#[must_use]
-pub fn judged(
-    plan: &PlannedJob,
-    before: &mut Surface,
-    program: &Program,
-    findings: &mut Findings,
-) -> Vec<Cleared> {
-    let numbered = (0..).map(OperationId).zip(&plan.operations);
-    let held = numbered.filter_map(|(operation, planned)| Some((operation, planned.clearing()?)));
-    let judged = held.filter_map(|(operation, held)| {
-        let judge = Judge {
-            operation,
-            held: &held,
-            program,
-            findings,
-        };
-        judge.all(before)
-    });
-    judged.collect()
+/// Judges the passes over a region of a program, in what its other cuts leave: adds what is wrong, and what they do.
+pub(crate) fn judge(asked: &ClearPocket, judged: Judged<'_>, replay: &mut Replay) {
+    let judge = Judge {
+        operation: judged.operation,
+        asked,
+        program: judged.program,
+        findings: &mut replay.findings,
+    };
+    replay.cleared.extend(judge.all(&mut replay.surface));
 }
 
 struct Judge<'j> {
     operation: OperationId,
-    held: &'j Clearing,
+    asked: &'j ClearPocket,
     program: &'j Program,
     findings: &'j mut Findings,
 }
 
 /// The tool as far as it is asked to reach: what it reaches only from places at which passes have no room for their rounding is beyond
 /// it. Where walls come together that is more than a fringe, and a corridor by so little wider than the tool is not gone into.
-#[must_use]
-pub const fn reaching(tool: Tool) -> Tool {
+pub(crate) const fn reaching(tool: Tool) -> Tool {
     Tool {
         keep: tool.keep + ROUNDING_ROOM.to_mm() + ROUNDING,
         ..tool
@@ -83,7 +70,7 @@ impl Judge<'_> {
         };
         let tool = Tool {
             radius: crusher.radius.to_mm(),
-            keep: (crusher.radius + self.held.allowance + self.program.blend).to_mm(),
+            keep: (crusher.radius + self.asked.allowance.value + self.program.blend).to_mm(),
         };
         let mut done = Cleared {
             operation: self.operation,
@@ -97,7 +84,7 @@ impl Judge<'_> {
             mean_engagement: Angle::ZERO,
             engagement: Angle::ZERO,
         };
-        let mut above = highest(before, &self.held.region, tool.radius);
+        let mut above = highest(before, &self.asked.region.region, tool.radius);
         let top = above;
         let mut known: Option<(Layer, Seen)> = None;
         for layer in layers {
@@ -130,7 +117,7 @@ impl Judge<'_> {
             }
             known = Some((layer, seen));
         }
-        if above > self.held.floor.to_mm() + ROUNDING {
+        if above > self.asked.floor.value.to_mm() + ROUNDING {
             self.stops_short(above, at_hand);
         }
         Some(done)
@@ -139,7 +126,7 @@ impl Judge<'_> {
 
 impl Judge<'_> {
     fn seen(&self, layer: &Layer, tool: Tool) -> Option<Seen> {
-        let region = &self.held.region;
+        let region = &self.asked.region.region;
         let passes = layer.flat();
         Some(Seen {
             clearance: clearance(region, &layer.all()),
@@ -150,8 +137,8 @@ impl Judge<'_> {
 
     /// How much of the region no tool reaches that keeps the allowance; none where that is beyond what is looked at.
     fn beyond_reach(&self, radius: f64) -> Area {
-        let keep = radius + self.held.allowance.to_mm();
-        let left = unreachable(&self.held.region, Tool { radius, keep });
+        let keep = radius + self.asked.allowance.value.to_mm();
+        let left = unreachable(&self.asked.region.region, Tool { radius, keep });
         Area::mm2(left.map_or(0.0, |left| left.uncut))
     }
 
@@ -170,7 +157,7 @@ impl Judge<'_> {
 
     /// The last layer ends above the floor, so all of the region stays there.
     fn stops_short(&mut self, height: f64, tool: ToolId) {
-        let region = &self.held.region;
+        let region = &self.asked.region.region;
         let bounds = region.bounds();
         let size = bounds.high.minus(bounds.low);
         let middle = bounds.low.lerp(bounds.high, 0.5);
@@ -178,7 +165,7 @@ impl Judge<'_> {
             area: Area::mm2(region.area()),
             places: 1,
             widest: Length::mm(size.x.min(size.y)),
-            limit: self.held.uncut,
+            limit: self.asked.limits.uncut.value,
         };
         self.findings.note_of_region(Finding {
             operation: self.operation,
@@ -199,7 +186,7 @@ impl Judge<'_> {
 
     fn depth(&mut self, layer: &Layer, above: f64, crusher: Crusher) {
         let at = layer.lowest;
-        let below = self.held.floor.to_mm() - layer.floor();
+        let below = self.asked.floor.value.to_mm() - layer.floor();
         if below > ROUNDING {
             self.note(
                 layer,
@@ -251,7 +238,7 @@ impl Judge<'_> {
         if let Some((by, at)) = self.beyond_a_side(&all, tool.radius) {
             self.note(layer, at, ClearingFault::Wall { by: Length::mm(by) });
         }
-        let limit = self.held.uncut;
+        let limit = self.asked.limits.uncut.value;
         if coverage.uncut > limit.to_mm2()
             && let Some(widest) = coverage.spots.iter().max_by(|a, b| a.width.total_cmp(&b.width))
         {
@@ -263,9 +250,11 @@ impl Judge<'_> {
             };
             self.note(layer, widest.at, fault);
         }
-        if let (Some(limit), Some((angle, at))) = (self.held.engagement, self.most_engaged(layer, engagement))
-            && angle > limit + Angle::rad(ROUNDING)
+        if let (Some(limit), Some((angle, at))) =
+            (self.asked.limits.engagement, self.most_engaged(layer, engagement))
+            && angle > limit.value + Angle::rad(ROUNDING)
         {
+            let limit = limit.value;
             self.note(layer, at, ClearingFault::Engaged { angle, limit });
         }
     }
@@ -273,7 +262,7 @@ impl Judge<'_> {
     /// How far the tool enters the stock from beside it, other than through an open side, and where: ways beyond open sides have the
     /// sides of the stock beside these for walls.
     fn beyond_a_side(&self, passes: &[Pass], radius: f64) -> Option<(f64, Place)> {
-        let sides = closed_sides(&self.held.region, self.program.stock);
+        let sides = closed_sides(&self.asked.region.region, self.program.stock);
         let mut deepest: Option<(f64, Place)> = None;
         for piece in passes.iter().flat_map(|pass| &pass.pieces) {
             let ends = [piece.from, piece.to];
@@ -303,7 +292,7 @@ impl Judge<'_> {
                 }
                 let is_slow = layer
                     .speed(number, stretch.piece)
-                    .is_none_or(|speed| speed <= self.held.slow);
+                    .is_none_or(|speed| speed <= self.asked.plunge_feed.value);
                 if is_slow || most.is_some_and(|(known, _)| known >= stretch.bound) {
                     continue;
                 }

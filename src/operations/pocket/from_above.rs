@@ -1,0 +1,81 @@
+//! The passes of the first layer from above, for pictures.
+
+use crate::asked::ClearPocket;
+use crate::proof::reaching;
+use crate::proof::stated::layers;
+use vcutc_backend_api::ir::{OperationId, Program, Shape};
+use vcutc_job::operation::judged::FromAbove;
+use vcutc_region::coverage::{Spot, Square, Tool, coverage};
+use vcutc_region::engagement::engagement;
+use vcutc_region::pass::Pass;
+use vcutc_region::piece::Piece;
+use vcutc_region::region::Side;
+
+/// Smaller places are not seen in a picture, in mm2.
+const SEEN: f64 = 0.01;
+
+/// The passes of a program; none of one that has none.
+pub(crate) fn from_above(
+    asked: &ClearPocket,
+    operation: OperationId,
+    program: &Program,
+) -> Option<FromAbove> {
+    let layers = layers(program, operation);
+    let layer = layers.first()?;
+    let Shape::Crusher(crusher) = program.blade(layer.tool)?.shape else {
+        return None;
+    };
+    let region = &asked.region.region;
+    let radius = crusher.radius.to_mm();
+    let keep = crusher.radius + asked.allowance.value + program.blend;
+    let tool = Tool {
+        radius,
+        keep: keep.to_mm().max(radius),
+    };
+    let of = |side: Side| {
+        let edges = region.edges().filter(move |edge| edge.side == side);
+        edges.map(|edge| edge.piece).collect()
+    };
+    let passes = layer.flat();
+    let begins = passes.iter().filter_map(|pass| Some(pass.pieces.first()?.from));
+    Some(FromAbove {
+        walls: of(Side::Wall),
+        open: of(Side::Open),
+        slits: Vec::new(),
+        stretches: stretches(asked, passes, radius),
+        entries: begins.collect(),
+        uncut: coverage(region, passes, reaching(tool)).map_or_else(|_| Vec::new(), |left| seen(left.spots)),
+    })
+}
+
+/// Stretches of passes with the angle of the rim in the material, in rad; none where that is not known.
+fn stretches(asked: &ClearPocket, passes: &[Pass], radius: f64) -> Vec<(Piece, f64)> {
+    let Ok(found) = engagement(&asked.region.region, passes, radius) else {
+        return Vec::new();
+    };
+    let mut stretches = Vec::new();
+    for (pass, profile) in passes.iter().zip(&found.profiles) {
+        let mut begun = 0.0;
+        let mut at = 0;
+        for stretch in profile {
+            while at < stretch.piece {
+                begun += pass.pieces.get(at).map_or(0.0, |piece| piece.length());
+                at += 1;
+            }
+            let Some(piece) = pass.pieces.get(at) else {
+                continue;
+            };
+            let [from, to] = stretch
+                .way
+                .map(|way| ((way - begun) / piece.length()).clamp(0.0, 1.0));
+            stretches.push((piece.part(from, to), stretch.angles[1]));
+        }
+    }
+    stretches
+}
+
+/// Those places that a picture shows.
+fn seen(spots: Vec<Spot>) -> Vec<Square> {
+    let spots = spots.into_iter().filter(|spot| spot.area >= SEEN);
+    spots.flat_map(|spot| spot.squares).collect()
+}
