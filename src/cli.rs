@@ -74,6 +74,7 @@ mod summary;
 mod targets;
 mod tools;
 mod verify;
+mod warnings;
 mod watch;
 
 use args::{Arguments, Command};

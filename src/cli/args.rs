@@ -17,8 +17,8 @@ pub(super) use overrides::Overrides;
 pub(super) use pictures::{PlotArgs, ReportArgs, What};
 pub(super) use tools::{ToolForm, ToolsArgs};
 
-use super::console::Warnings;
 use super::patience::{HelpBudget, help_budget};
+use super::warnings::Warnings;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use examples::{EXAMPLES, FIRST_EXAMPLES};

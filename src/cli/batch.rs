@@ -5,11 +5,12 @@
 //! work than processors.
 
 use super::baseline::Keeper;
-use super::console::{Console, Failure, Warnings};
+use super::console::{Console, Failure};
 use super::files::Disk;
 use super::output::{Destination, Placed};
 use super::snapshot::{self, Complete, Fate, Made, NotReady};
 use super::summary::Summary;
+use super::warnings::Warnings;
 use super::{Exit, Targets, compile, targets};
 use serde::Serialize;
 use std::collections::BTreeMap;

@@ -5,7 +5,7 @@ use super::baseline::Keeper;
 use super::batch::{self, Asking, Unit};
 use super::console::{Console, Failure};
 use super::files::{Disk, load_file};
-use super::meant::Driven;
+use super::meant::{self, Driven};
 use super::snapshot::Fate;
 use super::{Exit, Targets, targets};
 use std::collections::BTreeSet;
@@ -238,7 +238,7 @@ impl List<'_> {
         let near = nearest(id, self.targets.iter().map(|backend| backend.id()));
         Err(Box::new(match near.first() {
             Some(near) => diagnostic.help(format!("did you mean \"{near}\"?")),
-            None => diagnostic.help(format!("targets are: {}", targets::names(self.targets))),
+            None => diagnostic.help(format!("targets are: {}", meant::names(self.targets))),
         }))
     }
 

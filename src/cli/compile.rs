@@ -2,17 +2,18 @@
 
 use super::args::{Arguments, CheckArgs, CompileArgs, InnerForm, Overrides};
 use super::batch::{self, Unit};
-use super::console::{Console, Failure, Warnings};
+use super::console::{Console, Failure};
 use super::files::{Disk, job_near};
 use super::hints;
 use super::inner::{self, Progressed};
-use super::meant::{Driven, pointless_output};
+use super::meant::{self, Driven, pointless_output};
 use super::output::{Destination, Headings, Output, Placed};
 use super::patience;
 use super::progress::Progress;
 use super::snapshot::{self, Differences, Fate, Made, NotReady};
 use super::summary::Summary;
 use super::targets;
+use super::warnings::Warnings;
 use super::{Exit, Targets};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -149,7 +150,7 @@ pub(super) fn nothing(targets: &Targets) -> Product {
     Product::Verdict {
         remark: Some(format!(
             "no --target was given (targets: {}), so nothing was written",
-            targets::names(targets)
+            meant::names(targets)
         )),
     }
 }

@@ -7,18 +7,19 @@ use super::Exit;
 use super::args::{Color, DisplayArgs, MessageFormat};
 use super::differences;
 use super::os_words::os_words;
-use super::output::Placed;
+use super::output::{Placed, ignore_broken_pipe};
 use super::patience::HelpBudget;
 use super::progress::Following;
 use super::snapshot::Differences;
 use super::summary::Summary;
+use super::warnings::Warnings;
 use anstream::AutoStream;
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use vcutc_diagnostics::source::SourceMap;
-use vcutc_diagnostics::{Code, Diagnostic, github, has_errors, json, render};
+use vcutc_diagnostics::{Diagnostic, github, json, render};
 use vcutc_driver::hints::Hint;
 
 /// Version of the JSON objects this module writes.
@@ -69,34 +70,6 @@ impl Failure {
     pub(super) fn help(mut self, help: impl Into<String>) -> Self {
         self.help.push(help.into());
         self
-    }
-}
-
-/// What is made of warnings.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Warnings {
-    Shown,
-    /// They end a run as errors do: nothing is written.
-    Denied {
-        /// But these are only shown.
-        allowed: Vec<Code>,
-    },
-}
-
-impl Warnings {
-    /// Whether what there is to tell keeps a run from writing anything.
-    pub(super) fn refuse(&self, diagnostics: &[Diagnostic]) -> bool {
-        has_errors(diagnostics)
-            || match self {
-                Self::Shown => false,
-                Self::Denied { allowed } => diagnostics.iter().any(|one| !allowed.contains(&one.code)),
-            }
-    }
-
-    /// Why nothing was written, where it is not for errors.
-    pub(super) fn remark(&self, diagnostics: &[Diagnostic]) -> Option<&'static str> {
-        let is_for_warnings = self.refuse(diagnostics) && !has_errors(diagnostics);
-        is_for_warnings.then_some("warnings are denied")
     }
 }
 
@@ -391,13 +364,5 @@ fn choose_color(color: Color) -> render::ColorChoice {
     match wanted {
         anstream::ColorChoice::Auto | anstream::ColorChoice::Never => render::ColorChoice::Plain,
         anstream::ColorChoice::Always | anstream::ColorChoice::AlwaysAnsi => render::ColorChoice::Colored,
-    }
-}
-
-/// A reader that has seen enough is no fault.
-pub(super) fn ignore_broken_pipe(result: io::Result<()>) -> io::Result<()> {
-    match result {
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        other => other,
     }
 }

@@ -335,3 +335,9 @@ fn torques_in_json(torques: &Torques) -> Value {
         "source": torques.sources,
     })
 }
+
+/// Numbers with blanks between them.
+fn row(numbers: &[f64]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
+    numbers.join(" ")
+}

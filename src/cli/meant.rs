@@ -189,7 +189,7 @@ pub(super) fn unknown(targets: &Targets, id: &str, asking: &Driven<'_>) -> Failu
     };
     failure.help(format!(
         "targets: {}; others are programs `{PROGRAM_PREFIX}NAME` on the PATH or in a folder of `--backend-path`",
-        super::targets::names(targets)
+        names(targets)
     ))
 }
 
@@ -202,7 +202,7 @@ pub(super) fn pointless_output(output: &str, targets: &Targets, asking: &Driven<
     failure.help(match asking {
         Driven::Unknown => {
             let target = targets.first().map_or("TARGET", |backend| backend.id());
-            let names = super::targets::names(targets);
+            let names = names(targets);
             format!("write `--target {target} -o {output}` (targets: {names}), {check_only}")
         }
         Driven::NoMachine => format!(
@@ -217,4 +217,14 @@ pub(super) fn pointless_output(output: &str, targets: &Targets, asking: &Driven<
             ),
         },
     })
+}
+
+/// The names of all targets in one line.
+pub(super) fn names(targets: &Targets) -> String {
+    let names: Vec<_> = targets.iter().map(|backend| backend.id()).collect();
+    if names.is_empty() {
+        "none".to_owned()
+    } else {
+        names.join(", ")
+    }
 }

@@ -11,7 +11,6 @@
 //! * It does not guarantee that several files change in the same instant (no file system does): a power cut between two
 //!   renames can leave a new file beside an old one, and a killed run can leave `.vcutc-*` files behind.
 
-use super::console::ignore_broken_pipe;
 use super::os_words::os_words;
 use std::fs::{self, File, Permissions};
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
@@ -457,6 +456,14 @@ impl Spool {
             .and_then(|_| stdout.flush());
         ignore_broken_pipe(copied)
             .map_err(|error| format!("cannot write to standard output: {}", os_words(&error)))
+    }
+}
+
+/// A reader that has seen enough is no fault.
+pub(super) fn ignore_broken_pipe(result: io::Result<()>) -> io::Result<()> {
+    match result {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        other => other,
     }
 }
 

@@ -81,16 +81,6 @@ pub(super) fn not_read_back(backend: &dyn Backend) -> Option<String> {
     has_no_reader.then(|| format!("not read back: target {} has no reader", backend.id()))
 }
 
-/// The names of all targets in one line.
-pub(super) fn names(targets: &Targets) -> String {
-    let names: Vec<_> = targets.iter().map(|backend| backend.id()).collect();
-    if names.is_empty() {
-        "none".to_owned()
-    } else {
-        names.join(", ")
-    }
-}
-
 fn description(backend: &dyn Backend) -> String {
     let mut text = format!("{}  {}\n", backend.id(), backend.summary());
     match backend.options() {

@@ -3,7 +3,7 @@
 use super::args::VerifyArgs;
 use super::console::{Console, Failure};
 use super::files::{Disk, load_program};
-use super::meant::Driven;
+use super::meant::{self, Driven};
 use super::progress::Progress;
 use super::summary::Summary;
 use super::{Exit, Targets, compile, snapshot, targets};
@@ -230,7 +230,7 @@ fn target(
         [] => Err(
             Failure::new(format!("no target is known by files such as {names}")).help(format!(
                 "give the target with --target (targets: {})",
-                targets::names(targets)
+                meant::names(targets)
             )),
         ),
         several => {

@@ -10,6 +10,7 @@ pub mod configuration;
 mod extent;
 pub mod five_axis;
 pub mod jacobian;
+pub mod joint_axis;
 mod lanes;
 pub mod linkage;
 pub mod mounted;

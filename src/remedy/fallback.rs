@@ -102,7 +102,7 @@ impl<'j> Fallback<'j> {
     /// How hard the machine is tried: less where routes come next whose refusal is the one that is reported.
     #[must_use]
     pub fn changes(&self, plan: &PlannedJob) -> Changes {
-        match self.space.routes.narrower_than(plan) {
+        match plan.routes_below(self.space.routes) {
             Some(routes) if is_by_point(routes) => Changes::InTheAirOrElse,
             Some(_) | None => Changes::InTheAir,
         }
@@ -161,7 +161,7 @@ impl<'j> Fallback<'j> {
         }
         self.was_on_machine = true;
         let failing = self.first.as_ref()?.unreachable.trouble.hardest()?;
-        let is_open = widest_open(plan).is_some() || RouteSet::Full.narrower_than(plan).is_some();
+        let is_open = widest_open(plan).is_some() || plan.routes_below(RouteSet::Full).is_some();
         if !is_open {
             return None;
         }
@@ -207,13 +207,13 @@ impl<'j> Fallback<'j> {
             .operations
             .iter()
             .any(|operation| operation.swing() == Swing::Open);
-        let mut next = self.space.routes.narrower_than(plan);
+        let mut next = plan.routes_below(self.space.routes);
         while let Some(routes) = next {
             let is_checked = has_open_swing || !is_by_point(routes);
             if !is_checked || looks_promising(&in_rows(plan, routes.order(), None)) {
                 break;
             }
-            next = routes.narrower_than(plan);
+            next = plan.routes_below(routes);
         }
         next.map(|routes| SearchSpace { routes, ..self.space })
     }

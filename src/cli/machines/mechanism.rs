@@ -1,7 +1,6 @@
 //! How a machine's axes carry its flange, for people and for programs.
 
-use super::DEGREES;
-use super::text::row;
+use super::{DEGREES, row};
 use serde_json::{Value, json};
 use vcutc_backend_api::geometry::Frame;
 use vcutc_diagnostics::number::rounded;

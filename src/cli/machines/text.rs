@@ -1,6 +1,6 @@
 //! Machines as people read them: columns, and wrapped lists.
 
-use super::{Description, axis_unit, kind_word, maker_word, mechanism, path_numbers};
+use super::{Description, axis_unit, kind_word, maker_word, mechanism, path_numbers, row};
 use std::fmt::Write;
 use vcutc_backend_api::ir::{Axis, AxisKind};
 use vcutc_machine::catalogue::Summary;
@@ -210,11 +210,6 @@ fn wrapped(item: &str) -> String {
     }
     text.push('\n');
     text
-}
-
-pub(super) fn row(numbers: &[f64]) -> String {
-    let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
-    numbers.join(" ")
 }
 
 fn with_unit(value: Option<f64>, unit: &str) -> String {

@@ -9,11 +9,12 @@ use vcutc_backend_api::units::Mass;
 use vcutc_geometry::number::Interval;
 use vcutc_machine::body::MILLIMETRES;
 use vcutc_machine::catalogue;
+use vcutc_machine::kinematics::joint_axis::JointAxis;
 use vcutc_machine::kinematics::mounted::Mounted;
 use vcutc_machine::kinematics::opw::{Coupling, Opw};
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_machine::kinematics::samples::irb2400;
-use vcutc_machine::kinematics::serial::{JointAxis, SerialArm};
+use vcutc_machine::kinematics::serial::SerialArm;
 
 /// As the cases have it.
 const RISE: DVec3 = DVec3::new(0.0, 0.0, 9.81);

@@ -64,6 +64,19 @@ impl PlannedJob {
         limits.min_by(|(_, a), (_, b)| a.value.total_cmp(&b.value))
     }
 
+    /// The next routes, narrower than these, under which the planner would choose something else than this plan.
+    #[must_use]
+    pub fn routes_below(&self, routes: RouteSet) -> Option<RouteSet> {
+        let mut next = routes.narrower();
+        while let Some(routes) = next {
+            if !self.operations.iter().all(|planned| planned.is_within(routes)) {
+                break;
+            }
+            next = routes.narrower();
+        }
+        next
+    }
+
     /// The plan of an operation.
     #[must_use]
     pub fn operation(&self, operation: OperationId) -> Option<&dyn PlannedOperation> {

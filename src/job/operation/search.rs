@@ -1,6 +1,5 @@
 //! Which part of what a job leaves open is searched: all of it, or less where the machine does not follow.
 
-use super::planned::PlannedJob;
 use crate::{Machine, Order};
 use vcutc_backend_api::ir::Program;
 use vcutc_backend_api::units::Angle;
@@ -41,7 +40,8 @@ pub enum RouteSet {
 
 impl RouteSet {
     /// What is considered next where the machine cannot carry out what came of this.
-    const fn narrower(self) -> Option<Self> {
+    #[must_use]
+    pub const fn narrower(self) -> Option<Self> {
         match self {
             Self::Full => Some(Self::ByPoint),
             Self::ByPoint => Some(Self::RowsByPoint),
@@ -49,19 +49,6 @@ impl RouteSet {
             Self::ByLayer => Some(Self::RowsByLayer),
             Self::RowsByLayer => None,
         }
-    }
-
-    /// The next one under which the planner would choose something else than this plan.
-    #[must_use]
-    pub fn narrower_than(self, plan: &PlannedJob) -> Option<Self> {
-        let mut next = self.narrower();
-        while let Some(routes) = next {
-            if !plan.operations.iter().all(|planned| planned.is_within(routes)) {
-                break;
-            }
-            next = routes.narrower();
-        }
-        next
     }
 
     /// The only order of flanks that it leaves, if it leaves one.

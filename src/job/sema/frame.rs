@@ -3,9 +3,11 @@
 
 use super::arguments::{Arguments, Parameter, calls};
 use super::field_ranges::{COORDINATE, FRAME_ANGLE, QUATERNION_PART, TABLE_NUMBER};
+use super::fields::Fields;
 use super::quantity::number;
-use super::read::{Reader, looks_like};
+use super::read::{Reader, looks_like, sourced};
 use super::report::Checked;
+use crate::Sourced;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::ir::PlacedFrame;
 use vcutc_backend_api::units::Angle;
@@ -215,4 +217,14 @@ fn no_quaternion(expr: &Spanned<Expr>, found: &str) -> Diagnostic {
         "expected four numbers in brackets here",
     )
     .help("write it like `q = (1, 0, 0, 0)`, with w first")
+}
+
+/// The frame of a field that must be there.
+pub(crate) fn required_frame(
+    fields: &Fields<'_>,
+    name: &str,
+    reader: &mut Reader<'_>,
+) -> Checked<Sourced<PlacedFrame>> {
+    let expr = fields.required_value(name, reader.reports)?;
+    Ok(sourced(read(name, expr, reader)?, expr.span))
 }

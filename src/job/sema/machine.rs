@@ -4,19 +4,19 @@ use super::arguments::calls;
 use super::eval::Scope;
 use super::field_ranges::{SHARE, SIGNAL, WAIT};
 use super::fields::{BlockSpec, Fields, Inner, Place, Takes, block, limit, value};
-use super::frame::{self, FRAME};
+use super::frame::{self, FRAME, required_frame};
 use super::heads::Head;
 use super::home::{self, JOINTS};
 use super::load::{self, LOAD, LOADS};
 use super::model;
 use super::options;
-use super::read::{Reader, default, sourced, words_of};
+use super::read::{Reader, default, optional, sourced, words_of};
 use super::report::Checked;
 use super::session::{Described, Session};
 use super::setup::inner_place;
 use super::tools;
 use crate::{Gravity, Machine, Sourced};
-use vcutc_backend_api::ir::{PlacedFrame, Ready};
+use vcutc_backend_api::ir::Ready;
 use vcutc_backend_api::units::Duration;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -149,27 +149,6 @@ fn one_output(generator: &Sourced<u32>, drive: &Sourced<u32>, head: Span) -> Dia
     )
     .and(generator.span.unwrap_or(head), "the generator")
     .help("give each of them the number of its own output")
-}
-
-pub(crate) fn required_frame(
-    fields: &Fields<'_>,
-    name: &str,
-    reader: &mut Reader<'_>,
-) -> Checked<Sourced<PlacedFrame>> {
-    let expr = fields.required_value(name, reader.reports)?;
-    Ok(sourced(frame::read(name, expr, reader)?, expr.span))
-}
-
-pub(crate) fn optional<T>(
-    fields: &Fields<'_>,
-    name: &str,
-    reader: &mut Reader<'_>,
-    read: fn(&str, &Spanned<Expr>, &mut Reader<'_>) -> Checked<T>,
-) -> Checked<Option<Sourced<T>>> {
-    match fields.value(name)? {
-        Some(expr) => Ok(Some(sourced(read(name, expr, reader)?, expr.span))),
-        None => Ok(None),
-    }
 }
 
 fn output(field: &str, expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<u32> {

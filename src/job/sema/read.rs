@@ -20,6 +20,19 @@ pub struct Reader<'s> {
     pub reports: &'s mut Reports,
 }
 
+/// A field that may be missing.
+pub fn optional<T>(
+    fields: &Fields<'_>,
+    name: &str,
+    reader: &mut Reader<'_>,
+    read: fn(&str, &Spanned<Expr>, &mut Reader<'_>) -> Checked<T>,
+) -> Checked<Option<Sourced<T>>> {
+    match fields.value(name)? {
+        Some(expr) => Ok(Some(sourced(read(name, expr, reader)?, expr.span))),
+        None => Ok(None),
+    }
+}
+
 /// A value that the text states.
 pub const fn sourced<T>(value: T, span: Span) -> Sourced<T> {
     Sourced {

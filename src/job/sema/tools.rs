@@ -4,12 +4,11 @@
 use super::eval::Scope;
 use super::field_ranges::{TABLE_NUMBER, WAIT};
 use super::fields::{BlockSpec, Fields, Inner, NamedBlock, Takes, value};
-use super::frame::{self, FRAME};
+use super::frame::{self, FRAME, required_frame};
 use super::home::{self, JOINTS};
 use super::load::{self, LOAD, LOADS};
-use super::machine::{optional, required_frame};
 use super::names::Thing;
-use super::read::{Reader, words_of};
+use super::read::{Reader, optional, words_of};
 use super::report::Checked;
 use super::session::Session;
 use super::setup::inner_place;

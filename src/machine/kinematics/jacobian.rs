@@ -7,8 +7,8 @@
 
 use super::Joints;
 use super::five_axis::FiveAxis;
+use super::joint_axis::JointAxis;
 use super::pose::Pose;
-use super::serial::JointAxis;
 use glam::{DMat3, DVec3};
 use nalgebra::{SMatrix, SVector};
 use vcutc_backend_api::ir::MOST_AXES;
@@ -55,6 +55,14 @@ impl Twist {
         linear: DVec3::ZERO,
         angular: DVec3::ZERO,
     };
+
+    /// What turning about a line at 1 rad/s does to a body and to a point of it.
+    pub(super) fn about(axis: &JointAxis, point: DVec3) -> Self {
+        Self {
+            linear: axis.direction.cross(point - axis.point),
+            angular: axis.direction,
+        }
+    }
 
     /// The six numbers, lengths in units of `length` mm.
     pub(super) fn column(&self, length: f64) -> Column {
@@ -193,7 +201,7 @@ impl FiveAxis {
         }
         let nose_in_mount = here_in_mount * self.nose_at_zero();
         let point = nose_in_mount.rotation * point_in_nose + nose_in_mount.position;
-        let mut columns = lines.map(|line| line.map_or(Twist::ZERO, |line| line.twist(point)));
+        let mut columns = lines.map(|line| line.map_or(Twist::ZERO, |line| Twist::about(&line, point)));
         for (column, direction) in columns.iter_mut().zip([DVec3::X, DVec3::Y, DVec3::Z]) {
             column.linear = frame_in_mount * direction;
         }

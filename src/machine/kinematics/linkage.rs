@@ -9,8 +9,9 @@
 //! draws a machine needs nothing else, and no kinematics of a kind of machine.
 
 use super::five_axis::{Direction, FiveAxis, Rotary};
+use super::joint_axis::JointAxis;
 use super::pose::Pose;
-use super::serial::{JointAxis, SerialArm};
+use super::serial::SerialArm;
 use super::{Joints, Mechanism};
 use glam::DMat3;
 use vcutc_backend_api::ir::{AxisKind, MOST_AXES};

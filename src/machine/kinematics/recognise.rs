@@ -11,11 +11,12 @@
 //! is therefore compared with the arm in many poses and taken only if the flange is the same within [`FIT`].
 
 use super::Mechanism;
+use super::joint_axis::JointAxis;
 use super::mounted::Mounted;
 use super::newton::spread;
 use super::opw::{Coupling, Opw};
 use super::pose::Pose;
-use super::serial::{JointAxis, SerialArm};
+use super::serial::SerialArm;
 use glam::{DMat3, DVec3};
 use vcutc_backend_api::ir::MOST_AXES;
 

@@ -2,10 +2,11 @@
 #![allow(clippy::expect_used, reason = "tests fail by panics")]
 
 use super::Joints;
+use super::joint_axis::JointAxis;
 use super::mounted::Mounted;
 use super::opw::{Coupling, Opw};
 use super::pose::Pose;
-use super::serial::{JointAxis, SerialArm};
+use super::serial::SerialArm;
 use core::f64::consts::FRAC_PI_2;
 use glam::{DMat3, DVec3, EulerRot};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};

@@ -11,20 +11,12 @@
 
 use super::Joints;
 use super::jacobian::{Jacobian, Twist};
+use super::joint_axis::JointAxis;
 use super::mounted::Mounted;
 use super::opw::{Coupling, Opw};
 use super::pose::Pose;
 use glam::{DMat3, DVec3};
 use vcutc_backend_api::ir::MOST_AXES;
-
-/// The line about which a joint turns, in the root.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JointAxis {
-    /// A point of the line, in mm.
-    pub point: DVec3,
-    /// Its direction, of length 1: the joint counts positive as a right-hand screw turns.
-    pub direction: DVec3,
-}
 
 /// An arm of six revolute joints.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,38 +35,6 @@ struct Posed {
 
 /// Shortest direction that still says where to; shorter ones are rounding.
 const LEAST_DIRECTION: f64 = 1e-6;
-
-impl JointAxis {
-    /// The rotation by an angle about the line.
-    fn turned(&self, angle: f64) -> Pose {
-        let rotation = DMat3::from_axis_angle(self.direction, angle);
-        Pose {
-            rotation,
-            position: self.point - rotation * self.point,
-        }
-    }
-
-    /// The line where a motion of its body brings it; the line in an outer frame, for `inner_in_outer`.
-    #[must_use]
-    pub fn moved(&self, motion: &Pose) -> Self {
-        Self {
-            point: motion.rotation * self.point + motion.position,
-            direction: motion.rotation * self.direction,
-        }
-    }
-
-    /// What turning about the line at 1 rad/s does to a body and to a point of it.
-    pub(super) fn twist(&self, point: DVec3) -> Twist {
-        Twist {
-            linear: self.direction.cross(point - self.point),
-            angular: self.direction,
-        }
-    }
-
-    fn distance(&self, point: DVec3) -> f64 {
-        (point - self.point).cross(self.direction).length()
-    }
-}
 
 impl SerialArm {
     /// An arm from its axes, from the foot outwards, and its flange in the root, both with all joints at zero. Directions
@@ -141,7 +101,7 @@ impl SerialArm {
     pub(super) fn flange_and_jacobian(&self, joints: &Joints, point_in_flange: DVec3) -> (Pose, Jacobian) {
         let Posed { axes, flange_in_root } = self.posed(joints);
         let point = flange_in_root.rotation * point_in_flange + flange_in_root.position;
-        let mut columns = axes.map(|axis| axis.twist(point));
+        let mut columns = axes.map(|axis| Twist::about(&axis, point));
         match self.coupling {
             Coupling::Serial => {}
             Coupling::Parallelogram => {

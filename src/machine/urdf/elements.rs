@@ -1,7 +1,7 @@
 //! The elements of a URDF: links and joints with their numbers, each fault at its place in the text.
 
+use crate::kinematics::joint_axis::JointAxis;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::serial::JointAxis;
 use crate::ranges::TORQUE;
 use core::f64::consts::TAU;
 use glam::{DMat3, DVec3};

@@ -5,12 +5,13 @@ mod lay;
 mod limits;
 mod order;
 pub mod path;
+mod room;
 
 use crate::asked::{ClearPocket, Pattern};
 use crate::refused::Why;
 use lay::Laid;
 use limits::Standing;
-use order::Room;
+use room::Room;
 use vcutc_backend_api::units::{Angle, Area, Duration, Length};
 use vcutc_job::Auto;
 use vcutc_job::operation::Ground;

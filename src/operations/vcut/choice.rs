@@ -10,6 +10,7 @@
 //! An operation of more than [`MOST_CUTS_COMPARED`] cuts is not compared with itself in other guises: it is cut `mixed`,
 //! `boustrophedon` and by `point`.
 
+mod assumed;
 mod bench;
 mod chosen;
 mod complaints;
@@ -23,7 +24,7 @@ mod route;
 mod tests;
 mod trial;
 
-pub use chosen::LITTLE;
+pub use bench::LITTLE;
 
 use crate::asked::{Lattice, Objective, Residual, RoughVcut};
 use crate::plan::decision::{Candidate, Decision, Excess, Standing};
@@ -31,6 +32,7 @@ use crate::plan::parameters::{Refusal, VcutParameters};
 use crate::plan::refusal::Refused;
 use crate::plan::residual::Strategies;
 use crate::plan::{LaidOut, PARAMETERS, PlannedVcut, lay_out, parameters};
+use assumed::is_searched;
 use bench::{Bench, Figures, MEASURED_TO};
 use complaints::Sought;
 use core::cmp::Ordering;
@@ -119,7 +121,7 @@ pub(crate) fn is_plannable(asked: &RoughVcut, ground: Ground<'_>, effort: &mut E
 /// there are no such limits.
 pub(crate) fn without_plan_limits(asked: &RoughVcut) -> Option<RoughVcut> {
     let is_limited = asked.limits.time.is_some() || asked.limits.cuts.is_some();
-    is_limited.then(|| limits::of_plans(&finest::as_time(asked)))
+    is_limited.then(|| limits::of_plans(&assumed::as_time(asked)))
 }
 
 /// The limits of an operation that a plan breaks, which was made without them, with what the plan keeps.
@@ -277,7 +279,7 @@ fn within_limits(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unplan
     let Some(broken) = limits::broken(bench, asked, &first.vcut) else {
         return Ok(first);
     };
-    if trial::is_searched(asked) {
+    if is_searched(asked) {
         return kept_by_any(bench, asked, (first, broken));
     }
     let (mut assumed, mut by) = (asked.clone(), broken);
@@ -344,10 +346,8 @@ fn any_within_limits(bench: &Bench<'_>, asked: &RoughVcut) -> Option<LaidOut> {
 /// The operation on the best lattice, or on the one that it asks for.
 fn best_lattice(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unplanned> {
     match (asked.lattice.value, asked.objective.value) {
-        (_, Objective::Scallop | Objective::BladeLoad) if trial::is_searched(asked) => {
-            finest::finest(bench, asked)
-        }
-        (_, Objective::Cuts) if trial::is_searched(asked) => fewest(bench, asked),
+        (_, Objective::Scallop | Objective::BladeLoad) if is_searched(asked) => finest::finest(bench, asked),
+        (_, Objective::Cuts) if is_searched(asked) => fewest(bench, asked),
         (Auto::Auto, Objective::Time) => compare_lattices(bench, asked),
         // The fewest cuts are none of the route's: all lattices are searched at once.
         (Auto::Given(_), _) | (Auto::Auto, Objective::Scallop | Objective::Cuts | Objective::BladeLoad) => {

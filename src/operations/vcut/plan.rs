@@ -25,6 +25,7 @@ pub mod removable;
 pub mod residual;
 pub mod route;
 pub mod time_model;
+mod wider;
 
 #[cfg(test)]
 pub(crate) mod tests;

@@ -7,6 +7,7 @@ mod given_tips;
 mod not_freed;
 mod scallop;
 mod stays;
+mod usable_edge;
 
 pub(crate) use scallop::helped;
 pub(crate) use stays::much_stays;

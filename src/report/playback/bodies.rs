@@ -6,8 +6,8 @@
 
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Axis, AxisKind};
+use vcutc_machine::kinematics::joint_axis::JointAxis;
 use vcutc_machine::kinematics::linkage::{Joint, Linkage};
-use vcutc_machine::kinematics::serial::JointAxis;
 
 /// What carries a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,10 +4,12 @@
 //! holds in the workpiece. Where two ends are joined over a gap both go to its middle: there the chain is off the drawing
 //! by at most the gap.
 
+use super::fault::{Chain, Gap, OutlineError};
 use super::join::SAME;
-use super::route::{Joined, Line, Route};
+use super::lines::Line;
+use super::route::{Joined, Route};
 use super::{Affine, Stroke};
-use crate::curve::{COINCIDENT, CurveError, NurbsError};
+use crate::curve::COINCIDENT;
 use crate::point::Point2;
 use vcutc_backend_api::units::Length;
 
@@ -24,73 +26,6 @@ pub struct Outline {
     pub widest: Option<Gap>,
     /// Strokes that lie on others from end to end, and count once.
     pub repeated: Vec<usize>,
-}
-
-/// Two ends that do not meet.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gap {
-    pub from: Point2,
-    pub to: Point2,
-    /// The strokes they belong to.
-    pub strokes: [usize; 2],
-}
-
-impl Gap {
-    /// How far they are apart.
-    #[must_use]
-    pub fn size(&self) -> Length {
-        Length::mm(self.from.distance(self.to))
-    }
-}
-
-/// One of several chains.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Chain {
-    pub from: Point2,
-    pub to: Point2,
-    /// Whether it ends where it begins.
-    pub is_closed: bool,
-    /// The stroke it begins with.
-    pub first: usize,
-    /// The stroke it ends with.
-    pub last: usize,
-    /// How many strokes it has.
-    pub strokes: usize,
-}
-
-/// What prevents strokes from forming an outline.
-#[derive(Clone, Debug, PartialEq)]
-pub enum OutlineError {
-    /// There is none, or none of any extent.
-    Nothing,
-    /// A stroke has no length, or numbers that a curve cannot have.
-    Curve {
-        stroke: usize,
-        /// Why not.
-        error: CurveError,
-    },
-    /// A stroke that should be a B-spline has knots, weights or points that no B-spline can have.
-    Nurbs {
-        stroke: usize,
-        /// Why not.
-        error: NurbsError,
-    },
-    /// More points than a profile may have.
-    TooManyPoints,
-    /// More than two ends meet.
-    Branch { at: Point2, strokes: Vec<usize> },
-    /// The tolerance is larger than what is drawn.
-    Crowded {
-        /// One place where it is.
-        at: Point2,
-    },
-    /// There are several chains.
-    Several {
-        /// All of them, in the order in which their first strokes are drawn.
-        chains: Vec<Chain>,
-        /// The two ends of different chains that are nearest each other.
-        nearest: Option<Gap>,
-    },
 }
 
 /// The one chain that strokes form, after a map from the drawing to the workpiece. Curves are flattened within `flat`, and

@@ -5,9 +5,11 @@
 //! through.
 
 use super::arcs::{Bow, fit};
-use super::chain::{Chain, Gap, OutlineError, Walked, listed, nearest};
+use super::chain::{Walked, listed, nearest};
+use super::fault::{Chain, Gap, OutlineError};
 use super::join::SAME;
-use super::route::{Joined, Route, curve_of};
+use super::lines::curve_of;
+use super::route::{Joined, Route};
 use super::shape::Shape;
 use super::{Affine, Stroke};
 use crate::curve::{COINCIDENT, MOST_POINTS};

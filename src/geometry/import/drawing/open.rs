@@ -4,8 +4,8 @@
 //! must cover it.
 
 use super::arcs::Bow;
+use super::lines::curve_of;
 use super::loops::Loops;
-use super::route::curve_of;
 use super::{Affine, OutlineError, Shape, Stroke};
 use crate::point::Point2;
 use vcutc_backend_api::units::Length;

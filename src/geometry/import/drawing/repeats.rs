@@ -6,8 +6,8 @@
 //! looked for when strokes form no outline, so that people learn why ([`drawn_over`]).
 
 use super::join::SAME;
+use super::lines::{Line, flatten};
 use super::pairs::{Extent, first_pair};
-use super::route::{Line, flatten};
 use super::{Affine, Shape, Stroke};
 use crate::point::Point2;
 use core::f64::consts::TAU;

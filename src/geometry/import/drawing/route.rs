@@ -1,38 +1,11 @@
-//! Strokes as flattened lines, and the routes along them that joined ends make.
+//! The routes along flattened strokes that joined ends make.
 
-use super::chain::OutlineError;
+use super::fault::OutlineError;
 use super::join::{End, JoinError, SAME, join};
+use super::lines::{Line, flatten};
 use super::repeats::without_repeats;
-use super::shape::{Shape, ShapeError};
 use super::{Affine, Stroke};
-use crate::curve::{COINCIDENT, Curve, MOST_POINTS};
-use crate::point::Point2;
 use vcutc_backend_api::units::Length;
-
-/// A flattened stroke.
-pub(super) struct Line {
-    pub(super) stroke: usize,
-    pub(super) points: Vec<Point2>,
-}
-
-impl Line {
-    fn ends(&self) -> Option<[Point2; 2]> {
-        Some([*self.points.first()?, *self.points.last()?])
-    }
-
-    pub(super) fn is_closed(&self) -> bool {
-        self.points.len() > 2 && self.ends().is_some_and(|[from, to]| from.distance(to) <= SAME)
-    }
-
-    /// Whether it is longer than so much.
-    fn is_longer_than(&self, length: f64) -> bool {
-        let mut so_far = 0.0;
-        self.points.windows(2).any(|pair| {
-            so_far += pair[0].distance(pair[1]);
-            so_far > length
-        })
-    }
-}
 
 /// Lines from end to end.
 pub(super) struct Route {
@@ -119,40 +92,6 @@ fn walk(open: &[usize], partners: &[Option<usize>]) -> Vec<Route> {
         }
     }
     routes
-}
-
-/// Strokes as lines; those without extent are left out.
-pub(super) fn flatten(strokes: &[Stroke], map: Affine, flat: Length) -> Result<Vec<Line>, OutlineError> {
-    let mut lines = Vec::new();
-    let mut left = MOST_POINTS;
-    for (stroke, drawn) in strokes.iter().enumerate() {
-        let mut points: Vec<Point2> = Vec::new();
-        for shape in &drawn.shapes {
-            let curve = curve_of(&shape.clone().mapped(map), stroke)?;
-            if points.is_empty() {
-                points.push(curve.start());
-            }
-            curve
-                .flatten(flat, &mut points)
-                .map_err(|error| OutlineError::Curve { stroke, error })?;
-        }
-        left = left
-            .checked_sub(points.len())
-            .ok_or(OutlineError::TooManyPoints)?;
-        points.dedup_by(|next, last| last.distance(*next) < COINCIDENT);
-        if points.len() > 1 {
-            lines.push(Line { stroke, points });
-        }
-    }
-    Ok(lines)
-}
-
-/// A shape of a stroke as a curve.
-pub(super) fn curve_of(shape: &Shape, stroke: usize) -> Result<Curve, OutlineError> {
-    shape.curve().map_err(|error| match error {
-        ShapeError::Curve(error) => OutlineError::Curve { stroke, error },
-        ShapeError::Nurbs(error) => OutlineError::Nurbs { stroke, error },
-    })
 }
 
 fn in_strokes(error: JoinError, stroke: &dyn Fn(usize) -> usize) -> OutlineError {

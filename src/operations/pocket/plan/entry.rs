@@ -1,6 +1,6 @@
 //! How the tool gets down to where a run begins.
 
-use super::order::Room;
+use super::room::Room;
 use super::{Entry, Kind, Leg, Run};
 use crate::refused::Why;
 use core::f64::consts::TAU;

@@ -5,6 +5,7 @@
 //! nothing is cleared of it has to go down into the material.
 
 use super::entry;
+use super::room::Room;
 use super::{Entry, Kind, Leg, Run};
 use crate::refused::Why;
 use vcutc_region::boxes::Extent;
@@ -14,23 +15,6 @@ use vcutc_region::order::{Links, Step, begun_near, inside_out};
 use vcutc_region::pass::Pass;
 use vcutc_region::piece::Piece;
 use vcutc_region::place::Place;
-
-/// What ways at depth must keep from, in mm.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Room<'r> {
-    pub(super) walls: &'r Walls,
-    /// The stock along x and y.
-    pub(super) stock: [f64; 2],
-    /// Air between the tool and the stock beside open sides.
-    pub(super) run_out: f64,
-    /// How far the centre of the tool keeps from walls on ways between passes: less than on these, so that they may be chords, but with
-    /// room for the rounding of their ends.
-    pub(super) keep: f64,
-    /// The distance of passes.
-    pub(super) step: f64,
-    /// The radius of the tool.
-    pub(super) radius: f64,
-}
 
 /// How many steps a way from pass to pass may be long: at a sharp corner the next one lies farther away.
 const LONGEST_LINK: f64 = 3.0;

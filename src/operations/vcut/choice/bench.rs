@@ -1,7 +1,6 @@
 //! Ways to cut an operation, written down as programs of their own and measured.
 
 use super::Contender;
-use super::chosen::LITTLE;
 use crate::asked::{Objective, RoughVcut};
 use crate::plan::decision::Standing;
 use crate::plan::redundant::{Allowed, without_redundant};
@@ -25,6 +24,9 @@ use vcutc_simulation::prove::{Bound, replay_on};
 use vcutc_simulation::report::area_under;
 use vcutc_simulation::surface::Surface;
 use vcutc_simulation::timing::{timing, total};
+
+/// What may stay of what is to go before it is worth a word, as a share.
+pub const LITTLE: f64 = 0.1;
 
 /// How closely the most that is left is known.
 pub(super) const MEASURED_TO: Length = Length::mm(1e-3);

@@ -8,7 +8,7 @@
 //! set it, so that who writes it down gets the same program; or a faster one that leaves more, where redundant Vs were kept to
 //! leave little.
 
-use super::bench::Bench;
+use super::bench::{Bench, LITTLE};
 use super::{Unplanned, within_limits};
 use crate::asked::{ChosenScallop, Formulas, Lattice, Objective, Redundant, RoughVcut, WhyChosen};
 use crate::plan::LaidOut;
@@ -17,9 +17,6 @@ use crate::plan::removable::{Removable, standoff};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::curve::Point2;
 use vcutc_job::{Auto, Sourced};
-
-/// What may stay of what is to go before it is worth a word, as a share.
-pub const LITTLE: f64 = 0.1;
 
 /// Limits as shares of the mean depth, the widest first. Teeth of a height hold half of it in the mean, so a fifth would leave a
 /// tenth; tips that miss the part leave more, and less than the limit stays beside steep places.

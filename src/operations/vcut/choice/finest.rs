@@ -6,6 +6,7 @@
 //! the way between the last that is kept and the first that is not is halved: at first any plan will do, at last the fastest is
 //! searched for. What was found is then changed for as long as it leaves less. The formulas' choice is compared with it.
 
+use super::assumed::{limited, under};
 use super::bench::{Bench, Figures};
 use super::trial::{self, Found, FoundBy, TurnedDown};
 use super::{Contender, MOST_CUTS_COMPARED, Unplanned, best_found, best_on, offers, route, within_limits};
@@ -15,7 +16,6 @@ use crate::plan::parameters::{self, VcutParameters};
 use crate::plan::{LaidOut, lay_out};
 use vcutc_backend_api::units::Length;
 use vcutc_cancellation::Effort;
-use vcutc_job::Sourced;
 
 /// How limits are narrowed.
 struct Narrowing {
@@ -40,45 +40,6 @@ const FINE: Narrowing = Narrowing {
     farther: 0.9,
     near: 1.04,
 };
-
-/// The operation made fast, or with few cuts where only these are limited, under a limit on what it is to make small; with
-/// none, under the job's own.
-pub(super) fn limited(asked: &RoughVcut, limit: Option<Length>) -> RoughVcut {
-    let mut assumed = under(asked, limit);
-    assumed.objective.value = match (asked.limits.time, asked.limits.cuts) {
-        (None, Some(_)) => Objective::Cuts,
-        (Some(_), _) | (None, None) => Objective::Time,
-    };
-    assumed
-}
-
-/// The operation with the objective under which its plans are searched: a small scallop, or edge in use, is a limit on it
-/// while time is made small.
-pub(super) fn as_time(asked: &RoughVcut) -> RoughVcut {
-    match asked.objective.value {
-        Objective::Scallop | Objective::BladeLoad if trial::is_searched(asked) => limited(asked, None),
-        Objective::Time | Objective::Cuts | Objective::Scallop | Objective::BladeLoad => asked.clone(),
-    }
-}
-
-/// The operation under a limit on what it makes small.
-fn under(asked: &RoughVcut, limit: Option<Length>) -> RoughVcut {
-    let mut assumed = asked.clone();
-    let Some(value) = limit else { return assumed };
-    let narrowed = |written: Option<Sourced<Length>>| {
-        Some(Sourced {
-            value,
-            span: written.and_then(|written| written.span),
-        })
-    };
-    let limits = &mut assumed.limits;
-    match asked.objective.value {
-        Objective::Scallop => limits.scallop = narrowed(limits.scallop),
-        Objective::BladeLoad => limits.edge = narrowed(limits.edge),
-        Objective::Time | Objective::Cuts => {}
-    }
-    assumed
-}
 
 /// What is made small.
 fn measure(asked: &RoughVcut, figures: &Figures) -> Length {

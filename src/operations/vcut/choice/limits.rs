@@ -5,6 +5,7 @@
 //! choose keeps them by the model, and is chosen again with tighter ones where its plan does not. What no plan keeps in the end
 //! is refused, with the value that the plan would keep.
 
+use super::assumed::is_searched;
 use super::bench::Bench;
 use crate::asked::{Objective, RoughVcut};
 use crate::plan::PlannedVcut;
@@ -108,7 +109,7 @@ fn found(vcut: &PlannedVcut, excess: Excess) -> Diagnostic {
         ),
         Excess::Cuts { cuts, limit } => (format!("has {cuts} cuts"), show(limit.floor())),
     };
-    let which = match (asked.objective.value, excess, super::trial::is_searched(asked)) {
+    let which = match (asked.objective.value, excess, is_searched(asked)) {
         (Objective::Time, Excess::Time { .. }, true) => "the fastest plan found",
         (Objective::Cuts, Excess::Cuts { .. }, true) => "the plan of the fewest cuts found",
         (Objective::Time | Objective::Cuts | Objective::Scallop | Objective::BladeLoad, _, _) => "the plan",

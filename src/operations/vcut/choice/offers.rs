@@ -1,8 +1,8 @@
 //! What is told of an operation that has no plan. Of the changes that may mend it those are offered whose plan has nothing
 //! wrong: they are planned, written down and replayed before anybody is told, and tried on the machine of the job.
 
+use super::assumed::{as_time, is_searched, limited};
 use super::bench::{Bench, Figures};
-use super::finest::{as_time, limited};
 use super::trial::{self, TurnedDown};
 use super::{Unplanned, within_limits};
 use crate::asked::{Lattice, RoughVcut};
@@ -154,7 +154,7 @@ pub(super) fn is_sound(bench: &Bench<'_>, asked: &RoughVcut, effort: &mut Effort
     if effort.is_spent() || bench.wanted.is_needless() {
         return false;
     }
-    if !trial::is_searched(asked) {
+    if !is_searched(asked) {
         if is_too_large(bench, asked, effort) {
             return false;
         }

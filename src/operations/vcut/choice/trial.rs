@@ -19,10 +19,11 @@ mod tests;
 
 pub(super) use met::TurnedDown;
 
+use super::assumed::is_searched;
 use super::bench::{Bench, Figures};
 use super::redundant::{self, Skipping};
 use super::{Contender, MOST_CUTS_COMPARED, Unplanned, limits, route};
-use crate::asked::{Avoid, Formulas, Lattice, Objective, Residual, RoughVcut};
+use crate::asked::{Avoid, Lattice, Objective, Residual, RoughVcut};
 use crate::plan::decision::Standing;
 use crate::plan::floor::Floor;
 use crate::plan::optimum::Bound;
@@ -179,16 +180,6 @@ const fn plain(parameters: VcutParameters) -> Found {
         by: FoundBy::Formulas,
         by_formulas: None,
     }
-}
-
-/// Whether the plan has a say in the parameters. The formulas of the paper stand as they are printed.
-pub(super) fn is_searched(asked: &RoughVcut) -> bool {
-    let is_open = asked.swing.value == Auto::Auto
-        || asked.layer.value == Auto::Auto
-        || (asked.step.value == Auto::Auto
-            && asked.overlap.value == Auto::Auto
-            && asked.limits.scallop.is_some());
-    is_open && asked.formulas.value == Formulas::Exact
 }
 
 /// What is asked of the model: where plans are searched, those are held to the limits on time and cuts. A scallop or an edge

@@ -4,6 +4,7 @@ use super::MOST_CUTS;
 use super::optimum::Bound;
 use super::parameters::VcutParameters;
 use super::refusal::{Ladder, Offer, Refused};
+use super::wider::wider_scallops;
 use crate::asked::{Residual, RoughVcut};
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::show;
@@ -246,39 +247,6 @@ fn wider_limits(asked: &RoughVcut, name: &str, place: Place, count: usize) -> La
     [1.0, 2.0, 4.0, 8.0, 16.0, 32.0]
         .into_iter()
         .filter_map(wider)
-        .collect()
-}
-
-/// How much wider each limit on scallop that may do is than the one before, and how many there are: far enough from the
-/// finest surface to the coarsest.
-const WIDER: f64 = 1.6;
-const MOST_WIDER: i32 = 14;
-
-/// Larger limits on scallop than the job's, and than what stays on the part anyway.
-pub(super) fn wider_scallops(asked: &RoughVcut, stays: Length) -> Ladder {
-    let Some(limit) = asked.limits.scallop else {
-        return Vec::new();
-    };
-    let Some(span) = limit.span else {
-        return Vec::new();
-    };
-    let narrowest = limit.value.max(stays).to_mm();
-    (1..=MOST_WIDER)
-        .map(|count| {
-            let wide = narrowest * libm::pow(WIDER, f64::from(count));
-            let per_mm = if wide < 1.0 { 100.0 } else { 10.0 };
-            let wide = (wide * per_mm).ceil() / per_mm;
-            let mut changed = asked.clone();
-            if let Some(limit) = &mut changed.limits.scallop {
-                limit.value = Length::mm(wide);
-            }
-            let text = format!("{} mm", show(wide));
-            Offer {
-                title: format!("use `scallop <= {text}`"),
-                edits: vec![(span, text)],
-                changed,
-            }
-        })
         .collect()
 }
 

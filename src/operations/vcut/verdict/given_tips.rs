@@ -1,7 +1,7 @@
 //! Chips of given tips that do not come free: reported at the tip, with a longer edge that was tried.
 
 use super::attempts::Attempts;
-use super::not_freed::UsableEdge;
+use super::usable_edge::UsableEdge;
 use crate::asked::{RoughVcut, Tips};
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::show;

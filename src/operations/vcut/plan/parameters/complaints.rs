@@ -1,8 +1,8 @@
 //! What is said of parameters that contradict one another as they are given.
 
 use crate::asked::{Objective, RoughVcut};
-use crate::plan::complaints::wider_scallops;
 use crate::plan::refusal::{Ladder, Offer, Refused};
+use crate::plan::wider::wider_scallops;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;

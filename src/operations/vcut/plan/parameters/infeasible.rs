@@ -3,9 +3,9 @@
 
 use super::complaints::check_given;
 use crate::asked::RoughVcut;
-use crate::plan::complaints::wider_scallops;
 use crate::plan::optimum::{self, Bound, Problem};
 use crate::plan::refusal::{Ladder, Offer, Refused};
+use crate::plan::wider::wider_scallops;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
