@@ -1,6 +1,6 @@
 //! A disc and how it passes: what a pass needs to know, and what it reports.
 
-use super::rim::{Rim, axis};
+use super::rim::{Drift, Rim, axis};
 use super::surface::Side;
 use vcutc_backend_api::ir::BodyStage;
 use vcutc_backend_api::units::{Angle, Area, Length};
@@ -45,7 +45,7 @@ impl DiscPass {
 }
 
 /// A straight way of a disc along y that takes the skin off the part: what roughing has left, wherever the rim comes out of it. The
-/// axis leans along the feed by a lead above 0, and is rolled about the feed to stand on the part. A way that climbs is seen along
+/// axis leans along the feed by a lead above 0, and is rolled about the feed to stand on the part. A way that drifts is seen along
 /// itself in the section through the centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkinPass {
@@ -53,12 +53,12 @@ pub struct SkinPass {
     pub centre: Point2,
     /// The x at which the disc stands on the part, in mm: what stands there has to come free.
     pub contact: f64,
-    /// How far the axis leans along y, in the sense of the feed: on a way that does not climb the lead.
+    /// How far the axis leans along y, in the sense of the feed: on a way that does not drift the lead.
     pub lead: Angle,
     /// By how much it leans towards -x.
     pub roll: Angle,
-    /// How much higher the way gets with each mm of y.
-    pub climb: f64,
+    /// How the way leads aside and up.
+    pub drift: Drift,
     /// How thick a strip may be that runs over the body of the disc; at least as thick as there is room below the body.
     pub over_hub: Length,
     /// Air around the body.
@@ -69,7 +69,7 @@ impl SkinPass {
     /// What its edge covers.
     #[must_use]
     pub fn rim(&self, disc: &Disc) -> Rim {
-        Rim::climbing(self.centre, disc.radius, [self.lead, self.roll], self.climb)
+        Rim::swept(self.centre, disc.radius, [self.lead, self.roll], self.drift)
     }
 
     /// How far ahead of the centre, along y in the sense of the feed, the edge is where its rim lies over an x, in mm. Beyond its
@@ -77,11 +77,13 @@ impl SkinPass {
     #[must_use]
     pub fn ahead(&self, disc: &Disc, x: f64) -> f64 {
         let [aside, along, up] = axis(self.lead, self.roll);
-        let rest = (1.0 - aside * aside).max(f64::MIN_POSITIVE);
+        let right = self.drift.right;
+        let rest = self.drift.width_square(aside, along);
         let half = disc.radius.to_mm() * rest.sqrt();
         let off = (x - self.centre.x).max(-half).min(half);
-        // As the ellipse of `Rim::climbing`, in plan; the lower half of the rim is the leading one.
-        (up * (half * half - off * off).max(0.0).sqrt() - aside * along * off) / rest
+        // As the ellipse of `Rim::swept`, in plan; the lower half of the rim is the leading one.
+        let turned = right + (aside - right * along) * along;
+        (up * (half * half - off * off).max(0.0).sqrt() - turned * off) / rest
     }
 }
 

@@ -16,6 +16,30 @@ mod tests;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::curve::Point2;
 
+/// How far a disc gets aside and up with each mm that it goes along y.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drift {
+    /// Towards +x.
+    pub right: f64,
+    /// Towards +z.
+    pub climb: f64,
+}
+
+impl Drift {
+    /// Straight along y.
+    pub const NONE: Self = Self {
+        right: 0.0,
+        climb: 0.0,
+    };
+
+    /// The square of half the width of the ellipse that a disc of radius 1 shows as, with these parts of its axis along x and y: above 0
+    /// of an axis that points up.
+    pub(crate) fn width_square(self, x: f64, y: f64) -> f64 {
+        let p = x - self.right * y;
+        (1.0 + self.right * self.right - p * p).max(f64::MIN_POSITIVE)
+    }
+}
+
 /// The lower half of the ellipse that a disc's edge shows as.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rim {
@@ -64,26 +88,28 @@ impl Rim {
         }
     }
 
-    /// The rim of a disc that climbs on its way along y by so much for each mm, seen along that way in the section through its
-    /// centre. Its axis leans by the lead along y, and by the roll towards -x.
+    /// The rim of a disc that drifts on its way along y, seen along that way in the section through its centre. Its axis leans by the
+    /// lead along y, and by the roll towards -x.
     ///
-    /// A point at the distance y along the way from the centre passes that section `climb y` lower: the circle of the edge, sheared
-    /// so, shows as an ellipse again. With the axis `a` and `s = a_z - climb a_y`, its half width is `R sqrt(1 - a_x^2)`, the slope of
-    /// its conjugate diameter `-a_x s / (1 - a_x^2)`, and it hangs below that by `(a_y + climb a_z) / (1 - a_x^2)` times its half
-    /// width: twice its area is `R^2` times the part of the axis along `(0, 1, climb)`.
+    /// A point at the distance y along the way from the centre passes that section `right y` farther left and `climb y` lower: the
+    /// circle of the edge, sheared so, shows as an ellipse again. With the axis `a`, `p = a_x - right a_y`, `q = a_z - climb a_y` and
+    /// `c = 1 + right^2 - p^2`, its half width is `R sqrt(c)`, the slope of its conjugate diameter `(right climb - p q) / c`, and it hangs
+    /// below that by `(right a_x + a_y + climb a_z) / c` times its half width: twice its area is `R^2` times the part of the axis along
+    /// `(right, 1, climb)`.
     #[must_use]
-    pub fn climbing(centre: Point2, radius: Length, [lead, roll]: [Angle; 2], climb: f64) -> Self {
-        if climb == 0.0 {
+    pub fn swept(centre: Point2, radius: Length, [lead, roll]: [Angle; 2], drift: Drift) -> Self {
+        if drift == Drift::NONE {
             return Self::rolled(centre, radius, lead, roll);
         }
+        let Drift { right, climb } = drift;
         let [x, y, z] = axis(lead, roll);
-        // At most 1, and above 0 of an axis that points up.
-        let rest = (1.0 - x * x).max(f64::MIN_POSITIVE);
+        let (p, q) = (x - right * y, z - climb * y);
+        let rest = drift.width_square(x, y);
         Self {
             centre,
             half: radius.to_mm() * rest.sqrt(),
-            sag: (y + climb * z).abs() / rest,
-            slope: -x * (z - climb * y) / rest,
+            sag: (right * x + y + climb * z).abs() / rest,
+            slope: (right * climb - p * q) / rest,
             overhang: radius.to_mm() * (1.0 - y * y).max(0.0).sqrt(),
         }
     }

@@ -23,6 +23,7 @@ use vcutc_job::Auto;
 use vcutc_simulation::contour::farthest;
 use vcutc_simulation::cross_section::{CrossSection, Guard};
 use vcutc_simulation::disc::{Disc, PassFault, SkinPass};
+use vcutc_simulation::rim::Drift;
 use vcutc_simulation::surface::Surface;
 
 /// Most tracks that are planned.
@@ -223,7 +224,7 @@ fn simulated(work: Work<'_>, wish: &Wish, planned: &PlannedFinish) -> Result<Sur
             contact: track.contact.x,
             lead,
             roll: track.roll,
-            climb: 0.0,
+            drift: Drift::NONE,
             over_hub: wish.over_hub,
             clearance: wish.clearance,
         };

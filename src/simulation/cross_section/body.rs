@@ -6,7 +6,7 @@
 
 use super::TOUCH;
 use crate::disc::{Disc, PassFault};
-use crate::rim::{Line, Rim, axis};
+use crate::rim::{Drift, Line, Rim, axis};
 use crate::surface::Surface;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::curve::Point2;
@@ -68,8 +68,8 @@ pub(super) struct Stand {
     pub(super) centre: Point2,
     pub(super) lead: Angle,
     pub(super) roll: Angle,
-    /// How much higher its way gets with each mm of y.
-    pub(super) climb: f64,
+    /// How its way leads aside and up.
+    pub(super) drift: Drift,
     /// Air around the body.
     pub(super) clearance: Length,
     /// Over what slivers below the centre are gone before the body comes.
@@ -82,15 +82,16 @@ pub(super) fn contacts(surface: &mut Surface, disc: &Disc, stand: &Stand, out: &
     let [aside, along, up] = axis(stand.lead, stand.roll);
     for (number, stage) in disc.body.iter().enumerate() {
         let rise = stage.from.to_mm();
-        // What lies farther along the way passes the section that much lower.
+        // What lies farther along the way passes the section that much farther back on it.
+        let Drift { right, climb } = stand.drift;
         let centre = Point2::new(
-            stand.centre.x + rise * aside,
-            stand.centre.z + rise * (up - stand.climb * along),
+            stand.centre.x + rise * (aside - right * along),
+            stand.centre.z + rise * (up - climb * along),
         );
         // What touches the clearance is clear.
         let radius = stage.radius + stand.clearance - Length::mm(TOUCH);
         let stage = Stage {
-            edge: Rim::climbing(centre, radius, [stand.lead, stand.roll], stand.climb),
+            edge: Rim::swept(centre, radius, [stand.lead, stand.roll], stand.drift),
             cover: stand.cover,
             centre: stand.centre,
         };

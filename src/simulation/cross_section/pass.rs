@@ -5,7 +5,7 @@ use super::crack::{Crack, Undercut};
 use super::sweep::{End, Piece, Sweep};
 use super::{Chip, CrossSection, Guard, TOUCH, Taken};
 use crate::disc::{Disc, DiscPass, Freed, PassFault, PassOutcome};
-use crate::rim::Rim;
+use crate::rim::{Drift, Rim};
 use crate::surface::Side;
 use vcutc_backend_api::units::{Angle, Area, Length};
 use vcutc_geometry::curve::Point2;
@@ -33,7 +33,7 @@ impl CrossSection {
             centre: pass.centre,
             lead: pass.lead,
             roll: Angle::ZERO,
-            climb: 0.0,
+            drift: Drift::NONE,
             clearance: pass.clearance,
             cover: Some(rim.cover()),
         };

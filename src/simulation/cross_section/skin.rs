@@ -43,7 +43,7 @@ impl CrossSection {
             centre: pass.centre,
             lead: pass.lead,
             roll: pass.roll,
-            climb: pass.climb,
+            drift: pass.drift,
             clearance: pass.clearance,
             cover: None,
         };

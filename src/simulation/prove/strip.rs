@@ -5,7 +5,7 @@ use super::flank::FlankGeometry;
 use super::{Cut, CutFault, Finding, Player};
 use crate::cross_section::Guard;
 use crate::disc::{Disc, DiscPass, SkinPass};
-use crate::rim::Rim;
+use crate::rim::{Drift, Rim};
 use crate::surface::{Side, Surface};
 use vcutc_backend_api::geometry::Orientation;
 use vcutc_backend_api::ir::{self, Blade, OperationId, Program, Shape, Stock};
@@ -154,7 +154,7 @@ impl Through {
             contact: nearest.map_or(self.centre.x, |(at, _)| at.x),
             lead: self.lead,
             roll: self.roll,
-            climb: 0.0,
+            drift: Drift::NONE,
             over_hub: skin.over_hub,
             clearance: skin.clearance,
         }

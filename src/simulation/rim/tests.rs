@@ -49,15 +49,15 @@ proptest! {
         prop_assert!((touching.z - slope * (touching.x - x) - rim.flank(slope)).abs() < 1e-9 * radius);
     }
 
-    /// The same of one that climbs: its points, each moved along its way into the section through the centre. And how far along the way
+    /// The same of one that drifts: its points, each moved along its way into the section through the centre. And how far along the way
     /// they lie.
     #[test]
-    fn climbing_it_is_the_lower_edge_of_a_circle_that_is_swept(
+    fn drifting_it_is_the_lower_edge_of_a_circle_that_is_swept(
         (radius, lead, roll) in (1.0..80.0_f64, -10.0..20.0_f64, -40.0..40.0_f64),
-        climb in -0.6..0.6_f64, share in -0.99..0.99_f64,
+        right in -0.6..0.6_f64, climb in -0.6..0.6_f64, share in -0.99..0.99_f64,
     ) {
         let [x, y, z] = axis(Angle::deg(lead), Angle::deg(roll));
-        let ahead = (y + climb * z) / (1.0 + climb * climb).sqrt();
+        let ahead = (right * x + y + climb * z) / (1.0 + right * right + climb * climb).sqrt();
         prop_assume!(ahead > 0.02);
         // Two directions square to the axis.
         let u = [z, 0.0, -x].map(|part| part / (x * x + z * z).sqrt());
@@ -68,7 +68,7 @@ proptest! {
             contact: 3.0,
             lead: Angle::deg(lead),
             roll: Angle::deg(roll),
-            climb,
+            drift: Drift { right, climb },
             over_hub: Length::ZERO,
             clearance: Length::ZERO,
         };
@@ -80,7 +80,7 @@ proptest! {
         for i in 0..20_000_u32 {
             let (sine, cosine) = libm::sincos(f64::from(i) / 20_000.0 * core::f64::consts::TAU);
             let off: [f64; 3] = core::array::from_fn(|i| radius * (u[i] * cosine + v[i] * sine));
-            let (at, height) = (3.0 + off[0], 5.0 + off[2] - climb * off[1]);
+            let (at, height) = (3.0 + off[0] - right * off[1], 5.0 + off[2] - climb * off[1]);
             prop_assert!(height >= rim.height(at) - 1e-6, "{at} {height} {}", rim.height(at));
             // Of both points over the place the lower one.
             if (at - place).abs() < radius * 2e-3 && height < nearest.0 {

@@ -16,6 +16,7 @@ use vcutc_process::posture::Feed;
 use vcutc_simulation::cross_section::Guard;
 use vcutc_simulation::disc::{Disc, SkinPass};
 use vcutc_simulation::prove::Skin;
+use vcutc_simulation::rim::Drift;
 use vcutc_surface::disc::{Axis, Pose};
 
 /// How often the place of the contact is looked for: its distance from the centre hardly changes along a track.
@@ -42,7 +43,7 @@ struct Held {
 impl Held {
     /// How much x and z of a point of the disc change with each mm that it goes along y, in the sense of the feed: it moves with the
     /// centre, and turns with the axis. The point lies so far to the right of the centre, and ahead.
-    fn drift(&self, right: f64, ahead: f64) -> [f64; 2] {
+    fn drift(&self, right: f64, ahead: f64) -> Drift {
         let a = self.axis;
         let along = self.feed.along(ahead);
         // Of the face, so square to the axis.
@@ -51,7 +52,10 @@ impl Held {
         let round = cross(spin, off);
         let moved: [f64; 3] = core::array::from_fn(|i| self.velocity[i] + round[i]);
         let along = self.feed.along(moved[1]);
-        [moved[0] / along, moved[2] / along]
+        Drift {
+            right: moved[0] / along,
+            climb: moved[2] / along,
+        }
     }
 }
 
@@ -155,13 +159,13 @@ fn seen(held: &Held, [beside, ahead]: [f64; 2], skin: Skin) -> SkinPass {
     // Along the feed: the axis leans to either side of the plane of x and z.
     let [aside, along, up] = held.axis;
     let along = held.feed.along(along);
-    let [right, climb] = held.drift(beside, ahead);
+    let drift = held.drift(beside, ahead);
     SkinPass {
-        centre: Point2::new(x + right * ahead, z + climb * ahead),
+        centre: Point2::new(x + drift.right * ahead, z + drift.climb * ahead),
         contact: x,
         lead: Angle::rad(libm::atan2(along, libm::hypot(aside, up))),
         roll: Angle::rad(libm::atan2(-aside, up)),
-        climb,
+        drift,
         over_hub: skin.over_hub,
         clearance: skin.clearance,
     }

@@ -3,6 +3,7 @@
 use super::super::body::{Stand, contacts};
 use super::*;
 use crate::disc::PassFault;
+use crate::rim::Drift;
 use crate::surface::Vee;
 use proptest::prelude::*;
 
@@ -26,7 +27,7 @@ proptest! {
             centre: pass.centre,
             lead: pass.lead,
             roll: Angle::ZERO,
-            climb: 0.0,
+            drift: Drift::NONE,
             clearance: pass.clearance,
             cover: Some(pass.rim(&disc).cover()),
         };

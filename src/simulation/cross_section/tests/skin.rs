@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::disc::{Hold, PassFault, SkinPass};
-use crate::rim::Rim;
+use crate::rim::{Drift, Rim};
 use crate::surface::Vee;
 use proptest::prelude::*;
 
@@ -13,7 +13,7 @@ fn over(centre: Point2, lead: f64, roll: f64) -> SkinPass {
         contact: rim.touching(libm::tan(f64::to_radians(roll))).x,
         lead: Angle::deg(lead),
         roll: Angle::deg(roll),
-        climb: 0.0,
+        drift: Drift::NONE,
         over_hub: Length::mm(100.0),
         clearance: Length::ZERO,
     }

@@ -29,59 +29,95 @@ fn poses(bends: [f64; 2], x: f64, lean: Lean, feed: Feed) -> Vec<Pose> {
     poses
 }
 
+/// Compares a pass with the points of the edge as they cross the section, each at a time of its own: the lowest of them over a place are
+/// what the disc leaves there.
+fn compare_with_points(bends: [f64; 2], x: f64, lean: Lean, feed: Feed) {
+    let poses = poses(bends, x, lean, feed);
+    let section = 60.0;
+    let part = (0..=100_u32).map(|k| Point2::new(f64::from(k), height(bends, f64::from(k), section)));
+    let part = Profile::new(part.collect()).unwrap();
+    let disc = Disc {
+        radius: Length::mm(RADIUS),
+        depth: None,
+        width: None,
+        body: Vec::new(),
+    };
+    let skin = Skin {
+        depth: Length::ZERO,
+        width: Length::ZERO,
+        over_hub: Length::ZERO,
+        clearance: Length::ZERO,
+    };
+    let way = Way::new(poses.clone()).unwrap();
+    let (pass, _) = way.pass(section, &disc, skin, &Guard::new(&part)).unwrap();
+    assert!((pass.contact - x).abs() < 1.5, "{} {x}", pass.contact);
+    let rim = pass.rim(&disc);
+    // By the way: points of the edge that cross the section between two moments.
+    let mut lowest = [f64::INFINITY; 16];
+    for turn in (0..7200_u32).map(|k| f64::from(k) / 20.0).map(f64::to_radians) {
+        let at = |pose: &Pose| {
+            let [a, b, c] = pose.axis.to_array();
+            let flat = libm::hypot(a, c);
+            let u = [c / flat, 0.0, -a / flat];
+            let v = [b * u[2] - c * u[1], c * u[0] - a * u[2], a * u[1] - b * u[0]];
+            let (sine, cosine) = libm::sincos(turn);
+            let centre = pose.centre.to_array();
+            let point: [f64; 3] =
+                core::array::from_fn(|i| centre[i] + RADIUS * (u[i] * cosine + v[i] * sine));
+            point
+        };
+        for (from, to) in poses.iter().map(at).zip(poses.iter().skip(1).map(at)) {
+            let done = (section - from[1]) / (to[1] - from[1]);
+            if (0.0..1.0).contains(&done) {
+                let (px, pz) = (
+                    from[0] + (to[0] - from[0]) * done,
+                    from[2] + (to[2] - from[2]) * done,
+                );
+                let place = px - x + 8.0;
+                if (0.0..16.0).contains(&place) {
+                    let above = pz - rim.height(px);
+                    lowest[place as usize] = lowest[place as usize].min(above);
+                }
+            }
+        }
+    }
+    for (place, above) in lowest.into_iter().enumerate() {
+        // By the bend of the way over the distance between this point and the contact.
+        let at = x + place as f64 - 7.5;
+        let behind = (pass.ahead(&disc, at) - pass.ahead(&disc, pass.contact)).abs() + 0.5;
+        let bend = bends[1].abs() * behind * behind;
+        assert!(above.abs() < 0.001 + bend, "{above} at {place}, not {bend}");
+    }
+}
+
+fn leaning(lead: f64, side: f64) -> Lean {
+    Lean {
+        lead: Angle::deg(lead),
+        side: Angle::deg(side),
+    }
+}
+
+const fn feed(is_forward: bool) -> Feed {
+    if is_forward { Feed::Forward } else { Feed::Backward }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
-    /// Each point of the edge passes the section at a time of its own; the lowest of them over a place are what the disc leaves there.
     #[test]
     fn a_pass_is_what_the_edge_leaves_in_a_section(
         across in -0.002..0.001f64, along in -0.0005..0.0005f64, x in 35.0..65.0f64,
         lead in 3.0..10.0f64, side in -3.0..3.0f64, is_forward: bool,
     ) {
-        let bends = [across, along];
-        let feed = if is_forward { Feed::Forward } else { Feed::Backward };
-        let lean = Lean { lead: Angle::deg(lead), side: Angle::deg(side) };
-        let poses = poses(bends, x, lean, feed);
-        let section = 60.0;
-        let part = (0..=100_u32).map(|k| Point2::new(f64::from(k), height(bends, f64::from(k), section)));
-        let part = Profile::new(part.collect()).unwrap();
-        let disc = Disc { radius: Length::mm(RADIUS), depth: None, width: None, body: Vec::new() };
-        let skin = Skin { depth: Length::ZERO, width: Length::ZERO, over_hub: Length::ZERO, clearance: Length::ZERO };
-        let way = Way::new(poses.clone()).unwrap();
-        let (pass, _) = way.pass(section, &disc, skin, &Guard::new(&part)).unwrap();
-        prop_assert!((pass.contact - x).abs() < 1.5, "{} {x}", pass.contact);
-        let rim = pass.rim(&disc);
-        // By the way: points of the edge that cross the section between two moments.
-        let mut lowest = [f64::INFINITY; 16];
-        for turn in (0..7200_u32).map(|k| f64::from(k) / 20.0).map(f64::to_radians) {
-            let at = |pose: &Pose| {
-                let [a, b, c] = pose.axis.to_array();
-                let flat = libm::hypot(a, c);
-                let u = [c / flat, 0.0, -a / flat];
-                let v = [b * u[2] - c * u[1], c * u[0] - a * u[2], a * u[1] - b * u[0]];
-                let (sine, cosine) = libm::sincos(turn);
-                let centre = pose.centre.to_array();
-                let point: [f64; 3] = core::array::from_fn(|i| centre[i] + RADIUS * (u[i] * cosine + v[i] * sine));
-                point
-            };
-            for (from, to) in poses.iter().map(at).zip(poses.iter().skip(1).map(at)) {
-                let done = (section - from[1]) / (to[1] - from[1]);
-                if (0.0..1.0).contains(&done) {
-                    let (px, pz) = (from[0] + (to[0] - from[0]) * done, from[2] + (to[2] - from[2]) * done);
-                    let place = px - x + 8.0;
-                    if (0.0..16.0).contains(&place) {
-                        let above = pz - rim.height(px);
-                        lowest[place as usize] = lowest[place as usize].min(above);
-                    }
-                }
-            }
-        }
-        for (place, above) in lowest.into_iter().enumerate() {
-            // By the bend of the way over the distance between this point and the contact.
-            let at = x + place as f64 - 7.5;
-            let behind = (pass.ahead(&disc, at) - pass.ahead(&disc, pass.contact)).abs() + 0.5;
-            let bend = along.abs() * behind * behind;
-            prop_assert!(above.abs() < 0.001 + bend, "{above} at {place}, not {bend}");
-        }
+        compare_with_points([across, along], x, leaning(lead, side), feed(is_forward));
+    }
+
+    /// On a flank across the tracks the axis turns about the way as the part falls off along it, and the disc gets aside.
+    #[test]
+    fn a_pass_on_a_flank_is_what_the_edge_leaves_in_a_section(
+        across in -0.02..-0.01f64, along in -0.0005..0.0005f64, x in prop_oneof![15.0..30.0f64, 70.0..85.0f64],
+        lead in 3.0..10.0f64, side in -3.0..3.0f64, is_forward: bool,
+    ) {
+        compare_with_points([across, along], x, leaning(lead, side), feed(is_forward));
     }
 }
 
