@@ -3,6 +3,7 @@
 mod air;
 #[cfg(feature = "krl")]
 mod convert;
+mod effort;
 mod examples;
 mod inner_form;
 mod overrides;

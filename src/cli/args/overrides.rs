@@ -1,9 +1,10 @@
-//! What the command line says over what a job says, and how hard to search.
+//! What the command line says over what a job says.
 
+use super::effort::EffortArg;
 use crate::cli::Targets;
 use crate::cli::files::Disk;
-use clap::{Args, ValueEnum};
-use vcutc_driver::{Request, SearchEffort, Typed};
+use clap::Args;
+use vcutc_driver::{Request, Typed};
 use vcutc_registry::OPERATIONS;
 
 /// What the command line says over what the job says.
@@ -21,27 +22,8 @@ pub(in crate::cli) struct Overrides {
     #[arg(long, value_name = "NAME")]
     pub(in crate::cli) machine: Option<String>,
 
-    /// How hard to search for the parameters of V cuts that the job leaves open
-    ///
-    /// `high` makes up to ten times as many plans. Programs differ, and so do the hashes in their heads.
-    #[arg(long, value_name = "EFFORT", value_enum, default_value_t = EffortWord::Normal)]
-    pub(in crate::cli) effort: EffortWord,
-}
-
-/// How hard to search.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum EffortWord {
-    Normal,
-    High,
-}
-
-impl From<EffortWord> for SearchEffort {
-    fn from(word: EffortWord) -> Self {
-        match word {
-            EffortWord::Normal => Self::Normal,
-            EffortWord::High => Self::High,
-        }
-    }
+    #[command(flatten)]
+    pub(in crate::cli) effort: EffortArg,
 }
 
 impl Overrides {
@@ -53,7 +35,7 @@ impl Overrides {
             overrides: &self.set,
             machine: self.machine.as_deref(),
             options: Typed::default(),
-            effort: self.effort.into(),
+            effort: self.effort.effort.into(),
             operations: OPERATIONS,
             targets,
         }

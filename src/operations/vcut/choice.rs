@@ -31,6 +31,7 @@ use crate::plan::decision::{Candidate, Decision, Excess, Standing};
 use crate::plan::parameters::{Refusal, VcutParameters};
 use crate::plan::refusal::Refused;
 use crate::plan::residual::Strategies;
+use crate::plan::searched::Searched;
 use crate::plan::{LaidOut, PARAMETERS, PlannedVcut, lay_out, parameters};
 use assumed::is_searched;
 use bench::{Bench, Figures, MEASURED_TO};
@@ -98,12 +99,18 @@ fn searched(bench: &Bench<'_>, asked: &RoughVcut, within: &RoughVcut) -> Result<
         SearchEffort::Normal => found,
         SearchEffort::High => match (found, search(&bench.with_effort(SearchEffort::Normal))) {
             (Ok(found), Ok(usual)) => {
+                let plans = [found.vcut.searched, usual.vcut.searched];
                 let [found, usual] = [found, usual].map(|laid| {
                     let limit = laid.vcut.asked.limits.scallop.map(|limit| limit.value);
                     bench.weigh(laid).held_to(limit, within)
                 });
                 let is_better = found.compare(&usual) == Ordering::Less;
-                Ok(if is_better { found.laid } else { usual.laid })
+                let mut best = if is_better { found.laid } else { usual.laid };
+                best.vcut.searched = match plans {
+                    [Some(found), Some(usual)] => Some(found.after(usual)),
+                    [found, usual] => found.or(usual),
+                };
+                Ok(best)
             }
             (Ok(laid), Err(_)) | (Err(_), Ok(laid)) => Ok(laid),
             (Err(unplanned), Err(_)) => Err(unplanned),
@@ -338,6 +345,7 @@ fn any_within_limits(bench: &Bench<'_>, asked: &RoughVcut) -> Option<LaidOut> {
         parameters,
         by: FoundBy::Simulation,
         by_formulas: None,
+        searched: None,
     };
     let laid = best_found(bench, asked, found).ok()?;
     limits::broken(bench, asked, &laid.vcut).is_none().then_some(laid)
@@ -390,7 +398,8 @@ fn best_on(bench: &Bench<'_>, asked: &RoughVcut, lattices: &[Lattice]) -> Result
 
 /// The operation with the parameters that a search came to.
 fn best_found(bench: &Bench<'_>, asked: &RoughVcut, found: Found) -> Result<LaidOut, Unplanned> {
-    let laid = best_residual(bench, asked, &found.parameters)?;
+    let mut laid = best_residual(bench, asked, &found.parameters)?;
+    laid.vcut.searched = found.searched;
     match found.by {
         FoundBy::Formulas => Ok(laid),
         FoundBy::Simulation => {
@@ -426,7 +435,9 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unp
     }
     by_model.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let mut contest = Contest::new();
+    let mut searched: Vec<Searched> = Vec::new();
     if let Some(fitted) = best_fitted(bench, asked) {
+        searched.extend(fitted.laid.vcut.searched);
         contest.enter(Lattice::Fitted.word(), fitted);
     }
     // A lattice on which too many cuts are needed to compare them is the last resort.
@@ -439,7 +450,9 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unp
             continue;
         }
         let rival = best.and_then(|best| best.standing.time());
-        match trial::parameters(bench, asked, &[lattice], rival) {
+        let found = trial::parameters(bench, asked, &[lattice], rival);
+        searched.extend(found.as_ref().ok().and_then(|found| found.searched));
+        match found {
             Ok(found) if found.is_large(&bench.job, asked) => {
                 contest.rule_out(what, Standing::NotCompared);
                 large.get_or_insert((what, found));
@@ -455,7 +468,10 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unp
             },
         }
     }
-    let best = contest.finish("lattice");
+    let best = contest.finish("lattice").map(|mut best| {
+        best.laid.vcut.searched = searched.into_iter().reduce(Searched::and);
+        best
+    });
     match (best, large) {
         (Some(best), None) => Ok(best.laid),
         (Some(best), Some(_)) if best.standing.time().is_some() => Ok(best.laid),

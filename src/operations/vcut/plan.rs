@@ -24,6 +24,7 @@ pub mod refusal;
 pub mod removable;
 pub mod residual;
 pub mod route;
+pub mod searched;
 pub mod time_model;
 mod wider;
 
@@ -44,6 +45,7 @@ use parameters::VcutParameters;
 use refusal::Refused;
 use residual::Strategies;
 use route::Run;
+use searched::Searched;
 use std::borrow::Cow;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{Duration, Length};
@@ -85,6 +87,8 @@ pub struct PlannedVcut {
     pub compensation: Option<Compensated>,
     /// Why it came out so, where the job left the choice open.
     pub decisions: Vec<Decision>,
+    /// How far its parameters were searched for; none where formulas decided them.
+    pub searched: Option<Searched>,
 }
 
 /// Tips that are offset against forces.
@@ -255,6 +259,7 @@ fn unplanned(job: &PlanningJob<'_>, asked: &RoughVcut, ground: Ground<'_>) -> Pl
         runs: Vec::new(),
         compensation: None,
         decisions: Vec::new(),
+        searched: None,
     }
 }
 

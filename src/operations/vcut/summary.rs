@@ -60,6 +60,7 @@ pub(crate) fn summary(vcut: &PlannedVcut, report: &Report) -> Vec<(&'static str,
     lines.extend(skipped(vcut).map(|skipped| ("skipped", skipped)));
     lines.extend(avoided(vcut).map(|avoided| ("avoid", avoided)));
     lines.extend(followed(&vcut.asked).map(|followed| ("follow", followed)));
+    lines.extend(vcut.searched.map(|searched| ("searched", searched.words())));
     for decision in &vcut.decisions {
         lines.push(("compared", format!("{}: {}", decision.field, compared(decision))));
     }

@@ -87,6 +87,7 @@ pub(super) fn finest(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Un
         parameters: search.changed(&assumed, parameters),
         by: FoundBy::Simulation,
         by_formulas,
+        searched: None,
     };
     best_found(bench, &assumed, found).map(|laid| as_asked(laid, asked))
 }

@@ -28,6 +28,7 @@ use crate::plan::decision::Standing;
 use crate::plan::floor::Floor;
 use crate::plan::optimum::Bound;
 use crate::plan::parameters::{self, Refusal, VcutParameters};
+use crate::plan::searched::{End, Searched};
 use crate::plan::{LaidOut, lay_out};
 use core::cmp::Ordering;
 use rayon::prelude::*;
@@ -73,6 +74,8 @@ pub(super) struct Found {
     pub(super) by: FoundBy,
     /// What came of the formulas' parameters, where others are better.
     pub(super) by_formulas: Option<Standing>,
+    /// How far it went; none where nothing was searched.
+    pub(super) searched: Option<Searched>,
 }
 
 impl Found {
@@ -91,7 +94,7 @@ pub(super) fn parameters(
     rival: Option<Duration>,
 ) -> Result<Found, Unplanned> {
     let by_bound = match by_formulas(bench, asked, lattices) {
-        Ok(found) if !is_searched(asked) => return Ok(plain(found)),
+        Ok(found) if !is_searched(asked) => return Ok(plain(found, None)),
         Ok(found) => Ok(found),
         Err(refusal) if goes_on(asked, &refusal) => Err(refusal),
         Err(refusal) => return Err(refusal.into()),
@@ -99,13 +102,15 @@ pub(super) fn parameters(
     let mut trials = Trials::new(bench, asked, lattices);
     trials.rival = rival;
     let by_formulas = trials.search(by_bound.as_ref().ok());
+    let searched = trials.searched();
     match (trials.best(), by_bound) {
-        (None, by_bound) => by_bound.map(plain).map_err(Unplanned::from),
-        (Some(best), Ok(bound)) if alike(&bound, &best) && !trials.is_fitted() => Ok(plain(bound)),
+        (None, by_bound) => Ok(plain(by_bound?, searched)),
+        (Some(best), Ok(bound)) if alike(&bound, &best) && !trials.is_fitted() => Ok(plain(bound, searched)),
         (Some(parameters), Ok(_) | Err(_)) => Ok(Found {
             parameters,
             by: FoundBy::Simulation,
             by_formulas,
+            searched,
         }),
     }
 }
@@ -174,11 +179,12 @@ fn by_cuts(table: &[(usize, usize)], cuts: usize) -> usize {
 }
 
 /// What the formulas say.
-const fn plain(parameters: VcutParameters) -> Found {
+const fn plain(parameters: VcutParameters, searched: Option<Searched>) -> Found {
     Found {
         parameters,
         by: FoundBy::Formulas,
         by_formulas: None,
+        searched,
     }
 }
 
@@ -284,6 +290,8 @@ struct Trials<'t> {
     spread_from: Option<usize>,
     /// How many plans were made since the best one.
     since_best: usize,
+    /// Why the search ends.
+    end: End,
 }
 
 impl<'t> Trials<'t> {
@@ -305,6 +313,7 @@ impl<'t> Trials<'t> {
             rival: None,
             spread_from: None,
             since_best: 0,
+            end: End::NoneBetter,
         }
     }
 
@@ -365,6 +374,16 @@ impl<'t> Trials<'t> {
             parameters.binding.dedup();
         }
         Some(parameters)
+    }
+
+    /// How far it went; none where nothing was planned.
+    fn searched(&self) -> Option<Searched> {
+        (!self.tried.is_empty()).then_some(Searched {
+            plans: self.tried.len(),
+            lattices: self.lattices.len(),
+            end: self.end,
+            effort: self.bench.effort,
+        })
     }
 
     fn may_go_on(&self) -> bool {
@@ -558,6 +577,9 @@ impl<'t> Trials<'t> {
             .plans_left
             .unwrap_or_else(|| by_cuts(self.most_plans, cuts) * self.times());
         self.plans_left = Some(left.saturating_sub(1));
+        if left <= 1 {
+            self.end = End::Budget;
+        }
     }
 
     fn model(&self, found: &VcutParameters) -> Duration {
