@@ -116,6 +116,8 @@ fn without(what: What, material: &Material<'_>) -> Failure {
             "the part is a profile, the same at every y, so there is nothing to show from above",
         )
         .help("draw `--what contour` or `--what deviation`, or write `surface { ... }` instead of `profile`"),
+        What::Finished => Failure::new("no operation finishes a part that changes along y")
+            .help("write `finish disc` after the roughing of a `surface`, or draw `--what contour`"),
         What::Process => Failure::new("the job leaves no choice between two processes that both compile")
             .help("write `rough auto { ... }` with blocks `vcut` and `rect`"),
         What::Field => Failure::new("no pocket of the job is cleared along a sound field")
@@ -138,8 +140,8 @@ fn without(what: What, material: &Material<'_>) -> Failure {
     }
 }
 
-/// The picture; none where it is about the machine and the job has none, about a choice that it does not leave, or about a surface
-/// and the part is a profile.
+/// The picture; none where it is about the machine and the job has none, about a choice that it does not leave, or about a
+/// surface, or what finishing leaves on one, and there is none.
 fn picture(what: What, material: &Material<'_>) -> Option<String> {
     let ids = Prefix::NONE;
     match what {
@@ -160,6 +162,7 @@ fn picture(what: What, material: &Material<'_>) -> Option<String> {
         What::Process => pictures::process(material, ids),
         What::Surface => pictures::surface(material, ids),
         What::Residual => pictures::residual(material, ids),
+        What::Finished => pictures::finished(material, ids),
         What::Passes => pictures::passes(material, ids),
         What::Field => pictures::wave(material, ids),
     }

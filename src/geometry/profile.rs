@@ -8,6 +8,7 @@ mod blocks;
 mod contour;
 mod level;
 mod nearest;
+mod standing;
 
 pub use contour::{Contour, Nearest};
 

@@ -42,14 +42,20 @@ const BESIDE: f64 = 36.0;
 /// Cells that are nearer to each other than this along x have the same line around them: what stands between two cuts and is higher
 /// than the limit.
 const NEAR: usize = 8;
-/// The least height of a class, in mm: smaller differences share a colour.
-const THINNEST: f64 = 0.01;
+/// Heights that differ by less than this, in mm, are shown with a decimal more.
+const FINE: f64 = 0.2;
 
 /// How many cells a map of a stock of this size along x and y should have: they are about square, and as small as can be distinguished.
 #[must_use]
 pub fn cells(size: [f64; 2]) -> [u32; 2] {
     let longest = size[0].max(size[1]);
     size.map(|length| ((CELLS * length / longest).round() as u32).clamp(FEWEST, CELLS as u32))
+}
+
+impl PlanMap<'_> {
+    fn decimals(&self) -> Decimals {
+        Decimals::of([self.lowest.1, self.highest.1])
+    }
 }
 
 /// Writes the map as SVG.
@@ -112,7 +118,9 @@ impl Classes {
             heights().reduce(f64::min).unwrap_or_default(),
             heights().reduce(f64::max).unwrap_or_default(),
         ];
-        let mut wanted = ((most - least) / f64::from(MOST_CLASSES)).max(THINNEST);
+        // Smaller differences than are shown share a colour.
+        let thinnest = libm::pow(10.0, -(Decimals::of([least, most]).0 as f64));
+        let mut wanted = ((most - least) / f64::from(MOST_CLASSES)).max(thinnest);
         loop {
             let step = round_step(wanted);
             let first = steps(least, step).floor();
@@ -204,6 +212,8 @@ fn close(row: &mut [bool]) {
 /// The highest and the lowest place; and the mean, in the colour of its class.
 fn marks(map: &PlanMap<'_>, classes: Classes) -> [Series; 3] {
     let ((highest, most), (lowest, least)) = (map.highest, map.lowest);
+    let decimals = map.decimals();
+    let shown = |height| decimals.shown(height);
     let mean = tiles::paint(classes.class(map.mean), classes.count);
     [
         Series::mark(Mark::CROSS, highest, None).named(format!("most, {} mm", shown(most))),
@@ -212,14 +222,32 @@ fn marks(map: &PlanMap<'_>, classes: Classes) -> [Series; 3] {
     ]
 }
 
-/// A height with two decimals, and never `-0.00`.
-#[must_use]
-pub fn shown(height: f64) -> String {
-    format!("{:.2}", (height * 100.0).round() / 100.0 + 0.0)
+/// How many decimals of heights are shown.
+#[derive(Clone, Copy, Debug)]
+pub struct Decimals(usize);
+
+impl Decimals {
+    /// For heights from the least to the greatest.
+    #[must_use]
+    pub fn of([least, most]: [f64; 2]) -> Self {
+        Self(if most - least < FINE { 3 } else { 2 })
+    }
+
+    /// A height, and never `-0.00`.
+    #[must_use]
+    pub fn shown(self, height: f64) -> String {
+        let text = format!("{height:.0$}", self.0);
+        match text.strip_prefix('-') {
+            Some(positive) if positive.chars().all(|c| c == '0' || c == '.') => positive.to_owned(),
+            Some(_) | None => text,
+        }
+    }
 }
 
 /// The map in words.
 fn description(map: &PlanMap<'_>) -> String {
+    let decimals = map.decimals();
+    let shown = |height| decimals.shown(height);
     let at = |[x, y]: Point, height: f64| format!("{} mm at x {x:.1} mm, y {y:.1} mm", shown(height));
     let limit = map.limit.map(|limit| {
         let cells = map.heights.iter().flatten().count().max(1);
@@ -231,7 +259,8 @@ fn description(map: &PlanMap<'_>) -> String {
             .count();
         let share = above as f64 / cells as f64 * 100.0;
         format!(
-            " {share:.1} percent of the cells have a place higher than the scallop limit of {limit:.2} mm."
+            " {share:.1} percent of the cells have a place higher than the scallop limit of {} mm.",
+            shown(limit)
         )
     });
     format!(
@@ -313,7 +342,7 @@ mod tests {
         }
         let level = [Some(20.0), Some(20.0)];
         let classes = Classes::of(&map([2, 1], &level, None));
-        assert_eq!(classes.words(classes.class(20.0)), "20.00 to 20.01 mm");
+        assert_eq!(classes.words(classes.class(20.0)), "20.000 to 20.001 mm");
     }
 
     #[test]

@@ -1,11 +1,12 @@
-//! Sections of a part that changes along y, one above the other: the part at each y, and the machined contour, which is the same at all.
+//! Sections of a part that changes along y, drawn over each other: the part at each y, with what finishing leaves there, and the
+//! contour of roughing, which is the same at every y.
 //!
-//! One section is shown. Those of the others are in the picture, too, not shown, each with its y as `data-y`: a page shows the one that
-//! its slider points at.
+//! One section is shown. Those of the others are in the picture, too, not shown, each with its number as `data-section` and its y as
+//! `data-y`: a page shows the one that its slider points at.
 
 use super::chart::FRAME;
 use super::lattice::PART;
-use super::palette::{INK, ORANGE};
+use super::palette::{BLUE, INK, ORANGE};
 use super::section::{BELOW, Section};
 use super::sheet::{self, Entry};
 use super::svg::Svg;
@@ -24,30 +25,46 @@ pub struct Sections<'a> {
     pub machined: &'a [[f64; 2]],
     /// The part's shadow along y, from left to right.
     pub shadow: &'a [[f64; 2]],
-    /// The part at each y, by growing y.
-    pub parts: &'a [(f64, Vec<[f64; 2]>)],
+    /// What is seen at each y, by growing y.
+    pub sections: &'a [Shown],
     /// Which of them is shown, counted from 0.
     pub shown: usize,
 }
 
+/// What is seen at a y, from left to right.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shown {
+    pub y: f64,
+    pub part: Vec<[f64; 2]>,
+    /// The contour that finishing leaves; empty where nothing is finished.
+    pub finished: Vec<[f64; 2]>,
+}
+
 const CONTOUR: &str = "stroke-width=\"1.6\" stroke-linejoin=\"round\"";
 const SHADOW: &str = "stroke-width=\"1.2\" stroke-dasharray=\"6 4\"";
+
+impl Sections<'_> {
+    /// Whether a disc has finished the part.
+    fn is_finished(&self) -> bool {
+        self.sections.iter().any(|seen| !seen.finished.is_empty())
+    }
+}
 
 /// Writes the picture as SVG.
 #[must_use]
 pub fn draw(sections: &Sections<'_>) -> String {
     let section = Section::of(sections.stock, sections.heading.ids);
     let bottom = section.bottom + BELOW;
-    let (description, legend) = (description(sections), legend());
+    let (description, legend) = (description(sections), legend(sections.is_finished()));
     let mut svg = sheet::sheet(sections.heading, section.room, &description, bottom, &legend);
     section.below(&mut svg, sections.machined, &format!("fill=\"{ORANGE}\""));
-    for (number, (y, part)) in sections.parts.iter().enumerate() {
+    for (number, seen) in sections.sections.iter().enumerate() {
         let hidden = if number == sections.shown {
             ""
         } else {
             " display=\"none\""
         };
-        at_y(&mut svg, &section, (*y, part), hidden);
+        at_y(&mut svg, &section, (number, seen), hidden);
     }
     let line = |paint: &str| format!("fill=\"none\" stroke=\"{INK}\" {paint}");
     svg.open(section.curve(sections.shadow), &line(SHADOW));
@@ -57,33 +74,59 @@ pub fn draw(sections: &Sections<'_>) -> String {
     svg.finish()
 }
 
-/// The part at a y. Of many sections only as many points are kept as a screen shows.
-fn at_y(svg: &mut Svg, section: &Section, (y, part): (f64, &[[f64; 2]]), hidden: &str) {
-    let thinned = Thinned::of(part, section.room.columns());
-    let curve: Vec<[f64; 2]> = thinned.into_iter().map(|point| section.at(point)).collect();
-    let ends = [curve.last(), curve.first()].map(|end| end.map(|end| [end[0], section.bottom]));
-    let outline = Trace::around(curve.iter().copied().chain(ends.into_iter().flatten()));
-    let data = format!("{PART} data-y=\"{}\"{hidden}", number(y));
-    svg.path(outline.text(), &data);
+/// The part at a y, with what finishing leaves. Of many sections only as many points are kept as a screen shows.
+fn at_y(svg: &mut Svg, section: &Section, (place, seen): (usize, &Shown), hidden: &str) {
+    let curve = |points: &[[f64; 2]]| -> Vec<[f64; 2]> {
+        let thinned = Thinned::of(points, section.room.columns());
+        thinned.into_iter().map(|point| section.at(point)).collect()
+    };
+    let part = curve(&seen.part);
+    let ends = [part.last(), part.first()].map(|end| end.map(|end| [end[0], section.bottom]));
+    let outline = Trace::around(part.iter().copied().chain(ends.into_iter().flatten()));
+    let at = format!("data-section=\"{place}\" data-y=\"{}\"{hidden}", number(seen.y));
+    svg.path(outline.text(), &format!("{PART} {at}"));
+    if !seen.finished.is_empty() {
+        svg.open(
+            curve(&seen.finished),
+            &format!("fill=\"none\" stroke=\"{BLUE}\" {CONTOUR} {at}"),
+        );
+    }
 }
 
 fn description(sections: &Sections<'_>) -> String {
     let [width, height] = sections.stock;
-    let y = sections.parts.get(sections.shown).map_or(0.0, |(y, _)| *y);
+    let y = sections.sections.get(sections.shown).map_or(0.0, |seen| seen.y);
+    let contours = if sections.is_finished() {
+        "contours after roughing and after finishing"
+    } else {
+        "machined contour"
+    };
     format!(
         "{}. Section at y {} mm of a stock {width:.1} mm wide and {height:.1} mm high with the part, its shadow along y and the \
-         machined contour.",
+         {contours}.",
         sections.heading.subtitle,
         number(y)
     )
 }
 
-fn legend() -> Vec<Entry> {
-    let line = |paint: &str| format!("stroke=\"{INK}\" {paint}");
-    vec![
+fn legend(is_finished: bool) -> Vec<Entry> {
+    let line = |colour: &str, paint: &str| format!("stroke=\"{colour}\" {paint}");
+    let (stays, contour) = if is_finished {
+        ("left by roughing", "contour after roughing, at every y")
+    } else {
+        ("stays above it", "machined contour, at every y")
+    };
+    let mut legend = vec![
         Entry::area(PART, "part at this y"),
-        Entry::area(format!("fill=\"{ORANGE}\""), "stays above it"),
-        Entry::line(line(CONTOUR), "machined contour, at every y"),
-        Entry::line(line(SHADOW), "shadow of the part"),
-    ]
+        Entry::area(format!("fill=\"{ORANGE}\""), stays),
+        Entry::line(line(INK, CONTOUR), contour),
+    ];
+    if is_finished {
+        legend.push(Entry::line(
+            line(BLUE, CONTOUR),
+            "contour after finishing, at this y",
+        ));
+    }
+    legend.push(Entry::line(line(INK, SHADOW), "shadow of the part"));
+    legend
 }

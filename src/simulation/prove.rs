@@ -53,7 +53,7 @@ use piece::Piece;
 pub use slit::{Slit, SlitFault};
 use std::collections::BTreeMap;
 use strip::Through;
-pub use strip::{Passes, Skin, Strips, Tracked, Tracks};
+pub use strip::{Across, Passes, Skin, Strips, Tracked, Tracks};
 use vcutc_backend_api::ir::{
     Action, CutKind, Flank, Joint, Op, OpId, OperationId, OrientationId, Program, Site, ToolId,
 };

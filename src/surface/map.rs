@@ -7,6 +7,10 @@
 //! Steps often lie on borders of cells, since both are at round numbers. What reaches into a cell by no more than [`TOUCH`]
 //! only touches it, and does not colour it.
 
+mod across;
+
+pub use across::Standing;
+
 use crate::coverage::Tangled;
 use crate::region::{Half, Region, sides, width, within};
 use crate::residual::{Machined, Over, volume};
@@ -253,6 +257,14 @@ impl Tally {
         }
     }
 
+    /// Counts a place for the highest and for the lowest.
+    fn note(&mut self, cell: [usize; 2], place: [f64; 2], height: f64) {
+        self.raise(cell, place, height);
+        if self.lowest.is_none_or(|(least, _)| height < least) {
+            self.lowest = Some((height, place));
+        }
+    }
+
     fn raise_all(&mut self, cell: [usize; 2], piece: &Piece) {
         for &(place, height) in piece {
             self.raise(cell, place, height);
@@ -260,11 +272,8 @@ impl Tally {
     }
 
     fn add(&mut self, cell: [usize; 2], piece: &Piece) {
-        self.raise_all(cell, piece);
         for &(place, height) in piece {
-            if self.lowest.is_none_or(|(least, _)| height < least) {
-                self.lowest = Some((height, place));
-            }
+            self.note(cell, place, height);
         }
         // The area is the volume of a prism that is 1 mm high.
         let level: Piece = piece.iter().map(|&(place, _)| (place, 1.0)).collect();

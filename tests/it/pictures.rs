@@ -39,7 +39,7 @@ rough vcut {
 ";
 
 /// The pictures of `docs/pictures.md`: example, what is drawn.
-const SHOWN: [(&str, &str); 10] = [
+const SHOWN: [(&str, &str); 11] = [
     ("fairing", "lattice"),
     ("fairing", "contour"),
     ("fairing", "deviation"),
@@ -49,6 +49,7 @@ const SHOWN: [(&str, &str); 10] = [
     ("wavy_panel", "time"),
     ("bent_hill", "surface"),
     ("bent_hill", "residual"),
+    ("finished_dome", "finished"),
     ("seat", "passes"),
 ];
 
@@ -68,6 +69,7 @@ pub(crate) fn picture(what: &str, outcome: &Outcome, ids: Prefix) -> String {
         "time" => pictures::time(&material, ids),
         "surface" => pictures::surface(&material, ids).unwrap(),
         "residual" => pictures::residual(&material, ids).unwrap(),
+        "finished" => pictures::finished(&material, ids).unwrap(),
         "passes" => pictures::passes(&material, ids).unwrap(),
         "torques" => {
             let [picture] = pictures::torques(&material, [ids]).unwrap().pictures;
@@ -258,6 +260,34 @@ fn maps_are_of_parts_that_change_along_y() {
     assert_eq!(pictures::residual(&material, Prefix::NONE), None);
     let page = vcutc::report::page::page(&straight, vcutc::report::page::Further::NOTHING).unwrap();
     assert!(!page.contains("id=\"surface\"") && !page.contains("residual-title"));
+}
+
+/// What finishing leaves over a surface, in its page as by itself; none where nothing is finished, or only a profile.
+#[test]
+fn maps_show_what_finishing_leaves() {
+    let dome = outcome("finished_dome");
+    let material = Material::of(&dome).unwrap();
+    let page = vcutc::report::page::page(&dome, vcutc::report::page::Further::NOTHING).unwrap();
+    assert!(page.contains(&picture("finished", &dome, Prefix::new("finished-"))));
+    assert!(page.contains("contour after finishing, at this y"));
+    // Straight above the part more stands than its distance from there, by no more than the steepest slope makes of it.
+    let figures = pictures::SurfaceMap::of_finished(&material).unwrap().figures();
+    let (_, most) = figures.split_once("most ").unwrap();
+    let most: f64 = most.trim_end_matches(" mm").parse().unwrap();
+    let tracked = &dome.compiled.as_ref().unwrap().report.tracked[0];
+    let left = tracked.left.to_mm();
+    assert!((left - 0.005..1.3 * left).contains(&most), "{figures} {left}");
+
+    for other in ["bent_hill", "finished_hood"] {
+        let outcome = outcome(other);
+        let material = Material::of(&outcome).unwrap();
+        assert_eq!(pictures::finished(&material, Prefix::NONE), None, "{other}");
+        let page = vcutc::report::page::page(&outcome, vcutc::report::page::Further::NOTHING).unwrap();
+        assert!(
+            !page.contains("finished-title") && !page.contains("after finishing"),
+            "{other}"
+        );
+    }
 }
 
 /// In a page on a dark ground every colour of every picture has a partner, and pictures for telephones are as wide as these.

@@ -8,10 +8,12 @@
 //!
 //! | Rules of | Here |
 //! | --- | --- |
-//! | the program as a whole, references, order, the end | this file |
+//! | what the rules are | `rules` |
+//! | what a dialect must be able to say | `capability` |
+//! | the program as a whole, references, the order of operations, the end | this file |
 //! | the numbers of its tables | `sound` |
 //! | ways through the air, turns | `air` |
-//! | cuts straight through the stock | `cuts` |
+//! | cuts straight through the stock, and their numbers | `cuts` |
 //! | chains, blade by blade | `chain` |
 //! | generator and spindle | `drives` |
 

@@ -1,4 +1,5 @@
-//! What no section shows of an operation: how it is judged from a finished program, and how it is seen from above.
+//! What the replay of straight cuts does not show of an operation: how it is judged from a finished program, and how it looks from
+//! above.
 
 use crate::PlannedJob;
 use vcutc_backend_api::ir::{OperationId, Program};
@@ -9,7 +10,7 @@ use vcutc_region::place::Place;
 /// An operation of a finished program, as its own proof sees it.
 #[derive(Clone, Copy, Debug)]
 pub struct Judged<'j> {
-    /// What the program was planned for. A proof takes nothing of it but the part, and what its operation is held to.
+    /// What the program was planned for. A proof takes the part from it, the spine that cuts follow, and what its operation is held to.
     pub plan: &'j PlannedJob,
     pub program: &'j Program,
     pub operation: OperationId,

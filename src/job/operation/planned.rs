@@ -125,7 +125,7 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
     /// What the proof holds its cuts to.
     fn bound(&self) -> Bound<'_>;
 
-    /// Judges what no section shows of it, after the replay of the cuts that sections show: adds what is wrong, and what it does.
+    /// Judges what the replay of straight cuts does not show of it, after that: adds what is wrong, and what it does.
     fn judge(&self, _: Judged<'_>, _: &mut Replay) {}
 
     /// Its cuts from above, as a program states them; none where sections show them.

@@ -1,7 +1,7 @@
 //! The proof of passes over regions, from the lines and arcs of a finished program.
 //!
-//! Nothing of it comes from the plan: the operation says what it is held to. Walls are upright, so all is seen in the plan: the tool
-//! is a circle, its way at each floor is lines and arcs, and its ways down and up keep from the walls as its passes do.
+//! It uses the region and the limits that the job asks for, nothing that the planner chose. Walls are upright, so all is seen from
+//! above: the tool is a circle, its way at each floor is lines and arcs, and its ways down and up keep from the walls as its passes do.
 
 pub(crate) mod stated;
 

@@ -1,6 +1,7 @@
 //! The proof of slits along the walls of regions, from the lines and arcs of a finished program.
 //!
-//! Nothing of it comes from the plan: the operation says what it is held to. The walls and the plane of the blade are upright, so what the blade passes is seen from above, where it is widest: at the top of the walls.
+//! It uses the region and the limits that the job asks for, nothing that the planner chose. The walls and the plane of the blade are
+//! upright, so what the blade passes is seen from above, where it is widest: at the top of the walls.
 
 mod stated;
 

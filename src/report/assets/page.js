@@ -205,13 +205,13 @@
   const slides = [...document.querySelectorAll("[data-slide]")];
   function slideTo(number) {
     for (const figure of slides) {
-      const parts = figure.querySelectorAll("[data-y]");
-      parts.forEach((part, index) => {
-        if (index === number) part.removeAttribute("display");
+      for (const part of figure.querySelectorAll("[data-section]")) {
+        if (Number(part.dataset.section) === number) part.removeAttribute("display");
         else part.setAttribute("display", "none");
-      });
+      }
+      const shown = figure.querySelector(`[data-section="${number}"]`);
       figure.querySelector("input").value = number;
-      figure.querySelector("output").textContent = parts[number]?.dataset.y ?? "";
+      figure.querySelector("output").textContent = shown?.dataset.y ?? "";
     }
   }
   for (const figure of slides) {

@@ -1,4 +1,4 @@
-//! A part that changes along y from above: how high it is, and what the cuts leave above it.
+//! A part that changes along y from above: how high it is, and what roughing and finishing leave above it.
 
 use super::figure::{Ids, Zoom, figure, slide};
 use super::{Section, Subject};
@@ -8,6 +8,7 @@ use crate::pictures::{SurfaceMap, SurfaceSections};
 pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     let part = SurfaceMap::of_part(&subject.material)?;
     let residual = SurfaceMap::of_residual(&subject.material)?;
+    let finished = SurfaceMap::of_finished(&subject.material);
     let alike = match subject.material.job.part.spine() {
         None => "The cuts are the same at every y",
         Some(_) => "The cuts rise and fall along one spine, and seen along it they are the same at every y",
@@ -35,13 +36,29 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
             residual.figures(),
             alike,
             if is_finished {
-                " What the tracks of finishing take off of that is not shown; the figures of the deviation say what they leave."
+                " The next map shows what finishing leaves."
             } else {
                 ""
             }
         ),
         &|ids| residual.draw(ids),
     );
+    let after = finished.map(|finished| {
+        figure(
+            &Ids {
+                page: "finished-",
+                phone: "finished-phone-",
+            },
+            Zoom::Free,
+            &format!(
+                "How high material stands straight above the part after finishing, in sections across the tracks: {}. A cell has \
+                 the highest place of the sections in it and next to it. The limit on the scallop applies to the distance from \
+                 the part, which is less where that is steep.",
+                finished.figures()
+            ),
+            &|ids| finished.draw(ids),
+        )
+    });
     let off = match subject.material.job.part.spine() {
         None => "",
         Some(_) => ", with the spine of the cuts taken off",
@@ -56,13 +73,22 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
             &places,
             sections.shown(),
             &format!(
-                "The section of the part at the y of the slider{off}. The machined contour is the same at every y and lies above the \
-                 shadow, the greatest height of the part along y."
+                "The section of the part at the y of the slider{off}. The contour {} is the same at every y and lies above the \
+                 shadow, the greatest height of the part along y.{}",
+                if is_finished { "after roughing" } else { "of the cuts" },
+                if is_finished {
+                    " Finishing follows the part."
+                } else {
+                    ""
+                }
             ),
             &|ids| sections.draw(ids),
         )
     });
-    let body = heights + left;
+    let mut body = heights + left;
+    if let Some(after) = after {
+        body += after;
+    }
     Some(Section {
         id: "surface",
         title: "Surface",

@@ -4,8 +4,8 @@ use super::{corners, limit};
 use crate::Material;
 use vcutc_backend_api::units::Length;
 use vcutc_picture::Prefix;
-use vcutc_picture::plan_map::{self, Heading, PlanMap};
-use vcutc_surface::map::{Cells, Map};
+use vcutc_picture::plan_map::{self, Decimals, Heading, PlanMap};
+use vcutc_surface::map::{Cells, Map, Standing};
 use vcutc_surface::residual::Over;
 use vcutc_surface::surface::Surface;
 
@@ -19,6 +19,13 @@ pub fn surface(material: &Material<'_>, ids: Prefix) -> Option<String> {
 #[must_use]
 pub fn residual(material: &Material<'_>, ids: Prefix) -> Option<String> {
     Some(SurfaceMap::of_residual(material)?.draw(ids))
+}
+
+/// How high material stands above the part after finishing, in sections across the tracks (`picture::plan_map`); none of a job without
+/// tracks on a surface.
+#[must_use]
+pub fn finished(material: &Material<'_>, ids: Prefix) -> Option<String> {
+    Some(SurfaceMap::of_finished(material)?.draw(ids))
 }
 
 /// A map that is computed once and drawn in several places.
@@ -80,6 +87,32 @@ impl SurfaceMap {
         })
     }
 
+    /// What finishing leaves above the part, in sections across its tracks. None where none follow a surface.
+    #[must_use]
+    pub fn of_finished(material: &Material<'_>) -> Option<Self> {
+        // No operation comes after tracks on a surface.
+        let tracked = material.compiled.report.tracked.last()?;
+        let surface = material.job.part.surface()?;
+        let (size, cells) = laid_out(surface);
+        let sections = tracked.across.iter().map(|across| {
+            let part = surface.section(across.y).ok()?;
+            Some(Standing {
+                y: across.y,
+                heights: part.standing(&across.machined),
+            })
+        });
+        let sections: Vec<Standing> = sections.collect::<Option<_>>()?;
+        let planned = material.plan.operation(tracked.operation)?;
+        Some(Self {
+            title: format!("{}: left above the part after finishing", material.plan.name),
+            what: "height of the material that finishing leaves above the part",
+            size,
+            cells,
+            map: Map::of_sections(&sections, cells, size)?,
+            limit: planned.asked().scallop_limit().map(|limit| limit.value.to_mm()),
+        })
+    }
+
     /// The least, the mean and the greatest height, in words.
     #[must_use]
     pub fn figures(&self) -> String {
@@ -89,8 +122,9 @@ impl SurfaceMap {
             highest,
             ..
         } = &self.map;
+        let decimals = Decimals::of([lowest.height, highest.height].map(Length::to_mm));
         let [least, mean, most] =
-            [lowest.height, *mean, highest.height].map(|height| plan_map::shown(height.to_mm()));
+            [lowest.height, *mean, highest.height].map(|height| decimals.shown(height.to_mm()));
         format!("least {least} mm, mean {mean} mm, most {most} mm")
     }
 

@@ -3,9 +3,11 @@
 use super::{corners, pairs};
 use crate::Material;
 use vcutc_picture::Prefix;
-use vcutc_picture::sections::{self, Heading};
+use vcutc_picture::sections::{self, Heading, Shown};
+use vcutc_simulation::prove::Across;
+use vcutc_surface::surface::Surface;
 
-/// How many sections a page has: one for every fortieth of the depth.
+/// How many sections a page has at most: one for every fortieth of the depth, or some of those that finishing was looked at in.
 const COUNT: u32 = 41;
 
 /// Sections that are computed once and drawn in several places.
@@ -16,7 +18,7 @@ pub struct SurfaceSections {
     stock: [f64; 2],
     machined: Vec<[f64; 2]>,
     shadow: Vec<[f64; 2]>,
-    parts: Vec<(f64, Vec<[f64; 2]>)>,
+    shown: Vec<Shown>,
 }
 
 impl SurfaceSections {
@@ -25,8 +27,24 @@ impl SurfaceSections {
     pub fn of(material: &Material<'_>) -> Option<Self> {
         let surface = material.job.part.levelled()?;
         let stock = material.plan.stock;
-        let places = (0..COUNT).map(|number| stock.depth.to_mm() * f64::from(number) / f64::from(COUNT - 1));
-        let parts = places.map(|y| Some((y, pairs(surface.section(y).ok()?.points()))));
+        let finished = material.compiled.report.tracked.last();
+        let finished = finished.map_or(&[] as &[Across], |tracked| &tracked.across);
+        let shown = if finished.is_empty() {
+            let places =
+                (0..COUNT).map(|number| stock.depth.to_mm() * f64::from(number) / f64::from(COUNT - 1));
+            places
+                .map(|y| shown(surface, y, Vec::new()))
+                .collect::<Option<Vec<_>>>()?
+        } else {
+            let spine = material.job.part.spine();
+            let chosen = evenly(finished.len()).filter_map(|number| finished.get(number));
+            let places = chosen.map(|across| {
+                let rise = spine.map_or(0.0, |spine| spine.rise(across.y));
+                let lowered = across.machined.iter().map(|point| [point.x, point.z - rise]);
+                shown(surface, across.y, lowered.collect())
+            });
+            places.collect::<Option<Vec<_>>>()?
+        };
         Some(Self {
             title: format!("{}: sections of the part", material.plan.name),
             subtitle: match material.job.part.spine() {
@@ -36,19 +54,19 @@ impl SurfaceSections {
             stock: [stock.width.to_mm(), stock.height.to_mm()],
             machined: pairs(&corners(material)),
             shadow: pairs(material.plan.profile.points()),
-            parts: parts.collect::<Option<Vec<_>>>()?,
+            shown,
         })
     }
 
     /// The y of each section in mm.
     pub fn places(&self) -> impl Iterator<Item = f64> + '_ {
-        self.parts.iter().map(|(y, _)| *y)
+        self.shown.iter().map(|shown| shown.y)
     }
 
     /// The section that is shown at first, counted from 0: the one in the middle.
     #[must_use]
     pub const fn shown(&self) -> usize {
-        self.parts.len() / 2
+        self.shown.len() / 2
     }
 
     /// Writes them as SVG.
@@ -63,8 +81,21 @@ impl SurfaceSections {
             stock: self.stock,
             machined: &self.machined,
             shadow: &self.shadow,
-            parts: &self.parts,
+            sections: &self.shown,
             shown: self.shown(),
         })
     }
+}
+
+/// As many of so many numbers as a page has, the first and the last among them.
+fn evenly(of: usize) -> impl Iterator<Item = usize> {
+    let count = of.min(COUNT as usize);
+    let last = count.saturating_sub(1).max(1);
+    (0..count).map(move |number| (number * (of - 1) + last / 2) / last)
+}
+
+/// The section of a part at a y, with what finishing leaves there.
+fn shown(part: &Surface, y: f64, finished: Vec<[f64; 2]>) -> Option<Shown> {
+    let part = pairs(part.section(y).ok()?.points());
+    Some(Shown { y, part, finished })
 }

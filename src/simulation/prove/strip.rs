@@ -7,6 +7,7 @@ use crate::cross_section::Guard;
 use crate::disc::{Disc, DiscPass, SkinPass};
 use crate::rim::{Drift, Rim};
 use crate::surface::{Side, Surface};
+use std::sync::Arc;
 use vcutc_backend_api::geometry::Orientation;
 use vcutc_backend_api::ir::{self, Blade, OperationId, Program, Shape, Stock};
 use vcutc_backend_api::segments::{LinearSegment, Segment};
@@ -39,7 +40,7 @@ pub struct Tracks {
 }
 
 /// What the tracks of an operation do, and leave on the part. Found from the program where the surface is known.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Tracked {
     pub operation: OperationId,
     /// How many there are.
@@ -58,6 +59,17 @@ pub struct Tracked {
     pub at: [f64; 3],
     /// The mean height of what stays: the area that stays in the sections over their length.
     pub mean: Length,
+    /// What they leave in each of these sections, by growing y.
+    pub across: Arc<[Across]>,
+}
+
+/// What tracks leave in a section across them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Across {
+    /// Where along y, in mm.
+    pub y: f64,
+    /// The machined contour, from left to right. Where no track cuts after cuts along a spine, it lies as high as these may leave it.
+    pub machined: Vec<Point2>,
 }
 
 impl Tracks {

@@ -77,6 +77,30 @@ fn maps_are_drawn_of_a_surface_and_refused_for_a_profile() {
 }
 
 #[test]
+fn what_finishing_leaves_is_drawn_of_tracks_on_a_surface_only() {
+    let drawn = vcutc(
+        root(),
+        &["plot", "examples/finished_dome.vcut", "--what", "finished"],
+    );
+    assert_eq!(drawn.code, Some(0), "{}", drawn.stderr);
+    assert!(
+        drawn
+            .stdout
+            .contains("finished_dome: left above the part after finishing")
+    );
+    let refused = vcutc(
+        root(),
+        &["plot", "examples/finished_hood.vcut", "--what", "finished"],
+    );
+    assert_eq!((refused.code, refused.stdout.as_str()), (Some(2), ""));
+    assert_eq!(
+        refused.stderr,
+        "error: no operation finishes a part that changes along y\n  \
+         help: write `finish disc` after the roughing of a `surface`, or draw `--what contour`\n"
+    );
+}
+
+#[test]
 fn a_job_with_errors_is_not_drawn() {
     let out = folder();
     let file = out.path().join("x.svg");

@@ -55,8 +55,8 @@ pub enum Rule {
     /// Where a piece of a chain is not to end in a stop the next one of the same cut follows at once, in the same direction but for
     /// [`LARGEST_KINK`](super::LARGEST_KINK).
     ChainJoint,
-    /// All along a piece of a chain a straight blade stands in the plane of its way but for [`LARGEST_SLIP`](super::LARGEST_SLIP), and a cutting edge
-    /// leads. The shank of any blade leans along the way or square to it; a crusher may go down as steeply as its
+    /// All along a piece of a chain a straight blade stands in the plane of its way but for
+    /// [`LARGEST_SLIP`](super::LARGEST_SLIP), and a cutting edge leads. The shank of any blade leans along the way or square to it; a crusher may go down as steeply as its
     /// ramp, and straight to where it has been.
     ChainPosture,
     /// Operations come in order, and the cuts of each layer are numbered from 1 without gaps. In which order an operation

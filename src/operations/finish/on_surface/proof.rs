@@ -8,6 +8,7 @@ use super::sections::{Sections, Skimmed};
 use super::way::{Way, pose_of};
 use core::num::NonZeroU32;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{OperationId, Program, ToolId};
 use vcutc_backend_api::units::{Angle, Length};
@@ -84,6 +85,7 @@ impl Judge<'_, '_, '_> {
             left: Length::ZERO,
             at: [0.0; 3],
             mean: Length::ZERO,
+            across: Arc::default(),
         };
         let mut ways = Vec::with_capacity(stated.len());
         for track in &stated {
@@ -109,6 +111,7 @@ impl Judge<'_, '_, '_> {
                 (done.left, done.at) = (most.height, [most.at.x, most.y, most.at.z]);
             }
             done.mean = skimmed.mean();
+            done.across = skimmed.across.into();
         }
         Some(done)
     }

@@ -13,7 +13,7 @@ use vcutc_geometry::spine::Spine;
 use vcutc_simulation::contour::farthest;
 use vcutc_simulation::cross_section::{CrossSection, Guard};
 use vcutc_simulation::disc::{Disc, Hold, PassFault, Stretch};
-use vcutc_simulation::prove::Skin;
+use vcutc_simulation::prove::{Across, Skin};
 use vcutc_simulation::surface::Surface;
 use vcutc_surface::shadow::Uncovered;
 use vcutc_surface::surface;
@@ -45,6 +45,8 @@ pub struct Skimmed {
     pub faults: Vec<Fault>,
     /// The most that stays on the part in each section.
     pub left: Vec<Left>,
+    /// All that stays in each of them.
+    pub across: Vec<Across>,
 }
 
 /// Something wrong with a track.
@@ -113,12 +115,15 @@ impl Sections {
         let mut skimmed = Skimmed {
             faults: Vec::new(),
             left: Vec::with_capacity(self.0.len()),
+            across: Vec::with_capacity(self.0.len()),
         };
         for section in &self.0 {
             let mut work = CrossSection::new(before.clone());
             let faults = section.skim(&mut work, ways, disc, skin);
             skimmed.faults.extend(faults);
-            skimmed.left.push(section.left(&work.into_surface()));
+            let machined: Vec<Point2> = work.into_surface().corners().collect();
+            skimmed.left.push(section.left(&machined));
+            skimmed.across.push(section.across(machined));
         }
         skimmed
     }
@@ -193,11 +198,18 @@ impl Section {
         }
     }
 
-    fn left(&self, after: &Surface) -> Left {
-        let corners: Vec<Point2> = after.corners().collect();
+    /// The contour as it lies in the work.
+    fn across(&self, mut machined: Vec<Point2>) -> Across {
+        for corner in &mut machined {
+            corner.z += self.rise;
+        }
+        Across { y: self.y, machined }
+    }
+
+    fn left(&self, machined: &[Point2]) -> Left {
         let (from, to) = self.seen.span();
-        let most = farthest(&corners, &self.seen);
-        let under = vcutc_simulation::report::area_under(&corners);
+        let most = farthest(machined, &self.seen);
+        let under = vcutc_simulation::report::area_under(machined);
         Left {
             y: self.y,
             at: Point2::new(most.peak.x, most.peak.z + self.rise),
