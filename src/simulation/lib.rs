@@ -8,6 +8,7 @@
 //! that the body of a blade stays out of the work, [`sides`] where the sides of a thick one are. Slits and discs cut a section of their own ([`cross_section`]).
 
 pub mod body;
+mod by_layer;
 pub mod contour;
 mod course;
 pub mod cross_section;

@@ -34,6 +34,7 @@ mod strip;
 #[cfg(test)]
 mod tests;
 
+use super::by_layer::ByLayer;
 use super::course::Course;
 use super::cross_section::{CrossSection, Guard, Taken};
 use super::disc::PassFault;
@@ -342,7 +343,7 @@ struct Player<'p> {
     /// The cut of the chain that was counted last: it may stop on its way.
     counted: Option<Site>,
     /// How many cuts each layer has.
-    layers: BTreeMap<(OperationId, NonZeroU32), usize>,
+    layers: ByLayer<usize>,
     /// Slits, and what to report of them if they free nothing.
     slits: Vec<(f64, Finding)>,
     /// The part of each operation that has slits or passes.
@@ -395,7 +396,7 @@ impl<'p> Player<'p> {
             playing: OpId(0),
             edges: Vec::new(),
             counted: None,
-            layers: BTreeMap::new(),
+            layers: ByLayer::default(),
             along: AlongSpine::default(),
         }
     }
@@ -502,7 +503,7 @@ impl<'p> Player<'p> {
 
     /// Counts a cut in its layer.
     fn count(&mut self, cut: &Cut) {
-        *self.layers.entry((cut.operation, cut.layer)).or_default() += 1;
+        *self.layers.of((cut.operation, cut.layer)) += 1;
     }
 
     /// Takes the chip of a cut out, all of whose flanks are cut, each up to `below` lower than it says.
@@ -616,7 +617,7 @@ impl<'p> Player<'p> {
             fault,
         };
         if joint == Joint::Stop && self.counted.replace(segment.op.site) != Some(segment.op.site) {
-            *self.layers.entry((operation, layer)).or_default() += 1;
+            *self.layers.of((operation, layer)) += 1;
         }
         let bound = self.bounds.get(usize::from(operation.0));
         if let (Some(spine), Some(straight)) = (bound.and_then(|bound| bound.spine), blade.straight()) {
@@ -677,7 +678,7 @@ impl<'p> Player<'p> {
                 .collect(),
             layers: self
                 .layers
-                .into_iter()
+                .into_all()
                 .map(|((operation, _), cuts)| (operation, cuts))
                 .collect(),
             tracked: Vec::new(),

@@ -3,7 +3,7 @@
 //! A move that turns the blade along takes as long as the slower of its two parts, as controllers do it. How long moves of
 //! all axes take depends on the machine, and so does what acceleration adds: nothing of either is said here.
 
-use std::collections::BTreeMap;
+use crate::by_layer::ByLayer;
 use vcutc_backend_api::ir::{Action, OperationId, Program, Ready, Site};
 use vcutc_backend_api::segments::Segment;
 use vcutc_backend_api::units::Duration;
@@ -166,7 +166,7 @@ pub fn timing(program: &VerifiedProgram) -> Times {
 #[must_use]
 pub fn times(program: &VerifiedProgram, op_times: &[Duration]) -> Times {
     let (mut all, mut rest) = (Timing::default(), Timing::default());
-    let mut layers: BTreeMap<(OperationId, u32), Timing> = BTreeMap::new();
+    let mut layers = ByLayer::<Timing>::default();
     for (op, &time) in program.program().ops.iter().zip(op_times) {
         let Some(kind) = Kind::of(&op.action) else {
             continue;
@@ -174,17 +174,17 @@ pub fn times(program: &VerifiedProgram, op_times: &[Duration]) -> Times {
         let place = match op.site {
             Site::Program | Site::Operation(_) => &mut rest,
             Site::Layer { operation, layer } | Site::Cut { operation, layer, .. } => {
-                layers.entry((operation, layer.get())).or_default()
+                layers.of((operation, layer))
             }
         };
         place.add(kind, time);
         all.add(kind, time);
     }
     let layers = layers
-        .into_iter()
+        .into_all()
         .map(|((operation, layer), timing)| LayerTime {
             operation,
-            layer,
+            layer: layer.get(),
             timing,
         })
         .collect();
