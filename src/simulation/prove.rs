@@ -354,25 +354,31 @@ struct Player<'p> {
     along: AlongSpine,
 }
 
-/// Slope of the flank that is done, of Vs of which one is. The other one mostly comes next, so the latest is kept apart.
+/// Slopes of the flanks that are done, of Vs of which one is: by layer, and there by the number of the cut, which the verifier has
+/// found to go up from 1 without gaps.
 #[derive(Default)]
-struct HalfDone {
-    latest: Option<(VNumber, f64)>,
-    others: BTreeMap<VNumber, f64>,
-}
+struct HalfDone(ByLayer<Vec<Option<f64>>>);
 
 impl HalfDone {
-    fn put(&mut self, place: VNumber, slope: f64) {
-        if let Some((before, slope)) = self.latest.replace((place, slope)) {
-            self.others.insert(before, slope);
+    fn put(&mut self, cut: &Cut, slope: f64) {
+        let (slopes, number) = self.slopes(cut);
+        if slopes.len() <= number {
+            slopes.resize(number + 1, None);
+        }
+        if let Some(place) = slopes.get_mut(number) {
+            *place = Some(slope);
         }
     }
 
-    fn take(&mut self, place: VNumber) -> Option<f64> {
-        match self.latest.take_if(|(latest, _)| *latest == place) {
-            Some((_, slope)) => Some(slope),
-            None => self.others.remove(&place),
-        }
+    fn take(&mut self, cut: &Cut) -> Option<f64> {
+        let (slopes, number) = self.slopes(cut);
+        slopes.get_mut(number)?.take()
+    }
+
+    /// Those of the layer of a cut, and its place among them.
+    fn slopes(&mut self, cut: &Cut) -> (&mut Vec<Option<f64>>, usize) {
+        let slopes = self.0.of((cut.operation, cut.layer));
+        (slopes, cut.cut.get() as usize - 1)
     }
 }
 
@@ -445,11 +451,10 @@ impl<'p> Player<'p> {
             None => 0.0,
         };
         self.come_out(cut, side, geometry, (lower, least));
-        let place = (cut.layer, cut.cut);
         // The verifier has made sure that both flanks are there, once each.
-        match self.half_done.take(place) {
+        match self.half_done.take(cut) {
             None => {
-                self.half_done.put(place, geometry.slope);
+                self.half_done.put(cut, geometry.slope);
                 self.count(cut);
             }
             Some(other) => {
@@ -652,7 +657,6 @@ impl<'p> Player<'p> {
         }
         if before.is_none_or(|(before, _)| before != operation) {
             self.note_half_done();
-            self.half_done = HalfDone::default();
         }
     }
 
