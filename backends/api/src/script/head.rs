@@ -4,8 +4,9 @@
 //! has to heed. The compiler's version is not among them: a version that writes the same motions would change every program
 //! that a shop has under version control.
 
-use crate::ir::{Action, Crusher, CutKind, Disc, Flank, Head, Op, Program, Purpose, Shape, Site, Straight};
-use crate::state::State;
+use crate::ir::{
+    Action, Crusher, CutKind, Disc, Flank, Head, Op, Program, Purpose, Shape, Site, Straight, ToolId,
+};
 use crate::units::{AngularSpeed, Duration, Length};
 use crate::words::counted;
 use std::collections::BTreeMap;
@@ -123,8 +124,12 @@ fn shown(head: &Head) -> &str {
 /// How many cuts, slits, strips and tracks there are, of those that there are.
 fn cuts(program: &Program) -> String {
     let mut counts = Counts::default();
-    for (_, op, after) in program.ends() {
-        counts.add(program, op, after);
+    let mut at_hand = ToolId::FIRST;
+    for op in &program.ops {
+        if let Action::ToolChange { tool } = op.action {
+            at_hand = tool;
+        }
+        counts.add(program, op, at_hand);
     }
     let had = counts.of.into_iter();
     let words: Vec<String> = had.map(|(kind, count)| counted(count, kind.noun())).collect();
@@ -144,17 +149,14 @@ struct Counts {
 
 impl Counts {
     /// Every V has one left flank, and so has a slit. A chain is a cut.
-    fn add(&mut self, program: &Program, op: &Op, after: State) {
+    fn add(&mut self, program: &Program, op: &Op, tool: ToolId) {
         let begins = match op.action {
             Action::Cut { flank, .. } => flank == Flank::Left,
             Action::Follow { .. } => self.chain.replace(op.site) != Some(op.site),
             _ => false,
         };
         if begins && let Some(operation) = op.site.operation() {
-            *self
-                .of
-                .entry(program.cut_kind(operation, after.tool))
-                .or_default() += 1;
+            *self.of.entry(program.cut_kind(operation, tool)).or_default() += 1;
         }
     }
 }
