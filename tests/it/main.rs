@@ -26,6 +26,7 @@ mod codes;
 mod commit;
 #[cfg(all(feature = "krl", feature = "rapid"))]
 mod compensation;
+mod consistency;
 #[cfg(feature = "krl")]
 mod convert;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
