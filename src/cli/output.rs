@@ -459,7 +459,7 @@ impl Spool {
     }
 }
 
-/// A reader that has seen enough is no fault.
+/// A reader that has seen enough is not an error.
 pub(super) fn ignore_broken_pipe(result: io::Result<()>) -> io::Result<()> {
     match result {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),

@@ -66,6 +66,22 @@ pub struct Stretch {
     pub bound: f64,
 }
 
+/// The stretches of a pass, each with its piece and how long the pass is before that, in mm.
+pub fn on_pieces<'s>(
+    pass: &'s Pass,
+    profile: &'s [Stretch],
+) -> impl Iterator<Item = (&'s Stretch, Piece, f64)> {
+    let mut begun = 0.0;
+    let mut at = 0;
+    profile.iter().filter_map(move |stretch| {
+        while at < stretch.piece {
+            begun += pass.pieces.get(at).map_or(0.0, |piece| piece.length());
+            at += 1;
+        }
+        Some((stretch, *pass.pieces.get(stretch.piece)?, begun))
+    })
+}
+
 /// Why no angles are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EngagementFault {

@@ -6,7 +6,7 @@ use crate::proof::stated::layers;
 use vcutc_backend_api::ir::{OperationId, Program, Shape};
 use vcutc_job::operation::judged::FromAbove;
 use vcutc_region::coverage::{Spot, Square, Tool, coverage};
-use vcutc_region::engagement::engagement;
+use vcutc_region::engagement::{engagement, on_pieces};
 use vcutc_region::pass::Pass;
 use vcutc_region::piece::Piece;
 use vcutc_region::region::Side;
@@ -55,16 +55,7 @@ fn stretches(asked: &ClearPocket, passes: &[Pass], radius: f64) -> Vec<(Piece, f
     };
     let mut stretches = Vec::new();
     for (pass, profile) in passes.iter().zip(&found.profiles) {
-        let mut begun = 0.0;
-        let mut at = 0;
-        for stretch in profile {
-            while at < stretch.piece {
-                begun += pass.pieces.get(at).map_or(0.0, |piece| piece.length());
-                at += 1;
-            }
-            let Some(piece) = pass.pieces.get(at) else {
-                continue;
-            };
+        for (stretch, piece, begun) in on_pieces(pass, profile) {
             let [from, to] = stretch
                 .way
                 .map(|way| ((way - begun) / piece.length()).clamp(0.0, 1.0));

@@ -16,7 +16,7 @@ use vcutc_process::from_above::{closed_sides, highest, is_over};
 use vcutc_process::lower::ROUNDING_ROOM;
 use vcutc_region::clearance::{Clearance, clearance};
 use vcutc_region::coverage::{Coverage, Tool, coverage, unreachable};
-use vcutc_region::engagement::{Engagement, engagement};
+use vcutc_region::engagement::{Engagement, engagement, on_pieces};
 use vcutc_region::pass::Pass;
 use vcutc_region::place::Place;
 use vcutc_simulation::prove::{Cleared, ClearingFault, CutFault, Finding, Findings, Replay};
@@ -283,22 +283,13 @@ impl Judge<'_> {
     fn most_engaged(&self, layer: &Layer, engagement: &Engagement) -> Option<(Angle, Place)> {
         let mut most: Option<(f64, Place)> = None;
         for (number, (pass, profile)) in layer.flat().iter().zip(&engagement.profiles).enumerate() {
-            let mut begun = 0.0;
-            let mut at = 0;
-            for stretch in profile {
-                while at < stretch.piece {
-                    begun += pass.pieces.get(at).map_or(0.0, |piece| piece.length());
-                    at += 1;
-                }
+            for (stretch, piece, begun) in on_pieces(pass, profile) {
                 let is_slow = layer
                     .speed(number, stretch.piece)
                     .is_none_or(|speed| speed <= self.asked.plunge_feed.value);
                 if is_slow || most.is_some_and(|(known, _)| known >= stretch.bound) {
                     continue;
                 }
-                let Some(piece) = pass.pieces.get(stretch.piece) else {
-                    continue;
-                };
                 let middle = f64::midpoint(stretch.way[0], stretch.way[1]) - begun;
                 most = Some((stretch.bound, piece.at(middle / piece.length())));
             }

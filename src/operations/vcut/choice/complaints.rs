@@ -23,6 +23,6 @@ impl operation::Unplanned for Sought<'_> {
         works: &mut WorksThere<'_>,
     ) -> Vec<Diagnostic> {
         let bench = self.bench.for_whom(wanted);
-        offers::told((&bench, &self.asked), self.unplanned.clone(), effort, works)
+        offers::diagnostics((&bench, &self.asked), self.unplanned.clone(), effort, works)
     }
 }

@@ -17,7 +17,7 @@ use vcutc_job::operation::WorksThere;
 const LONGER: [f64; 3] = [1.5, 2.5, 4.0];
 
 /// Puts into words why there is no plan, with what works of all that may: here, and for those who come after planning.
-pub(super) fn told(
+pub(super) fn diagnostics(
     (bench, asked): (&Bench<'_>, &RoughVcut),
     unplanned: Unplanned,
     effort: &mut Effort,

@@ -84,8 +84,8 @@ fn compare_with_points(bends: [f64; 2], x: f64, lean: Lean, feed: Feed) {
     for (place, above) in lowest.into_iter().enumerate() {
         // By the bend of the way over the distance between this point and the contact.
         let at = x + place as f64 - 7.5;
-        let behind = (pass.ahead(&disc, at) - pass.ahead(&disc, pass.contact)).abs() + 0.5;
-        let bend = bends[1].abs() * behind * behind;
+        let apart = (pass.ahead(&disc, at) - pass.ahead(&disc, pass.contact)).abs() + 0.5;
+        let bend = bends[1].abs() * apart * apart;
         assert!(above.abs() < 0.001 + bend, "{above} at {place}, not {bend}");
     }
 }
