@@ -6,6 +6,7 @@ mod convert;
 mod effort;
 mod examples;
 mod inner_form;
+mod optimize;
 mod overrides;
 mod pictures;
 mod tools;
@@ -14,6 +15,7 @@ mod tools;
 pub(super) use convert::ConvertArgs;
 
 pub(super) use air::AirArgs;
+pub(super) use optimize::OptimizeArgs;
 pub(super) use overrides::Overrides;
 pub(super) use pictures::{PlotArgs, ReportArgs, What};
 pub(super) use tools::{ToolForm, ToolsArgs};
@@ -189,9 +191,9 @@ pub(super) enum Command {
     Place(PlaceArgs),
     /// Show what `auto` chose, which limits are active, and the cost of a finer surface
     ///
-    /// Optimizes the parameters of each operation on every lattice, with the formulas of the paper and with the exact
-    /// ones; plans and simulates the chosen ones; reports which limits are active and what relaxing each by 1 % would
-    /// save; and lists the shortest time for a series of scallop limits. The job file is not changed.
+    /// Plans each operation again with every limit a tenth wider, on other lattices where the job names one, and under a
+    /// series of limits on the scallop, the cuts or the edge; reports what each would save; and compares the plans with
+    /// the formulas of the paper and the exact ones. The job file is not changed.
     Optimize(OptimizeArgs),
     /// List the machines in the catalogue, or show one
     ///
@@ -545,25 +547,6 @@ pub(super) struct PlaceArgs {
     pub(super) yaw: Option<String>,
 
     /// Draw a map of the margin over x and y into this file
-    #[arg(short, long, value_name = "FILE.svg")]
-    pub(super) output: Option<String>,
-
-    #[command(flatten)]
-    pub(super) overrides: Overrides,
-}
-
-#[derive(Debug, Args)]
-pub(super) struct OptimizeArgs {
-    /// The job file (.vcut), or - to read it from standard input
-    pub(super) job: String,
-
-    /// The number of scallop limits to try for the trade-off
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(2..=100))]
-    pub(super) points: u32,
-
-    /// Draw time against scallop in this file
-    ///
-    /// A job with several operations gets one picture for each, with its number after the name.
     #[arg(short, long, value_name = "FILE.svg")]
     pub(super) output: Option<String>,
 

@@ -1,4 +1,4 @@
-//! `vcutc optimize JOB`: what open parameters come out as, what binds them, and what a finer surface would cost.
+//! `vcutc optimize JOB`: what the job comes to, what binds it, and what time other limits cost.
 
 use super::args::OptimizeArgs;
 use super::console::{Console, Failure};
@@ -8,7 +8,7 @@ use super::progress::Progress;
 use super::{Exit, Targets};
 use std::path::{Path, PathBuf};
 use vcutc_backend_api::bundle::Sink;
-use vcutc_optimize::{Optimisation, Refusal, json, report};
+use vcutc_optimize::{Optimisation, Refusal, Wanted, json, report};
 
 /// Optimises one job.
 pub(super) fn optimize(args: &OptimizeArgs, targets: &Targets, console: &Console) -> Exit {
@@ -19,7 +19,11 @@ pub(super) fn optimize(args: &OptimizeArgs, targets: &Targets, console: &Console
     let disk = Disk::around(&args.job);
     let mut progress = Progress::start(console.shows_progress());
     let request = args.overrides.request(&disk, targets);
-    let optimised = vcutc_optimize::optimise(request, args.points, &mut |stage| progress.enter(stage));
+    let wanted = Wanted {
+        against: args.against.into(),
+        points: args.points,
+    };
+    let optimised = vcutc_optimize::optimise(request, wanted, &mut |stage| progress.enter(stage));
     progress.finish();
     match optimised {
         Ok(optimisation) => tell(&optimisation, picture.as_ref(), console),

@@ -1,4 +1,4 @@
-//! Bounds that bind: where the job says them, and what relaxing them by a hundredth would buy.
+//! Bounds of the formulas' optimum that bind: where the job says them, and what relaxing them by a hundredth would buy.
 
 use vcutc_backend_api::units::{Angle, Duration};
 use vcutc_diagnostics::number::show;
@@ -111,7 +111,7 @@ pub(super) fn value(bound: Bound, value: f64) -> String {
 }
 
 /// Where the job says a bound: the limit, or the value that is given.
-fn written(bound: Bound, asked: &RoughVcut) -> Option<Span> {
+pub(super) fn written(bound: Bound, asked: &RoughVcut) -> Option<Span> {
     let limits = &asked.limits;
     match bound {
         Bound::SwingLeast => given(&asked.swing).or(limits.swing.least.and_then(of)),

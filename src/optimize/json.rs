@@ -3,7 +3,10 @@
 use super::bounds::Relaxed;
 use super::others::{self, OtherBody, ProcessBody};
 use super::rect::{RectBody, RectOptimum};
-use super::{Came, FoundBy, GivenOperation, OperationOptimum, Optimisation, Plan, Role, Row};
+use super::{
+    Faster, FoundBy, GivenOperation, Loosened, OperationOptimum, Optimisation, Plan, Point, Role, Row,
+    TradeOff,
+};
 use serde::Serialize;
 use vcutc_vcut::plan::optimum::{Bound, Optimum};
 
@@ -42,17 +45,53 @@ struct OperationBody<'a> {
     lattice_given: Option<&'a str>,
     best: Vec<RowBody>,
     planned: PlannedBody,
+    /// Of the formulas.
     binding: Vec<BindingBody<'a>>,
-    trade_off: Vec<PointBody>,
+    wider: Vec<WiderBody<'a>>,
+    faster: Vec<FasterBody<'a>>,
+    trade_off: TradeOffBody,
 }
 
-/// A point of the trade-off: the optimum of the formulas, and the plan under the same limit.
+#[derive(Debug, Serialize)]
+struct TradeOffBody {
+    /// What the limits are on: `scallop`, `cuts` or `edge`.
+    against: &'static str,
+    /// The job's own limit, in mm or cuts.
+    limit: Option<f64>,
+    /// The job as it is, at programmed speeds.
+    now: Option<PlanBody>,
+    points: Vec<PointBody>,
+}
+
+/// A limit with the best plan and the optimum of the formulas within it.
 #[derive(Debug, Serialize)]
 struct PointBody {
-    #[serde(flatten)]
-    formula: ParametersBody,
-    /// None where the formulas alone speak of it.
+    /// In mm or cuts.
+    limit: f64,
+    /// None where there is no plan, or none was made.
     planned: Option<PlanBody>,
+    formula: Option<ParametersBody>,
+}
+
+/// A limit or a value that is a tenth wider.
+#[derive(Debug, Serialize)]
+struct WiderBody<'a> {
+    bound: &'static str,
+    words: &'a str,
+    place: Option<&'a str>,
+    wider: &'a str,
+    planned: PlanBody,
+    /// Of the objective, in its unit: s, mm or cuts.
+    gain: f64,
+    /// Of the objective.
+    share: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct FasterBody<'a> {
+    change: &'a str,
+    planned: PlanBody,
+    share: f64,
 }
 
 /// Lengths in mm, angles in deg, times in s.
@@ -65,6 +104,7 @@ struct PlanBody {
     time: f64,
     cuts: usize,
     leaves: f64,
+    edge: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -151,11 +191,6 @@ fn given_body(given: &GivenOperation) -> GivenBody<'_> {
 
 fn operation_body(operation: &OperationOptimum) -> OperationBody<'_> {
     let planned = &operation.planned;
-    let points = operation
-        .trade_off
-        .points
-        .iter()
-        .zip(&operation.trade_off.planned);
     OperationBody {
         operation: operation.number,
         place: &operation.place,
@@ -179,17 +214,46 @@ fn operation_body(operation: &OperationOptimum) -> OperationBody<'_> {
             },
         },
         binding: operation.binding.iter().map(binding_body).collect(),
-        trade_off: points.map(|(best, came)| point_body(best, came)).collect(),
+        wider: operation.loosened.iter().map(wider_body).collect(),
+        faster: operation.faster.iter().map(faster_body).collect(),
+        trade_off: trade_off_body(&operation.trade_off),
     }
 }
 
-fn point_body(best: &Optimum, came: &Came) -> PointBody {
+fn trade_off_body(trade_off: &TradeOff) -> TradeOffBody {
+    TradeOffBody {
+        against: trade_off.against.word(),
+        limit: trade_off.limit,
+        now: trade_off.now.plan().map(plan_body),
+        points: trade_off.points.iter().map(point_body).collect(),
+    }
+}
+
+fn point_body(point: &Point) -> PointBody {
     PointBody {
-        formula: parameters_body(best),
-        planned: match came {
-            Came::Planned(plan) => Some(plan_body(plan)),
-            Came::Nothing | Came::FormulaOnly => None,
-        },
+        limit: point.limit,
+        planned: point.came.plan().map(plan_body),
+        formula: point.formula.as_ref().map(parameters_body),
+    }
+}
+
+fn wider_body(loosened: &Loosened) -> WiderBody<'_> {
+    WiderBody {
+        bound: bound_key(loosened.bound),
+        words: &loosened.words,
+        place: loosened.place.as_deref(),
+        wider: &loosened.loosened,
+        planned: plan_body(&loosened.plan),
+        gain: loosened.gain,
+        share: loosened.share,
+    }
+}
+
+fn faster_body(faster: &Faster) -> FasterBody<'_> {
+    FasterBody {
+        change: &faster.change,
+        planned: plan_body(&faster.plan),
+        share: faster.share,
     }
 }
 
@@ -203,6 +267,7 @@ fn plan_body(plan: &Plan) -> PlanBody {
         time: plan.time.to_s(),
         cuts: plan.cuts,
         leaves: plan.leaves.to_mm(),
+        edge: plan.edge.to_mm(),
     }
 }
 

@@ -1,37 +1,46 @@
 //! `vcutc optimize`: what the open parameters of a job come out as, what else there would be, and what it would cost.
 //!
-//! The job is compiled as ever, so that what is told of the chosen parameters was planned, proven and timed. Beside it the
-//! problem of each operation ([`vcutc_vcut::plan::optimum`]) is solved again: on every lattice, by the paper's formulas and by the
-//! exact ones, with each binding bound relaxed, and for a row of limits of the scallop. Those answers are the model's alone.
+//! The job is compiled as ever. Then it is planned again with changes: each limit a tenth wider, other lattices, and a row of limits
+//! of what time is traded against. Beside these plans stands what the formulas say of the problem
+//! ([`vcutc_vcut::plan::optimum`]): on every lattice, by the paper's formulas and by the exact ones.
 
+mod against;
 mod bounds;
-mod came;
+mod faster;
 pub mod json;
+mod loosened;
 mod others;
+mod planned;
 mod rect;
 pub mod report;
 mod table;
 mod trade_off;
+mod trials;
 
+pub use against::Against;
 pub use bounds::Relaxed;
-pub use came::{Came, Plan};
+pub use faster::Faster;
+pub use loosened::Loosened;
 pub use others::OtherOperation;
+pub use planned::{FoundBy, Planned};
 pub use rect::RectOptimum;
-pub use trade_off::TradeOff;
+pub use trade_off::{Point, TradeOff};
+pub use trials::{Came, Plan};
 
-use came::{Room, came};
-use vcutc_backend_api::ir::{OperationId, Site};
-use vcutc_backend_api::units::{Duration, Length};
+use trade_off::Question;
+use trials::{Route, Subject, Trials};
+use vcutc_backend_api::ir::OperationId;
+use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_driver::ways::Comparison;
 use vcutc_driver::{self as driver, Compiled, Outcome, Request, RequestError, Stage};
-use vcutc_job::{Auto, CheckedJob, PlannedJob, PlanningJob, Sourced};
+use vcutc_job::{Auto, CheckedJob, PlannedJob, PlanningJob};
 use vcutc_picture::pareto::{self, Curve, Pareto};
 use vcutc_vcut::PlannedVcut;
 use vcutc_vcut::asked::{Formulas, Lattice, Objective, RoughVcut};
 use vcutc_vcut::plan::optimum::{self, Optimum, Problem};
-use vcutc_vcut::plan::parameters::{self, VcutParameters};
+use vcutc_vcut::plan::parameters;
 
 /// What came of a job's open parameters.
 #[derive(Debug)]
@@ -79,29 +88,16 @@ pub struct OperationOptimum {
     pub lattice_given: Option<String>,
     /// The best parameters on every lattice by both formulas.
     pub rows: Vec<Row>,
-    pub planned: Planned,
-    /// Bounds that bind, and what relaxing them would buy.
+    /// Bounds of the chosen row that bind, and what relaxing them would buy by the formulas.
     pub binding: Vec<Relaxed>,
-    /// Least times for a row of limits of the scallop.
+    pub planned: Planned,
+    /// What wider limits save, as planned.
+    pub loosened: Vec<Loosened>,
+    /// Changes that are not wider limits and still save time, as planned.
+    pub faster: Vec<Faster>,
+    /// The fastest plans for a row of limits.
     pub trade_off: TradeOff,
-    /// The fastest other lattice or model, where by the formulas it is much faster than the marked line.
-    pub faster: Option<Faster>,
 }
-
-/// Another lattice on which the formulas promise a much shorter time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Faster {
-    pub lattice: Lattice,
-    /// The time by the formulas.
-    pub time: Duration,
-    /// By which share it is shorter: planned than the job as planned, or else by the formulas than that of the marked line.
-    pub share: f64,
-    /// What it comes to when it is planned.
-    pub came: Came,
-}
-
-/// From which share on another lattice is worth a line.
-const MUCH_FASTER: f64 = 0.1;
 
 /// The best parameters on one lattice, by one kind of formulas.
 #[derive(Clone, Debug, PartialEq)]
@@ -123,40 +119,6 @@ pub enum Role {
     Other,
 }
 
-/// How the parameters that an operation is cut with were found.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum FoundBy {
-    /// By the formulas: they are those of the chosen row, on the grid.
-    Formulas,
-    /// As the best of plans that were simulated, and what these came up against.
-    Simulation { reasons: Vec<&'static str> },
-}
-
-/// What the plan of an operation comes to.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Planned {
-    /// What it is cut with, on the grid: the formulas' choice, or what simulation found better.
-    pub parameters: VcutParameters,
-    pub found: FoundBy,
-    /// Time of its moves.
-    pub time: Duration,
-    /// Time by the model, of the parameters on the grid.
-    pub model: Duration,
-    /// V-cuts.
-    pub cuts: usize,
-    /// Layers with cuts.
-    pub layers: usize,
-}
-
-impl Planned {
-    /// How far the model is above the planned time, as a share of that; none when nothing takes time.
-    #[must_use]
-    pub fn model_above(&self) -> Option<f64> {
-        let planned = self.time.to_s();
-        (planned > 0.0).then(|| self.model.to_s() / planned - 1.0)
-    }
-}
-
 /// Why nothing was optimised.
 #[derive(Debug)]
 pub enum Refusal {
@@ -166,13 +128,21 @@ pub enum Refusal {
     Diagnostics(Vec<Diagnostic>, SourceMap),
 }
 
-/// Optimises a job, with so many limits of the scallop in the trade-off.
+/// What is to be known of the trade-off.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted {
+    pub against: Against,
+    /// How many limits are tried.
+    pub points: u32,
+}
+
+/// Optimises a job.
 ///
 /// # Errors
 /// When the job does not compile.
 pub fn optimise(
     request: Request<'_>,
-    points: u32,
+    wanted: Wanted,
     progress: &mut dyn FnMut(Stage),
 ) -> Result<Optimisation, Refusal> {
     let outcome = driver::compile(request, progress)
@@ -190,10 +160,10 @@ pub fn optimise(
         return Err(Refusal::Diagnostics(outcome.diagnostics, outcome.sources));
     };
     progress(Stage::Optimising);
-    let operations = operations(&job, &plan, &compiled, &sources, points);
+    let operations = operations(&job, &plan, &compiled, &sources, wanted);
     let given = given(&job, &sources);
     let others = others::of(&plan, &compiled, &sources);
-    let rects = rect::of(&job, &comparisons, &operations, points, &sources);
+    let rects = rect::of(&job, &comparisons, &operations, wanted.points, &sources);
     Ok(Optimisation {
         given,
         others,
@@ -225,100 +195,77 @@ fn operations(
     plan: &PlannedJob,
     compiled: &Compiled,
     sources: &SourceMap,
-    points: u32,
+    wanted: Wanted,
 ) -> Vec<OperationOptimum> {
-    let pairs = (0..).zip(job.operations.iter().zip(&plan.operations));
-    let mut operations = Vec::new();
-    for (index, (asked, planned_operation)) in pairs {
-        let (Some(asked), Some(vcut)) = (RoughVcut::of(&**asked), PlannedVcut::of(&**planned_operation))
-        else {
-            continue;
-        };
-        operations.extend(operation(
+    let route = match compiled.not_followed {
+        Some(_) => Route::OfThePlan,
+        None => Route::Open,
+    };
+    let numbered = (0..).map(OperationId).zip(&plan.operations);
+    let optimised = numbered.filter_map(|(operation, planned)| {
+        let vcut = PlannedVcut::of(&**planned)?;
+        let subject = Subject {
             job,
-            asked,
-            vcut,
-            sources,
-            planned(vcut, compiled, OperationId(index)),
-            Scale {
-                index,
-                points,
-                route: match compiled.not_followed {
-                    Some(_) => Route::OfThePlan,
-                    None => Route::Open,
-                },
-            },
-        ));
-    }
-    operations
+            operation,
+            plan: vcut,
+            route,
+        };
+        let planned = Planned::of(vcut, compiled, operation);
+        optimum_of(subject, planned, sources, wanted)
+    });
+    optimised.collect()
 }
 
-/// Which operation, how many limits its trade-off has, and along which routes they are planned.
-#[derive(Clone, Copy)]
-struct Scale {
-    index: u16,
-    points: u32,
-    route: Route,
-}
+/// How many cuts the plans of one kind may have together: plans with one change, and points of a trade-off.
+const CUTS: f64 = 3_000.0;
 
-/// Along which routes changes of a job are planned.
-#[derive(Clone, Copy)]
-enum Route {
-    /// Those that the job leaves open.
-    Open,
-    /// That of the job's plan and swings no wider: the machine did not follow what the job makes of itself.
-    OfThePlan,
-}
-
-impl Route {
-    fn keep(self, asked: &mut RoughVcut, plan: &PlannedVcut) {
-        match self {
-            Self::Open => {}
-            Self::OfThePlan => {
-                asked.sequence.value = Auto::Given(plan.sequence);
-                asked.order.value = Auto::Given(plan.order);
-                asked.limits.swing.most = plan.asked.limits.swing.most;
-            }
-        }
-    }
-}
-
-fn operation(
-    job: &CheckedJob,
-    asked: &RoughVcut,
-    vcut: &PlannedVcut,
-    sources: &SourceMap,
+fn optimum_of(
+    subject: Subject<'_>,
     planned: Planned,
-    Scale { index, points, route }: Scale,
+    sources: &SourceMap,
+    wanted: Wanted,
 ) -> Option<OperationOptimum> {
+    let Subject {
+        job,
+        operation,
+        plan: vcut,
+        ..
+    } = subject;
+    let mut asked = RoughVcut::of(&**job.operations.get(usize::from(operation.0))?)?.clone();
     if asked.tips.is_some() {
         return None;
     }
     // A limit that was chosen counts as if the job had set it.
-    let mut asked = asked.clone();
     asked.limits.scallop = vcut.asked.limits.scallop;
     let asked = &asked;
     let problem = parameters::problem(&PlanningJob::of(job)?, asked)?;
-    let chosen = vcut.parameters.lattice;
-    let formulas = asked.formulas.value;
-    let of_formulas = with_formulas(chosen, &problem);
+    let of_formulas = with_formulas(vcut.parameters.lattice, &problem);
     let rows = rows(&problem, of_formulas);
-    let best = rows.iter().find_map(|row| match row.role {
-        Role::Chosen => row.best.as_ref().ok(),
-        Role::Other => None,
-    });
-    let binding = best.map_or_else(Vec::new, |best| bounds::relaxed(&problem, best, asked, sources));
-    let mut trials = Trials {
-        job,
-        plan: vcut,
-        route,
-        room: Room::OF_AN_OPERATION,
+    let chosen = rows.iter().find_map(Row::chosen);
+    let binding = chosen.map_or_else(Vec::new, |best| bounds::relaxed(&problem, best, asked, sources));
+
+    let mut changes = Trials::new(subject, CUTS);
+    let now = changes.came(planned.cuts as f64, |_| {});
+    let mut loosened = Vec::new();
+    let mut faster = Vec::new();
+    if let Some(now) = now.plan() {
+        loosened = loosened::loosened(asked, now, &mut changes, sources);
+        faster.extend(faster::on_other_lattices(asked, now, &mut changes));
+    }
+    let question = Question {
+        against: wanted.against,
+        points: wanted.points,
+        asked,
+        problem: &problem,
+        lattices: &lattices_first(of_formulas),
     };
+    let trade_off = TradeOff::of(&question, &now, &mut Trials::new(subject, CUTS));
+    faster.extend(faster::within_a_tighter_limit(asked, &trade_off));
     Some(OperationOptimum {
-        number: index.saturating_add(1),
+        number: operation.0.saturating_add(1),
         place: bounds::place(sources, asked.setup.head_span),
         objective: asked.objective.value,
-        formulas,
+        formulas: asked.formulas.value,
         lattice_given: match asked.lattice.value {
             Auto::Auto => None,
             Auto::Given(_) => Some(bounds::place(
@@ -326,14 +273,20 @@ fn operation(
                 asked.lattice.span.unwrap_or(asked.setup.head_span),
             )),
         },
-        faster: faster(asked, &rows, (chosen, planned.time), &mut trials),
-        planned,
-        binding,
-        trade_off: TradeOff::of(&problem, of_formulas, points, |point| {
-            trials.came(point.cuts, |asked| under(asked, point))
-        }),
         rows,
+        binding,
+        planned,
+        loosened,
+        faster,
+        trade_off,
     })
+}
+
+/// All lattices that have formulas, this one first.
+fn lattices_first(first: Lattice) -> [Lattice; 3] {
+    let mut lattices = LATTICES;
+    lattices.sort_by_key(|&lattice| lattice != first);
+    lattices
 }
 
 /// The lattice itself; of fitted tips, which have no formulas, the best one by these.
@@ -350,73 +303,7 @@ fn with_formulas(chosen: Lattice, problem: &Problem) -> Lattice {
     }
 }
 
-/// Changes of a job that are planned.
-struct Trials<'j> {
-    job: &'j CheckedJob,
-    /// The operation as it is planned.
-    plan: &'j PlannedVcut,
-    route: Route,
-    room: Room,
-}
-
-impl Trials<'_> {
-    fn came(&mut self, cuts: f64, change: impl FnOnce(&mut RoughVcut)) -> Came {
-        came(self.job, &mut self.room, cuts, |asked| {
-            self.route.keep(asked, self.plan);
-            change(asked);
-        })
-    }
-}
-
-/// Puts an operation under the limit of a point.
-fn under(asked: &mut RoughVcut, point: &Optimum) {
-    asked.limits.scallop = Some(Sourced {
-        value: point.scallop,
-        span: None,
-    });
-}
-
-/// The fastest other lattice by the job's formulas, if it is much faster. What is planned decides where it is planned.
-fn faster(
-    asked: &RoughVcut,
-    rows: &[Row],
-    (chosen, planned): (Lattice, Duration),
-    trials: &mut Trials<'_>,
-) -> Option<Faster> {
-    let formulas = asked.formulas.value;
-    let of = |row: &Row| {
-        row.best
-            .as_ref()
-            .ok()
-            .filter(|_| row.formulas == formulas)
-            .cloned()
-    };
-    let marked = rows.iter().filter(|row| row.role == Role::Chosen).find_map(of)?;
-    let others = rows.iter().filter(|row| row.role == Role::Other);
-    let best = others
-        .filter_map(of)
-        .min_by(|one, other| one.time.total_cmp(&other.time))?;
-    let share = 1.0 - best.time / marked.time;
-    let is_told = share > MUCH_FASTER && asked.objective.value == Objective::Time && best.lattice != chosen;
-    if !is_told {
-        return None;
-    }
-    let came = trials.came(best.cuts, |asked| {
-        asked.lattice.value = Auto::Given(best.lattice);
-    });
-    let share = match &came {
-        Came::Planned(plan) => 1.0 - plan.time / planned,
-        Came::FormulaOnly => share,
-        Came::Nothing => return None,
-    };
-    (share > MUCH_FASTER).then_some(Faster {
-        lattice: best.lattice,
-        time: best.time,
-        share,
-        came,
-    })
-}
-
+/// Lattices that have formulas.
 const LATTICES: [Lattice; 3] = [Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free];
 
 /// Every lattice by both formulas, all else as the job has it.
@@ -446,32 +333,13 @@ fn rows(problem: &Problem, chosen: Lattice) -> Vec<Row> {
         .collect()
 }
 
-/// What an operation's plan comes to, from the times of its ops.
-fn planned(vcut: &PlannedVcut, compiled: &Compiled, operation: OperationId) -> Planned {
-    let ops = &compiled.program.verified().program().ops;
-    let own = ops
-        .iter()
-        .zip(&compiled.op_times)
-        .filter(|(op, _)| match op.site {
-            Site::Program => false,
-            Site::Operation(of) | Site::Layer { operation: of, .. } | Site::Cut { operation: of, .. } => {
-                of == operation
-            }
-        });
-    let layers = compiled.report.layers.iter();
-    Planned {
-        parameters: vcut.parameters.clone(),
-        found: if vcut.is_found_by_simulation() {
-            FoundBy::Simulation {
-                reasons: vcut.parameters.reasons(&vcut.asked),
-            }
-        } else {
-            FoundBy::Formulas
-        },
-        time: own.map(|(_, &time)| time).sum(),
-        model: vcut.estimate,
-        cuts: vcut.cuts.len(),
-        layers: layers.filter(|(of, _)| *of == operation).count(),
+impl Row {
+    /// The best parameters, where they are the job's.
+    fn chosen(&self) -> Option<&Optimum> {
+        match self.role {
+            Role::Chosen => self.best.as_ref().ok(),
+            Role::Other => None,
+        }
     }
 }
 
@@ -479,31 +347,30 @@ impl Optimisation {
     /// The Pareto picture of an operation as SVG.
     #[must_use]
     pub fn svg(&self, operation: &OperationOptimum) -> String {
-        let title = format!("{}: time against scallop, by the formulas", self.job);
-        let subtitle = format!(
-            "operation {}, {} formulas, {}",
-            operation.number,
-            operation.formulas.word(),
-            report::objective(operation.objective)
-        );
         let trade_off = &operation.trade_off;
-        let places = |optimum: &Optimum| [optimum.scallop.to_mm(), optimum.time.to_s()];
-        let curves: Vec<Curve<'_>> = trade_off
+        let against = trade_off.against;
+        let title = format!("{}: time against {}, as planned", self.job, against.word());
+        let subtitle = format!("operation {}, at programmed speeds", operation.number);
+        let front = trade_off.front();
+        let models: Vec<Curve<'_>> = trade_off
             .curves
             .iter()
             .map(|curve| Curve {
                 name: curve.lattice.word(),
-                points: curve.points.iter().map(places).collect(),
+                points: curve.points.clone(),
             })
             .collect();
-        let chosen = operation.chosen().map_or([0.0, 0.0], places);
         pareto::draw(&Pareto {
             title: &title,
             subtitle: &subtitle,
-            curves: &curves,
-            chosen,
-            planned: Some([self.scallop.to_mm(), operation.planned.time.to_s()]),
-            limit: trade_off.limit.map(Length::to_mm),
+            label: against.label(),
+            front: &front,
+            now: trade_off
+                .now
+                .plan()
+                .map(|plan| [against.of(plan), plan.time.to_s()]),
+            limit: trade_off.limit,
+            models: &models,
         })
     }
 }
@@ -512,9 +379,6 @@ impl OperationOptimum {
     /// The best parameters by the job's formulas on the lattice it is cut with.
     #[must_use]
     pub fn chosen(&self) -> Option<&Optimum> {
-        self.rows.iter().find_map(|row| match row.role {
-            Role::Chosen => row.best.as_ref().ok(),
-            Role::Other => None,
-        })
+        self.rows.iter().find_map(Row::chosen)
     }
 }

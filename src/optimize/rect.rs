@@ -4,13 +4,12 @@
 //! asked.
 
 use super::table::{seconds, table};
-use super::{OperationOptimum, bounds};
+use super::{Against, OperationOptimum, against, bounds};
 use core::any::Any;
 use serde::Serialize;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_driver::ways::Comparison;
-use vcutc_geometry::grid;
 use vcutc_job::operation::Operation;
 use vcutc_job::{CheckedJob, PlanningJob};
 use vcutc_process::plan::ground_of;
@@ -32,9 +31,6 @@ pub struct RectOptimum {
     pub trade_off: Vec<(Length, Option<Figures>)>,
     pub prices: Vec<Price>,
 }
-
-/// From this share of what a plan leaves, and up to its inverse, limits are tried where V cuts do not say for which.
-const LEAST_SHARE: f64 = 0.25;
 
 /// Of all rectangular roughing of a job, and of that which is a way to do an operation, whether it was taken or not. Limits are those
 /// of the V cuts of the same operation, where there are any, so that the tables compare.
@@ -63,8 +59,11 @@ pub(super) fn of(
         let limit = asked.limits.scallop.map(|limit| limit.value);
         let of_vcuts = vcuts.iter().find(|vcut| vcut.number == number);
         let limits = match of_vcuts {
-            Some(vcut) => vcut.trade_off.points.iter().map(|point| point.scallop).collect(),
-            None => limits_about(limit.or(now.map(|now| now.left)), points),
+            Some(vcut) if vcut.trade_off.against == Against::Scallop => {
+                let points = vcut.trade_off.points.iter();
+                points.map(|point| Length::mm(point.limit)).collect()
+            }
+            Some(_) | None => limits_about(limit.or(now.map(|now| now.left)), points),
         };
         let is_own = |other: &Length| limit.is_some_and(|limit| (*other - limit).abs() < ALIKE);
         let others = limits.into_iter().filter(|other| !is_own(other));
@@ -91,10 +90,9 @@ fn limits_about(limit: Option<Length>, points: u32) -> Vec<Length> {
     let Some(limit) = limit.filter(|limit| *limit > Length::ZERO) else {
         return Vec::new();
     };
-    let middle = f64::from(points.max(2) - 1) / 2.0;
-    let factor = |point: u32| libm::pow(LEAST_SHARE, 1.0 - f64::from(point) / middle);
-    let limits = (0..points).map(|point| Length::mm(grid::up(limit.to_mm() * factor(point) * 0.1) * 10.0));
-    limits.collect()
+    against::about(limit.to_mm(), points)
+        .map(|limit| Length::mm(against::hundredths(limit)))
+        .collect()
 }
 
 /// Limits nearer to each other are printed alike.

@@ -3,13 +3,14 @@
 use super::bounds::{Relaxed, name, value};
 use super::others;
 use super::table::{seconds, table};
-use super::{Came, Faster, FoundBy, OperationOptimum, Optimisation, Planned, Role, Row};
+use super::trade_off::{Point, TradeOff};
+use super::{Came, Faster, FoundBy, Loosened, OperationOptimum, Optimisation, Plan, Planned, Role, Row};
 use std::fmt::Write;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_backend_api::words::counted;
 use vcutc_diagnostics::number::show;
 use vcutc_vcut::asked::Objective;
-use vcutc_vcut::plan::optimum::{Bound, Infeasible, Optimum, Problem};
+use vcutc_vcut::plan::optimum::{Bound, Infeasible, Problem};
 use vcutc_vcut::plan::parameters::VcutParameters;
 
 #[must_use]
@@ -54,25 +55,33 @@ pub fn text(optimisation: &Optimisation) -> String {
 
 fn operation_text(job: &str, operation: &OperationOptimum, scallop: Length) -> String {
     let mut text = format!(
-        "{job}: operation {} ({}), {} by the {} formulas\n\n",
+        "{job}: operation {} ({}), {}\n\n  cut with   {}\n  planned    {}\n",
         operation.number,
         operation.place,
+        objective(operation.objective),
+        cut_words(&operation.planned.parameters),
+        planned_words(&operation.planned, scallop)
+    );
+    text += &found_text(&operation.planned);
+    text += &loosened_text(operation);
+    for faster in &operation.faster {
+        text += &faster_text(faster);
+    }
+    text += &trade_off_text(&operation.trade_off);
+    text += &formulas_text(operation);
+    text
+}
+
+/// What the formulas say, beside the plans.
+fn formulas_text(operation: &OperationOptimum) -> String {
+    let mut text = format!(
+        "\n  By the formulas, {} by the {} ones:\n\n",
         objective(operation.objective),
         operation.formulas.word()
     );
     text += &table(
         &[
-            "",
-            "lattice",
-            "model",
-            "swing",
-            "layer",
-            "step",
-            "overlap",
-            "formula time",
-            "cuts",
-            "scallop",
-            "edge",
+            "", "lattice", "model", "swing", "layer", "step", "overlap", "time", "cuts", "scallop", "edge",
         ],
         &operation.rows.iter().map(row_cells).collect::<Vec<_>>(),
     );
@@ -83,56 +92,110 @@ fn operation_text(job: &str, operation: &OperationOptimum, scallop: Length) -> S
             "\n  The lattice is given ({place}); the others are there for comparison."
         );
     }
-    let _ = write!(
-        text,
-        "\n  cut with   {}\n  planned    {}\n",
-        cut_words(&operation.planned.parameters),
-        planned_words(&operation.planned, scallop)
-    );
-    text += &line_text(&operation.planned);
-    text += &proven_text(operation);
-    text += &binding_text(operation.objective, &operation.binding);
-    text += &operation.faster.as_ref().map_or(String::new(), faster_text);
-    text +=
-        "\n  Other limits of the scallop, planned at programmed speeds, and the times by the formula:\n\n";
-    let points = operation
-        .trade_off
+    let chosen = proven_text(operation) + &binding_text(operation.objective, &operation.binding);
+    if !chosen.is_empty() {
+        text = text + "\n  Line *:\n" + &chosen;
+    }
+    text
+}
+
+/// What wider limits save, as planned.
+fn loosened_text(operation: &OperationOptimum) -> String {
+    let mut text = String::new();
+    for (index, loosened) in operation.loosened.iter().enumerate() {
+        let head = if index == 0 { "binds" } else { "" };
+        let Loosened {
+            words,
+            place,
+            loosened: wider,
+            gain,
+            share,
+            ..
+        } = loosened;
+        let place = place
+            .as_ref()
+            .map_or(String::new(), |place| format!(" ({place})"));
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "  {head:<10} {words}{place}; {wider} saves {} ({} %)",
+            gained(operation.objective, *gain),
+            percent(*share)
+        );
+    }
+    match (&operation.trade_off.now, &operation.loosened[..]) {
+        (Came::Planned(_), []) => {
+            "  binds      nothing: no limit that is a tenth wider saves more than 0.2 %\n".to_owned()
+        }
+        (Came::Planned(_), _) => text,
+        (Came::Nothing | Came::TooLarge, _) => {
+            "  binds      not planned again with wider limits: too many cuts\n".to_owned()
+        }
+    }
+}
+
+/// `faster     with lattice = interlaced: 2 min 50.5 s for 54 cuts, 45 % less`.
+fn faster_text(faster: &Faster) -> String {
+    let Faster { change, plan, share } = faster;
+    format!(
+        "  faster     with {change}: {} for {}, {:.1} % less\n",
+        seconds(plan.time),
+        counted(plan.cuts, "cut"),
+        share * 100.0
+    )
+}
+
+fn trade_off_text(trade_off: &TradeOff) -> String {
+    let against = trade_off.against;
+    let mut rows: Vec<(f64, Vec<String>)> = trade_off
         .points
         .iter()
-        .zip(&operation.trade_off.planned);
+        .map(|point| (point.limit, point_cells(trade_off, point)))
+        .collect();
+    if let Some(now) = trade_off.now.plan() {
+        let limit = trade_off.limit;
+        let words = limit.map_or_else(|| "none".to_owned(), |limit| against.shown(limit));
+        let cells = [vec!["*".to_owned(), words], plan_cells(now)].concat();
+        rows.push((limit.unwrap_or(against.of(now)), cells));
+    }
+    rows.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+    let rows: Vec<Vec<String>> = rows.into_iter().map(|(_, cells)| cells).collect();
+    let mut text = format!(
+        "\n  Other limits on {}, planned at programmed speeds:\n\n",
+        against.word()
+    );
     text += &table(
         &[
-            "",
-            "limit",
-            "time",
-            "cuts",
-            "leaves",
-            "lattice",
-            "swing",
-            "layer",
-            "step",
-            "formula time",
+            "", "limit", "time", "cuts", "leaves", "edge", "lattice", "swing", "layer", "step",
         ],
-        &points
-            .map(|(best, came)| point_cells(best, came, operation.chosen()))
-            .collect::<Vec<_>>(),
+        &rows,
     );
     text
 }
 
-/// `faster     interlaced: 2 min 50.5 s planned, 45 % less than the job; 2 min 49.3 s by the formula`.
-fn faster_text(faster: &Faster) -> String {
-    let (lattice, share) = (faster.lattice.word(), faster.share * 100.0);
-    let formula = seconds(faster.time);
-    match &faster.came {
-        Came::Planned(plan) => format!(
-            "  faster     {lattice}: {} planned, {share:.0} % less than the job; {formula} by the formula\n",
-            seconds(plan.time)
-        ),
-        Came::Nothing | Came::FormulaOnly => format!(
-            "  faster     {lattice}: {formula} by the formula only, not planned, {share:.0} % below the marked line\n"
-        ),
-    }
+fn point_cells(trade_off: &TradeOff, point: &Point) -> Vec<String> {
+    let head = vec![String::new(), trade_off.against.shown(point.limit)];
+    let rest = match (&point.came, &point.formula) {
+        (Came::Planned(plan), _) => plan_cells(plan),
+        (Came::Nothing, _) => vec!["no plan".to_owned()],
+        (Came::TooLarge, Some(best)) => vec![format!("not planned; {} by the formulas", seconds(best.time))],
+        (Came::TooLarge, None) => vec!["not planned".to_owned()],
+    };
+    [head, rest].concat()
+}
+
+fn plan_cells(plan: &Plan) -> Vec<String> {
+    let parameters = &plan.parameters;
+    vec![
+        seconds(plan.time),
+        plan.cuts.to_string(),
+        format!("{:.2} mm", plan.leaves.to_mm()),
+        format!("{:.2} mm", plan.edge.to_mm()),
+        parameters.lattice.word().to_owned(),
+        format!("{:.3} deg", parameters.swing.to_deg()),
+        format!("{:.3} mm", parameters.layer.to_mm()),
+        format!("{:.3} mm", parameters.step.to_mm()),
+    ]
 }
 
 /// `interlaced, swing 40 deg, layer 4.519 mm, step 7.584 mm`: what the job is cut with, which simulation may have found better
@@ -168,8 +231,8 @@ fn planned_words(planned: &Planned, scallop: Length) -> String {
     )
 }
 
-/// Of what the lines that follow speak, where the job is not cut with the marked line, and what bounds what it is cut with.
-fn line_text(planned: &Planned) -> String {
+/// What bounds the parameters that simulation found.
+fn found_text(planned: &Planned) -> String {
     match &planned.found {
         FoundBy::Formulas => String::new(),
         FoundBy::Simulation { reasons } => {
@@ -178,9 +241,7 @@ fn line_text(planned: &Planned) -> String {
             } else {
                 reasons.join(", ")
             };
-            format!(
-                "  found      by simulation, bound by {reasons}\n\n  About line * (optimum of the formula; the job is cut with the better plan above):\n\n"
-            )
+            format!("  found      by simulation, bound by {reasons}\n")
         }
     }
 }
@@ -209,7 +270,7 @@ fn binding_text(objective: Objective, binding: &[Relaxed]) -> String {
             "  {head:<10} {}{place}; {} would save {} ({} %) by the formula",
             relaxed.words,
             relaxed.relaxed,
-            gain(objective, relaxed),
+            gained(objective, relaxed.gain),
             percent(relaxed.share)
         );
     }
@@ -217,11 +278,11 @@ fn binding_text(objective: Objective, binding: &[Relaxed]) -> String {
 }
 
 /// What is saved of the objective, with its unit.
-fn gain(objective: Objective, relaxed: &Relaxed) -> String {
+fn gained(objective: Objective, gain: f64) -> String {
     match objective {
-        Objective::Time => seconds(relaxed.saves),
-        Objective::Scallop | Objective::BladeLoad => format!("{} mm", show(relaxed.gain)),
-        Objective::Cuts => format!("{:.1} cuts", relaxed.gain),
+        Objective::Time => seconds(Duration::s(gain)),
+        Objective::Scallop | Objective::BladeLoad => format!("{} mm", show(gain)),
+        Objective::Cuts => format!("{gain:.1} cuts"),
     }
 }
 
@@ -281,46 +342,4 @@ fn would_do(bounds: &[Bound], nearest: &[Option<f64>]) -> String {
         nearest.map(|nearest| format!("; {} {} would do", name(bound), value(bound, nearest)))
     });
     works.unwrap_or_default()
-}
-
-fn point_cells(best: &Optimum, came: &Came, chosen: Option<&Optimum>) -> Vec<String> {
-    let is_chosen = chosen.is_some_and(|chosen| chosen.lattice == best.lattice && alike(chosen, best));
-    let mark = if is_chosen { "*" } else { "" };
-    let millimetres = |length: Length| format!("{:.3} mm", length.to_mm());
-    let (results, lattice, swing, layer, step) = match came {
-        Came::Planned(plan) => (
-            [
-                seconds(plan.time),
-                plan.cuts.to_string(),
-                format!("{:.2} mm", plan.leaves.to_mm()),
-            ],
-            plan.parameters.lattice,
-            plan.parameters.swing,
-            plan.parameters.layer,
-            plan.parameters.step,
-        ),
-        Came::Nothing | Came::FormulaOnly => {
-            let word = if *came == Came::Nothing {
-                "no plan"
-            } else {
-                "formula only"
-            };
-            let results = [word.to_owned(), format!("{:.1}", best.cuts), String::new()];
-            (results, best.lattice, best.swing, best.layer, best.step)
-        }
-    };
-    let head = [mark.to_owned(), format!("{:.2} mm", best.scallop.to_mm())];
-    let rest = [
-        lattice.word().to_owned(),
-        format!("{:.3} deg", swing.to_deg()),
-        millimetres(layer),
-        millimetres(step),
-        seconds(best.time),
-    ];
-    head.into_iter().chain(results).chain(rest).collect()
-}
-
-/// Scallop and time that are the same as far as they are printed.
-fn alike(a: &Optimum, b: &Optimum) -> bool {
-    (a.scallop - b.scallop).abs() < Length::mm(0.005) && (a.time - b.time).abs() < Duration::s(0.05)
 }

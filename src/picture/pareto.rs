@@ -1,8 +1,9 @@
-//! A Pareto picture: the least time for each largest scallop, a curve for each lattice, and where the job stands.
+//! A Pareto picture: the least time as planned for each limit on a measure, and what the formulas say of the same limits.
 //!
-//! What lies above and to the right of a curve can be had, what lies below cannot. A scallop half as high costs several times the time,
-//! so time grows by factors on its axis: jobs of an hour and of a minute can both be read. Curves differ in their dashes as well as in
-//! their colours, so that they can be told apart without seeing colours.
+//! What lies above and to the right of the steps of the plans can be had: a plan within a limit is also within each wider one. A scallop
+//! half as high costs several times the time, so time grows by factors on its axis: jobs of an hour and of a minute can both be read.
+//! Curves of the formulas are thin, and differ in their dashes as well as in their colours, so that they can be told apart without
+//! seeing colours.
 
 use super::Point;
 use super::chart::{Chart, Plot, Series, Shape};
@@ -14,28 +15,30 @@ use super::trace::number;
 use vcutc_backend_api::script::duration_words;
 use vcutc_backend_api::units::Duration;
 
-/// What a Pareto picture shows. Places are scallop in mm and time in s.
+/// What a Pareto picture shows. Places are the measure and time in s.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pareto<'a> {
     /// What it is about, in a line.
     pub title: &'a str,
     /// What holds for the whole picture.
     pub subtitle: &'a str,
-    /// The curves; where the first one lies, the ground above it is tinted.
-    pub curves: &'a [Curve<'a>],
-    /// What was chosen, by the model.
-    pub chosen: [f64; 2],
-    /// What it came out as: the simulated scallop and the planned time.
-    pub planned: Option<[f64; 2]>,
-    /// The largest scallop that the job allows.
+    /// The measure, with its unit.
+    pub label: &'a str,
+    /// Plans, by growing measure and falling time.
+    pub front: &'a [Point],
+    /// The job as it is.
+    pub now: Option<Point>,
+    /// The job's own limit on the measure.
     pub limit: Option<f64>,
+    /// What the formulas say: limits and least times.
+    pub models: &'a [Curve<'a>],
 }
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve<'a> {
     pub name: &'a str,
-    /// Its points, by growing scallop.
-    pub points: Vec<[f64; 2]>,
+    /// Its points, by growing measure.
+    pub points: Vec<Point>,
 }
 
 const HEIGHT: f64 = 340.0;
@@ -43,17 +46,17 @@ const HEIGHT: f64 = 340.0;
 const AIR: f64 = 0.08;
 /// Room at the left for the units beside times.
 const WORDS: f64 = 28.0;
-/// The greatest scallop that is shown.
+/// The greatest measure that is shown.
 const HIGHEST: f64 = 1e9;
 /// The shortest time that is told from none, in s, and about thirty years.
 const TIMES: [f64; 2] = [0.01, 1e9];
-/// Paint of the curves, in their order: dark to light, whole to dotted.
+/// Paint of the formulas' curves, in their order: dark to light, whole to dotted.
 const STROKES: [&str; 3] = [
-    "fill=\"none\" stroke=\"#3b528b\" stroke-width=\"2.5\"",
-    "fill=\"none\" stroke=\"#21918c\" stroke-width=\"2.5\" stroke-dasharray=\"9 5\"",
-    "fill=\"none\" stroke=\"#b5761a\" stroke-width=\"2.5\" stroke-dasharray=\"2 5\"",
+    "fill=\"none\" stroke=\"#3b528b\" stroke-width=\"1\"",
+    "fill=\"none\" stroke=\"#21918c\" stroke-width=\"1\" stroke-dasharray=\"9 5\"",
+    "fill=\"none\" stroke=\"#b5761a\" stroke-width=\"1\" stroke-dasharray=\"2 5\"",
 ];
-const TINT: &str = "fill=\"#3b528b\" fill-opacity=\"0.08\"";
+const TINT: &str = "fill=\"#3b528b\" fill-opacity=\"0.12\"";
 const BEYOND: &str = "fill=\"url(#hatch)\" fill-opacity=\"0.55\"";
 
 /// Writes the picture as SVG.
@@ -64,7 +67,7 @@ pub fn draw(pareto: &Pareto<'_>) -> String {
     Chart {
         heading,
         description: description(pareto),
-        labels: ["largest scallop, mm", "time, growing by factors"],
+        labels: [pareto.label, "time, growing by factors"],
         series: series(pareto, &plot),
         plot,
         along: None,
@@ -74,42 +77,51 @@ pub fn draw(pareto: &Pareto<'_>) -> String {
 
 /// The picture in words.
 fn description(pareto: &Pareto<'_>) -> String {
-    let words = |[scallop, time]: Point| (number(scallop), duration_words(Duration::s(time)));
-    let (scallop, time) = words(pareto.chosen);
+    let words = |[measure, time]: Point| {
+        let time = duration_words(Duration::s(time));
+        format!("{time} at {}", number(measure))
+    };
+    let front: Vec<String> = pareto.front.iter().map(|&place| words(place)).collect();
+    let plans = match &front[..] {
+        [] => " No plan was made.".to_owned(),
+        plans => format!(" Plans: {}.", plans.join(", ")),
+    };
+    let now = pareto
+        .now
+        .map_or(String::new(), |now| format!(" The job: {}.", words(now)));
     let limit = pareto.limit.map_or(String::new(), |limit| {
-        format!(" The limit of the scallop is {} mm.", number(limit))
-    });
-    let planned = pareto.planned.map_or(String::new(), |planned| {
-        let (scallop, time) = words(planned);
-        format!(" Planned and simulated it takes {time} and leaves {scallop} mm.")
+        format!(" The limit of the job is {}.", number(limit))
     });
     format!(
-        "{}: least time against the largest scallop. Chosen is {time} at {scallop} mm.{planned}{limit}",
-        pareto.subtitle
+        "{}: least time against {}.{plans}{now}{limit}",
+        pareto.subtitle, pareto.label
     )
 }
 
 /// A place that can be shown.
-fn shown([scallop, time]: Point) -> Point {
-    [scallop.clamp(0.0, HIGHEST), time.clamp(TIMES[0], TIMES[1])]
+fn shown([measure, time]: Point) -> Point {
+    [measure.clamp(0.0, HIGHEST), time.clamp(TIMES[0], TIMES[1])]
 }
 
 /// The axes, with room for all that is shown and air around it.
 fn plot(pareto: &Pareto<'_>, room: Room) -> Plot {
-    let points = pareto.curves.iter().flat_map(|curve| &curve.points);
-    let places: Vec<Point> = points
-        .chain([&pareto.chosen])
-        .chain(&pareto.planned)
+    let points = pareto.models.iter().flat_map(|curve| &curve.points);
+    let mut places: Vec<Point> = points
+        .chain(pareto.front)
+        .chain(&pareto.now)
         .map(|&place| shown(place))
         .collect();
+    if places.is_empty() {
+        places.push(shown([0.0, 1.0]));
+    }
     let ends = |values: &mut dyn Iterator<Item = f64>| {
         values.fold([f64::INFINITY, 0.0], |[least, most], value| {
             [value.min(least), value.max(most)]
         })
     };
-    let scallops = places.iter().map(|place| place[0]);
+    let measures = places.iter().map(|place| place[0]);
     let limit = pareto.limit.map(|limit| limit.clamp(0.0, HIGHEST));
-    let [least, most] = ends(&mut scallops.chain(limit));
+    let [least, most] = ends(&mut measures.chain(limit));
     let air = (AIR * (most - least)).max(AIR * most).max(1e-3);
     let [shortest, longest] = ends(&mut places.iter().map(|place| place[1]));
     // Times that are nearly the same still have room, and words at both sides.
@@ -126,19 +138,16 @@ fn plot(pareto: &Pareto<'_>, room: Room) -> Plot {
     }
 }
 
-/// What can be had by the first curve, what lies beyond the limit, and the curves.
+/// What can be had, what lies beyond the limit, the formulas' curves, and the plans.
 fn series(pareto: &Pareto<'_>, plot: &Plot) -> Vec<Series> {
     let ([_, right], [bottom, top]) = (plot.x.values, plot.y.values);
-    let shown_of = |curve: &Curve<'_>| curve.points.iter().copied().map(shown).collect::<Vec<_>>();
-    let curves = || pareto.curves.iter().zip(STROKES);
+    let front: Vec<Point> = pareto.front.iter().copied().map(shown).collect();
+    let steps = steps(&front, right);
     let mut series = Vec::new();
-    if let Some((curve, _)) = curves().next() {
-        let points = shown_of(curve);
-        if let (Some(&first), Some(&last)) = (points.first(), points.last()) {
-            let corners = [[right, last[1]], [right, top], [first[0], top]];
-            let had = Series::new(Shape::Polygon([&points[..], &corners].concat()), TINT);
-            series.push(had.named(format!("can be had ({})", curve.name)));
-        }
+    if let (Some(&first), Some(_)) = (steps.first(), steps.last()) {
+        let corners = [[right, top], [first[0], top]];
+        let had = Series::new(Shape::Polygon([&steps[..], &corners].concat()), TINT);
+        series.push(had.named("can be had, as planned"));
     }
     if let Some(limit) = pareto.limit.map(|limit| limit.clamp(0.0, HIGHEST)) {
         let beyond = Series::new(Shape::Boxes(vec![[limit, right, bottom, top]]), BEYOND);
@@ -146,18 +155,32 @@ fn series(pareto: &Pareto<'_>, plot: &Plot) -> Vec<Series> {
         series.push(beyond.named("beyond the limit"));
         series.push(Series::new(Shape::Upright(limit), line));
     }
-    for (curve, stroke) in curves() {
-        series.push(Series::new(Shape::Curve(shown_of(curve)), stroke).named(curve.name));
+    for (curve, stroke) in pareto.models.iter().zip(STROKES) {
+        let points = curve.points.iter().copied().map(shown).collect();
+        let name = format!("{}, by the formulas", curve.name);
+        series.push(Series::new(Shape::Curve(points), stroke).named(name));
     }
-    let dots = curves().flat_map(|(curve, _)| shown_of(curve)).collect();
-    let round = format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"5\" stroke-linecap=\"round\"");
-    series.push(Series::new(Shape::Dots(dots), round));
-    if let Some(planned) = pareto.planned.map(shown) {
-        series.push(Series::mark(Mark::RING, planned, None).named("planned and simulated"));
+    let line = format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"2\"");
+    series.push(Series::new(Shape::Curve(steps), line));
+    let round = format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"7\" stroke-linecap=\"round\"");
+    series.push(Series::new(Shape::Dots(front), round).named("a plan"));
+    if let Some(now) = pareto.now.map(shown) {
+        series.push(Series::mark(Mark::RING, now, None).named("the job"));
     }
-    let chosen = Series::mark(Mark::CROSS, shown(pareto.chosen), None);
-    series.push(chosen.named("chosen, by the model"));
     series
+}
+
+/// From each plan to the right, up to the limit from which on the next one is within it, and down to that.
+fn steps(front: &[Point], right: f64) -> Vec<Point> {
+    let mut steps: Vec<Point> = Vec::new();
+    for &place in front {
+        if let Some(last) = steps.last().copied() {
+            steps.push([place[0], last[1]]);
+        }
+        steps.push(place);
+    }
+    steps.extend(steps.last().map(|last| [right, last[1]]));
+    steps
 }
 
 #[cfg(test)]
@@ -169,8 +192,12 @@ mod tests {
         let hyperbola = |by: f64| (4..=12).map(|i| [f64::from(i), by / f64::from(i)]).collect();
         let svg = draw(&Pareto {
             title: "Time against scallop of <rib>",
-            subtitle: "operation 1, exact formulas",
-            curves: &[
+            subtitle: "operation 1, at programmed speeds",
+            label: "most that is left, mm",
+            front: &[[4.0, 420.0], [6.5, 260.0], [9.31, 186.5], [11.0, 150.0]],
+            now: Some([9.31, 186.5]),
+            limit: Some(10.0),
+            models: &[
                 Curve {
                     name: "interlaced",
                     points: hyperbola(1800.0),
@@ -180,11 +207,17 @@ mod tests {
                     points: hyperbola(2500.0),
                 },
             ],
-            chosen: [10.0, 180.0],
-            planned: Some([9.31, 186.5]),
-            limit: Some(10.0),
         });
         insta::assert_snapshot!(svg);
+    }
+
+    #[test]
+    fn steps_go_right_and_then_down() {
+        assert_eq!(
+            steps(&[[1.0, 9.0], [3.0, 5.0]], 4.0),
+            [[1.0, 9.0], [3.0, 9.0], [3.0, 5.0], [4.0, 5.0]]
+        );
+        assert!(steps(&[], 4.0).is_empty());
     }
 
     #[test]
@@ -197,14 +230,21 @@ mod tests {
             name: "",
             points: vec![[0.0, f64::MAX], [f64::MAX, 0.0]],
         }];
-        for (curves, chosen) in [(&lone[..], [5.0, 7.0]), (&wild, [f64::MIN, 0.0]), (&[], [0.0; 2])] {
+        let cases: [(&[Curve<'_>], &[Point]); 4] = [
+            (&lone, &[[5.0, 7.0]]),
+            (&wild, &[[f64::MIN, f64::MAX], [f64::MAX, 0.0]]),
+            (&[], &[[0.0, 0.0]]),
+            (&[], &[]),
+        ];
+        for (models, front) in cases {
             let svg = draw(&Pareto {
                 title: "",
                 subtitle: "",
-                curves,
-                chosen,
-                planned: None,
+                label: "",
+                front,
+                now: front.first().copied(),
                 limit: Some(0.0),
+                models,
             });
             assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
             assert!(svg.ends_with("</svg>\n"));

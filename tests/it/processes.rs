@@ -498,7 +498,15 @@ fn optimising_reports_what_has_no_formulas_and_both_processes() {
     }
     .text();
     let files = Files::of(root().join("examples")).with("block.vcut", text);
-    let optimised = optimize::optimise(request(&files), 3, &mut |_| {}).unwrap();
+    let optimised = optimize::optimise(
+        request(&files),
+        optimize::Wanted {
+            against: optimize::Against::Scallop,
+            points: 3,
+        },
+        &mut |_| {},
+    )
+    .unwrap();
     let text = optimize::report::text(&optimised);
     for line in [
         "rect           30 slits, 36 strips, 11 changes of blade",

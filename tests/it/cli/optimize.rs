@@ -78,7 +78,7 @@ fn the_picture_in_the_documentation_is_current() {
     assert_eq!(
         fs::read_to_string(drawn).unwrap(),
         read("docs/pictures/block_cui_pareto.svg"),
-        "write it anew with the command in docs/optimum.md"
+        "write it again with the command in docs/optimum.md"
     );
 }
 
@@ -100,13 +100,140 @@ fn figures_come_as_json() {
     let planned = &operation["planned"];
     let above = planned["model"].as_f64().unwrap() / planned["time"].as_f64().unwrap() - 1.0;
     assert!((above - planned["model_above"].as_f64().unwrap()).abs() < 1e-12);
-    // Finer surfaces take longer.
-    let front = operation["trade_off"].as_array().unwrap();
-    let falls = front.windows(2).all(|pair| {
-        pair[0]["scallop"].as_f64() < pair[1]["scallop"].as_f64()
-            && pair[0]["time"].as_f64() > pair[1]["time"].as_f64()
-    });
-    assert!(front.len() >= 4 && falls, "{front:?}");
+    // A finer surface takes longer, and each plan is within its limit.
+    let points = operation["trade_off"]["points"].as_array().unwrap();
+    let figure = |point: &Value, of: &str| point["planned"][of].as_f64().unwrap();
+    let planned: Vec<&Value> = points
+        .iter()
+        .filter(|point| !point["planned"].is_null())
+        .collect();
+    assert!(planned.len() >= 3, "{points:?}");
+    for point in &planned {
+        assert!(
+            figure(point, "leaves") <= point["limit"].as_f64().unwrap() + 1e-3,
+            "{point}"
+        );
+    }
+    for pair in planned.windows(2) {
+        assert!(pair[0]["limit"].as_f64() < pair[1]["limit"].as_f64(), "{pair:?}");
+        assert!(figure(pair[0], "time") > figure(pair[1], "time"), "{pair:?}");
+    }
+}
+
+/// What a job without a machine takes, in s.
+fn time_of(job: &str, more: &[&str]) -> f64 {
+    let folder = folder();
+    fs::write(folder.path().join("block.vcut"), job).unwrap();
+    let asked = [
+        &[
+            "optimize",
+            "block.vcut",
+            "--points",
+            "2",
+            "--message-format",
+            "json",
+        ],
+        more,
+    ]
+    .concat();
+    let run = vcutc(folder.path(), &asked);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let answer: Value = serde_json::from_str(&run.stdout).unwrap();
+    answer["operations"][0]["planned"]["time"].as_f64().unwrap()
+}
+
+/// A job that is changed as an answer says takes the time that the answer says.
+#[test]
+fn what_wider_limits_save_is_saved_by_the_changed_job() {
+    let before = answer(&["--points", "2", "--set", "coarsest=6mm"]);
+    let operation = &before["operations"][0];
+    let now = operation["trade_off"]["now"]["time"].as_f64().unwrap();
+    let wider = operation["wider"].as_array().unwrap();
+    assert!(wider.len() >= 2, "{wider:?}");
+    for bound in wider {
+        let words = bound["words"].as_str().unwrap();
+        let then = bound["wider"].as_str().unwrap();
+        let coarsest = format!(
+            "coarsest={}",
+            if words.starts_with("scallop") { then } else { "6mm" }
+        );
+        let changed = match words {
+            "scallop <= 6 mm" => BLOCK.to_owned(),
+            "swing <= 50 deg" => BLOCK.replace(words, &format!("swing <= {then}")),
+            "cutting_length = 10 mm" => BLOCK.replace(words, &format!("cutting_length = {then}")),
+            other => panic!("the job says nothing of {other}"),
+        };
+        let took = time_of(&changed, &["--set", &coarsest]);
+        assert!(
+            (bound["planned"]["time"].as_f64().unwrap() - took).abs() < 1e-9,
+            "{bound}: {took} s"
+        );
+        assert!(
+            (now - took - bound["gain"].as_f64().unwrap()).abs() < 1e-9,
+            "{bound}: {took} s"
+        );
+    }
+}
+
+/// Each plan of a trade-off keeps its limit, and the job under that limit is not faster.
+#[test]
+fn time_is_traded_against_cuts_and_edge() {
+    for (against, figure) in [("scallop", "leaves"), ("cuts", "cuts"), ("edge", "edge")] {
+        let answer = answer(&["--points", "5", "--against", against]);
+        let trade_off = &answer["operations"][0]["trade_off"];
+        assert_eq!(trade_off["against"], against);
+        let points = trade_off["points"].as_array().unwrap();
+        assert!(!points.is_empty(), "{trade_off}");
+        for point in points.iter().filter(|point| !point["planned"].is_null()) {
+            let limit = point["limit"].as_f64().unwrap();
+            assert!(
+                point["planned"][figure].as_f64().unwrap() <= limit + 1e-3,
+                "{point}"
+            );
+            let unit = if against == "cuts" { "" } else { " mm" };
+            let changed = match against {
+                "scallop" => BLOCK.replace("let coarsest = 10 mm", &format!("let coarsest = {limit} mm")),
+                other => BLOCK.replace(
+                    "swing <= 50 deg,",
+                    &format!("swing <= 50 deg, {other} <= {limit}{unit},"),
+                ),
+            };
+            let took = time_of(&changed, &[]);
+            assert!(
+                point["planned"]["time"].as_f64().unwrap() <= took + 1e-9,
+                "{point}: {took} s"
+            );
+        }
+    }
+}
+
+/// The operations of a job are planned under other limits one by one, with those before them.
+#[test]
+fn jobs_of_several_operations_have_plans_under_other_limits() {
+    let run = vcutc(
+        root(),
+        &[
+            "optimize",
+            "examples/two_blades.vcut",
+            "--points",
+            "3",
+            "--message-format",
+            "json",
+        ],
+    );
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let answer: Value = serde_json::from_str(&run.stdout).unwrap();
+    let operations = answer["operations"].as_array().unwrap();
+    assert_eq!(operations.len(), 2);
+    for operation in operations {
+        let trade_off = &operation["trade_off"];
+        assert_eq!(trade_off["now"]["cuts"], operation["planned"]["cuts"]);
+        let points = trade_off["points"].as_array().unwrap();
+        assert!(
+            points.iter().any(|point| !point["planned"].is_null()),
+            "{trade_off}"
+        );
+    }
 }
 
 /// What relaxing a bound is said to save is saved when the job is changed so.

@@ -11,7 +11,7 @@
 //! * `descent` goes down to where it is best around a shape, by slopes and curvatures, `certain` proves that, and
 //!   `search` that there is nothing better elsewhere, by branch and bound in the coordinates of `chart`. `polish` helps out
 //!   where a descent comes to no rest.
-//! * `conflict` says why nothing keeps all bounds, `trade` what a bound costs.
+//! * `conflict` says why nothing keeps all bounds, `sensitivity` what a bound costs.
 //!
 //! Between equals the lattice that is named first is taken, and of one lattice what the search meets first, which does
 //! not depend on the platform.
@@ -28,14 +28,14 @@ mod polish;
 mod problem;
 pub mod published;
 mod search;
+mod sensitivity;
 mod solver;
-mod trade;
 
 pub use conflict::{conflicting, nearest, solve};
 pub use problem::{Bound, Extension, Infeasible, Optimum, Problem, Range, Refused, Sensitivity, Work};
+pub use sensitivity::sensitivities;
 pub(in crate::plan) use solver::any;
 pub use solver::best;
-pub use trade::{sensitivities, trade_off};
 
 #[cfg(test)]
 mod tests;
