@@ -18,7 +18,8 @@ pub fn nearest(mm: f64) -> f64 {
 /// The lowest grid point not below a coordinate in mm.
 #[must_use]
 pub fn up(mm: f64) -> f64 {
-    (mm * PER_MM - ON_GRID).ceil() / PER_MM
+    // Zero comes out of `ceil` with a minus.
+    (mm * PER_MM - ON_GRID).ceil() / PER_MM + 0.0
 }
 
 /// The highest grid point not above a coordinate in mm.

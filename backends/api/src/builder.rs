@@ -90,7 +90,7 @@ impl ProgramBuilder {
             _ => true,
         };
         if exists {
-            self.state = self.state.after(&action);
+            self.state.advance(&action);
             self.program.ops.push(Op { site, action });
         }
     }
@@ -143,9 +143,14 @@ impl ProgramBuilder {
     /// An orientation of the table, added where it is new.
     #[inline]
     pub fn orientation(&mut self, orientation: Orientation) -> OrientationId {
+        let table = &mut self.program.orientations;
+        // Programs of V cuts have a handful, and look one up for each op.
+        let among_first = table.iter().take(FEW).position(|known| *known == orientation);
+        if let Some(place) = among_first.and_then(|place| u32::try_from(place).ok()) {
+            return OrientationId(place);
+        }
         // Tracks on surfaces have one for each pose. The sum turns a negative zero into a positive one, as equality does.
         let key = orientation.quaternion().map(|part| (part + 0.0).to_bits());
-        let table = &mut self.program.orientations;
         let place = *self.orientations.entry(key).or_insert_with(|| {
             table.push(orientation);
             u32::try_from(table.len() - 1).unwrap_or(u32::MAX)
@@ -183,6 +188,9 @@ impl ProgramBuilder {
         self.program
     }
 }
+
+/// So many orientations are compared one by one before they are looked up.
+const FEW: usize = 8;
 
 /// A handful of entries each: a job has few operations, each with few postures and speeds.
 fn id(place: usize) -> u16 {

@@ -89,7 +89,9 @@ impl Segment<'_> {
     #[must_use]
     #[inline(always)]
     pub const fn after(&self) -> State {
-        self.before.led(&self.op.action, self.to)
+        let mut state = self.before;
+        state.lead(&self.op.action, self.to);
+        state
     }
 
     /// The pose to which it leads the blade, where it leads it to one.
@@ -315,7 +317,7 @@ impl Program {
     pub fn ends(&self) -> impl Iterator<Item = (OpId, &Op, State)> {
         let ops = (0..).map(OpId).zip(&self.ops);
         ops.scan(State::START, |state, (id, op)| {
-            *state = state.after(&op.action);
+            state.advance(&op.action);
             Some((id, op, *state))
         })
     }
@@ -376,7 +378,7 @@ impl<'p> Iterator for Segments<'p> {
             program: self.program,
         };
         self.next = OpId(segment.id.0.saturating_add(1));
-        self.state = segment.after();
+        self.state.lead(&op.action, to);
         Some(segment)
     }
 
@@ -405,10 +407,16 @@ impl Angles {
     /// Programs with more pairs compute the rest each time, so that looking never takes long.
     const MOST: usize = 32;
 
+    #[inline]
     fn between(&mut self, program: &Program, ids: [OrientationId; 2]) -> Option<Angle> {
-        if let Some((_, known)) = self.0.iter().find(|(known, _)| *known == ids) {
-            return Some(*known);
+        match self.0.iter().find(|(known, _)| *known == ids) {
+            Some((_, known)) => Some(*known),
+            None => self.computed(program, ids),
         }
+    }
+
+    #[cold]
+    fn computed(&mut self, program: &Program, ids: [OrientationId; 2]) -> Option<Angle> {
         let angle = angle(program, ids)?;
         if self.0.len() < Self::MOST {
             self.0.push((ids, angle));

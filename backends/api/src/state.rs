@@ -88,13 +88,20 @@ impl State {
     /// After an action. One that moves nothing leaves the machine where it is.
     #[must_use]
     #[inline]
-    pub const fn after(self, action: &Action) -> Self {
-        self.led(action, action.leads_to(self.place.pose()))
+    pub const fn after(mut self, action: &Action) -> Self {
+        self.advance(action);
+        self
+    }
+
+    /// The same in place: walks over millions of ops do not copy the state for each.
+    #[inline]
+    pub(crate) const fn advance(&mut self, action: &Action) {
+        self.lead(action, action.leads_to(self.place.pose()));
     }
 
     /// The same with the pose to which the action leads, as [`Action::leads_to`] has it.
     #[inline(always)]
-    pub(crate) const fn led(mut self, action: &Action, to: Option<TipPose>) -> Self {
+    pub(crate) const fn lead(&mut self, action: &Action, to: Option<TipPose>) {
         match action {
             Action::Home => self.place = Place::Home,
             Action::ChangePlace => self.place = Place::Change,
@@ -118,7 +125,6 @@ impl State {
                 }
             }
         }
-        self
     }
 }
 

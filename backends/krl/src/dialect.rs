@@ -192,11 +192,11 @@ impl KrlDialect<'_, '_, '_> {
     /// The speed of the tip, where it is another than before. On an arc the blade turns with its way, and nothing says that the
     /// controller limits that turn: where it is the slower part, the tip goes so slowly that it takes its time all the same.
     fn tip_speed(&mut self, line: &LinearSegment) -> Written {
-        let tip = match line.limited_by() {
-            Some(LimitedBy::Rate(_)) if line.via.is_some() => {
-                TRIMMED.floored((line.length() / line.duration()).to_m_per_s())
-            }
-            Some(_) | None => self.said.feed,
+        let slower = line.via.is_some() && matches!(line.limited_by(), Some(LimitedBy::Rate(_)));
+        let tip = if slower {
+            TRIMMED.floored((line.length() / line.duration()).to_m_per_s())
+        } else {
+            self.said.feed
         };
         if tip == self.said.tip {
             return Ok(());

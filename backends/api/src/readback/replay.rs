@@ -172,7 +172,7 @@ impl<'p> Replay<'p> {
                 self.waypoint = self.waypoints.next();
             }
             self.places.push(place);
-            self.state = self.state.after(&op.action);
+            self.state.advance(&op.action);
             if matches!(op.action, Action::ToolChange { .. }) {
                 (self.tool, self.base) = (Seen::Not, Seen::Not);
             }

@@ -119,7 +119,7 @@ impl<'l> Tally<'l> {
     fn take(&mut self, at: usize, op: &Op) -> u64 {
         let own_line = 1;
         self.lines += (self.lines_of)(at, self.modal.lead(op)) + own_line;
-        self.state = self.state.after(&op.action);
+        self.state.advance(&op.action);
         self.lines
     }
 
