@@ -58,7 +58,7 @@ pub trait Backend: Sync {
         None
     }
 
-    /// Who reads its programs back; none when nobody can, and then nothing checks what was written.
+    /// What reads its programs back. If there is no reader, nothing checks what was written.
     fn reader(&self) -> Option<&dyn Reader>;
 
     /// Whether the dialect can say this program with these options, and the writer if it can.
@@ -154,7 +154,7 @@ pub enum BackendIssue {
         /// job that are allowed.
         range: Option<Exceeded>,
     },
-    /// The program behind the dialect did not do its work. Only programs outside of the compiler can fail so
+    /// The outside program of the dialect failed. A dialect of the compiler never fails like this
     /// ([`crate::protocol`]).
     Failed(Fault),
 }

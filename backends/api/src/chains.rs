@@ -36,7 +36,7 @@ impl Findings {
         let printed = exact.map(|point| point.map(|value| lengths.rounded(value)));
         let [Some(should), Some(is)] = [exact, printed].map(CircularArc::through) else {
             let what = "an arc whose points lie on a line, or in one place, as they are printed";
-            return self.tell(what, BackendIssue::Unsupported { op, what });
+            return self.report(what, BackendIssue::Unsupported { op, what });
         };
         let number = Number {
             what: "distance of an arc through printed points from the arc that was proven",

@@ -3,12 +3,13 @@
 //! It stands here and not in a backend because the compiler's own commands about single poses print it too.
 //!
 //! `[cf1, cf4, cf6, cfx]`: the quarter turns in which axes 1, 4 and 6 are, counted from 0 upwards and from -1 downwards, so
-//! that they tell full turns apart as well; cfx with the weights 1, 2, 4: axis 5 negative; the wrist centre behind the lower
-//! arm; behind axis 1 (RAPID reference, `confdata`). "Behind the lower arm" is meant as seen in the frame that turns with
-//! axis 1, so that it is [`Elbow::Backward`] on both sides of axis 1. visose/Robots agrees: it swaps the sense of the elbow
-//! in its kinematics and once more where it writes cfx. The table of ABB's manual was not at hand; before relying on 4 to 7,
-//! compare with RobotStudio. Arms with parallel rods, which cannot fold over, do not use cfx; what it says of their axis 5
-//! and elbow is written all the same.
+//! that they distinguish full turns as well; cfx with the weights 1, 2, 4: axis 5 negative; the wrist centre
+//! behind the lower arm; behind axis 1 (RAPID reference, `confdata`). "Behind the lower arm" is meant as seen
+//! in the frame that turns with axis 1, so that it is [`Elbow::Backward`] on both sides of axis 1.
+//! visose/Robots agrees: it swaps the sense of the elbow in its kinematics and once more where it writes cfx.
+//! The table of ABB's manual was not at hand; before relying on 4 to 7, compare with RobotStudio. Arms with
+//! parallel rods, which cannot fold over, do not use cfx; what it says of their axis 5 and elbow is written
+//! all the same.
 
 use crate::ir::AxisValues;
 use crate::motion::{Branch, Elbow, Shoulder, Wrist};
@@ -21,7 +22,7 @@ const ROUNDING: f64 = 1e-9;
 const MOST_QUARTERS: f64 = 1e6;
 
 /// `[cf1, cf4, cf6, cfx]` of an arm with six axes (rad) on a branch; none for branches that are not of such an arm, and for
-/// axis values that are no angles.
+/// axis values that are not angles.
 #[must_use]
 pub fn confdata(branch: Branch, axes: &AxisValues) -> Option<[i32; 4]> {
     let Branch::Arm {
@@ -112,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_angle_or_no_such_arm_has_none() {
+    fn no_confdata_without_an_angle_or_for_another_arm() {
         assert_eq!(confdata(UP_FRONT, &AxisValues([f64::NAN; 6])), None);
         assert_eq!(confdata(UP_FRONT, &AxisValues([f64::INFINITY; 6])), None);
         assert_eq!(confdata(Branch::Numbered(0), &degrees([0.0; 6])), None);

@@ -7,9 +7,10 @@ use crate::state::Place;
 /// Whether the robot may round the corner between two moves of the tip.
 ///
 /// The first must be a move through the air that need not end exactly, the second another one. The controller leaves
-/// the first move up to `$APO.CDIS` before its end and joins the second as far behind it, inside the triangle of the
-/// three tips. That triangle must be clear of the stock: all three tips on one outer side of the box, which is convex.
-/// (The two moves alone are checked by the verifier, each on a side of its own; the chord between them is not.)
+/// the first move up to `$APO.CDIS` before its end and joins the second as far after it, inside the triangle
+/// of the three tips. That triangle must be clear of the stock: all three tips on one outer side of the box,
+/// which is convex. (The two moves alone are checked by the verifier, each on a side of its own; the chord
+/// between them is not.)
 pub fn may_round(stock: Stock, before: Place, first: &Action, second: Option<&Action>) -> bool {
     let (Action::Travel { to: corner, .. } | Action::Retract { to: corner, .. }) = *first else {
         return false;

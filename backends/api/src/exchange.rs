@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cell_without_tools_is_no_program() {
+    fn a_cell_without_tools_is_not_a_program() {
         let program = two_blades(Recipe::default().program(), Changer::Hand);
         let form = serde_json::to_value(Exchange::of(&program, None)).unwrap();
         let mut none = form.clone();

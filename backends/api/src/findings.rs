@@ -1,7 +1,7 @@
 //! What a target does not take, gathered before anything is written.
 //!
-//! Of each kind of problem the first is told, with its op: a stock placed too far away would otherwise be told a million
-//! times.
+//! Of each kind of problem only the first is reported, with its op: a stock placed too far away would
+//! otherwise be reported a million times.
 
 use crate::backend::{BackendIssue, Exceeded, MachineMismatch};
 use crate::geometry::Point3;
@@ -41,8 +41,8 @@ pub fn driven_cell<'p>(
 #[derive(Debug, Default)]
 pub struct Findings {
     issues: Vec<BackendIssue>,
-    /// What was told, so that it is told once.
-    told: BTreeSet<&'static str>,
+    /// The kinds that were reported, so that each is reported once.
+    reported: BTreeSet<&'static str>,
 }
 
 /// A number with its unit, to be checked.
@@ -57,9 +57,9 @@ pub struct Number {
 }
 
 impl Findings {
-    /// Tells a problem, unless one of its kind was told.
-    pub fn tell(&mut self, what: &'static str, issue: BackendIssue) {
-        if self.told.insert(what) {
+    /// Reports a problem, unless one of its kind was reported.
+    pub fn report(&mut self, what: &'static str, issue: BackendIssue) {
+        if self.reported.insert(what) {
             self.issues.push(issue);
         }
     }
@@ -78,7 +78,7 @@ impl Findings {
     #[cold]
     fn out_of_range(&mut self, op: Option<OpId>, number: &Number, (low, high): (f64, f64)) {
         let &Number { what, value, unit } = number;
-        self.tell(
+        self.report(
             what,
             BackendIssue::OutOfRange {
                 op,
@@ -99,7 +99,7 @@ impl Findings {
         if allowed.contains(&value) {
             return;
         }
-        self.tell(
+        self.report(
             what,
             BackendIssue::OutOfRange {
                 op: None,
@@ -129,7 +129,7 @@ impl Findings {
     /// A machine must have a generator that can be switched, where one of these blades vibrates.
     pub fn generator(&mut self, cell: &Cell, blades: &[Blade]) {
         if cell.ultrasonic.is_none() && blades.iter().any(Blade::vibrates) {
-            self.tell("ultrasonic", GENERATOR_MISSING);
+            self.report("ultrasonic", GENERATOR_MISSING);
         }
     }
 
@@ -145,14 +145,14 @@ impl Findings {
     pub const fn beginning_with(issues: Vec<BackendIssue>) -> Self {
         Self {
             issues,
-            told: BTreeSet::new(),
+            reported: BTreeSet::new(),
         }
     }
 
     /// Whether all is well.
     ///
     /// # Errors
-    /// Everything that was told, in that order.
+    /// Everything that was reported, in that order.
     pub fn result(self) -> Result<(), Vec<BackendIssue>> {
         if self.issues.is_empty() {
             Ok(())
@@ -172,12 +172,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_of_each_kind_is_told() {
+    fn the_first_of_each_kind_is_reported() {
         let mut findings = Findings::default();
         for (op, x) in [(1, 5.0), (2, 50.0), (3, 500.0)] {
             findings.point(Some(OpId(op)), ["X", "Y", "Z"], Point3::new(x, -x, 0.0), 10.0);
         }
-        let told: Vec<_> = findings
+        let reported: Vec<_> = findings
             .result()
             .unwrap_err()
             .into_iter()
@@ -188,7 +188,7 @@ mod tests {
             .collect();
         let op = Some(OpId(2));
         assert_eq!(
-            told,
+            reported,
             [(op, "X", "50.0 mm".to_owned()), (op, "Y", "-50.0 mm".to_owned())]
         );
     }

@@ -430,7 +430,8 @@ impl OperationKind {
     }
 }
 
-/// Whether a text is words of small letters, joined by `_`, and no longer than a line of a program takes.
+/// Whether a text consists of words of small letters, joined by `_`, and no longer than a line of a program
+/// takes.
 const fn is_name_of_kind(name: &[u8]) -> bool {
     let mut index = 0;
     let mut is_in_word = false;

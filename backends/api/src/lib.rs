@@ -27,9 +27,9 @@
 //! # How a machine carries it out
 //!
 //! The program says nothing of axes but at home. Which way of holding the blade is meant, and where the axes are at the end
-//! of every op, is said by the [`motion::Motion`] that goes with it. Between two ops that are no moves of all axes the
-//! machine stays on one [`motion::Branch`]; that the axes follow the tip there, within their limits and rates, has been
-//! proven before.
+//! of every op, is said by the [`motion::Motion`] that goes with it. Between two ops that are not moves of
+//! all axes the machine stays on one [`motion::Branch`]; that the axes follow the tip there, within their
+//! limits and rates, has been proven before.
 //!
 //! # From program to files
 //!

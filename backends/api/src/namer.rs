@@ -99,7 +99,7 @@ fn parted(name: &str) -> (&str, &str) {
     }
 }
 
-/// How many characters tell cut names apart: one in 1.7 million pairs is the same.
+/// How many characters distinguish names that were cut: one in 1.7 million pairs is the same.
 const MARK: usize = 4;
 
 /// Digits and letters that are the same in lower and upper case for who ignores case.

@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_what_is_no_number() {
+    fn refuses_what_is_not_a_number() {
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let mut out = Vec::new();
             assert_eq!(FixedDecimal::new(3).push(&mut out, value), Err(NotFinite));

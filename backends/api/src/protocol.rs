@@ -303,7 +303,7 @@ pub enum Message<'a> {
 /// A branch as the numbers of a [`Configuration`]: shoulder (0 front, 1 back), elbow (0 forward, 1 backward), wrist (0 positive,
 /// 1 negative), and 0; of a machine whose branches are numbered, three zeros and the number.
 ///
-/// The dialect of an outside program may say more or less than a branch; this is what its reader tells.
+/// The dialect of an outside program may say more or less than a branch; this is what its reader reports.
 #[must_use]
 pub const fn branch_as_configuration(branch: Branch) -> Configuration {
     match branch {

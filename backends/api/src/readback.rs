@@ -1,8 +1,9 @@
 //! Programs read back from their text.
 //!
 //! What was written is read again by a reader of the same dialect, which knows nothing of what should be there, and compared
-//! with the program that it was made from. The same serves for files that people may have edited: the reader tells
-//! statement by statement, in the order in which the controller carries them out, what the machine will do.
+//! with the program that it was made from. The same serves for files that people may have edited: the reader
+//! reports statement by statement, in the order in which the controller carries them out, what the machine
+//! will do.
 //!
 //! * A [`Reader`] turns text into [`Statement`]s. It is tolerant of layout and strict about meaning: what it does not know is
 //!   [`Effect::Unknown`], what it cannot read [`Effect::Unreadable`]; it never guesses and never stops.
@@ -44,7 +45,7 @@ pub struct ProgramFile {
     pub text: String,
 }
 
-/// The files of a bundle. Bytes that are no UTF-8 are taken for Latin-1, which is what controllers write.
+/// The files of a bundle. Bytes that are not UTF-8 are taken for Latin-1, which is what controllers write.
 #[must_use]
 pub fn program_files(bundle: &Bundle) -> Vec<ProgramFile> {
     let files = bundle.files().iter();
@@ -390,8 +391,8 @@ pub trait Reader: Sync {
         false
     }
 
-    /// Tells the statements of a program in the order in which they are carried out. A statement that is carried out never
-    /// is told as [`Effect::Setting`] or [`Effect::Unknown`] where it stands.
+    /// Reports the statements of a program in the order in which they are carried out. A statement that is
+    /// never carried out is reported as [`Effect::Setting`] or [`Effect::Unknown`] where it stands.
     ///
     /// Bounded in time and memory on any text.
     fn read(&self, sources: Sources<'_>, visit: &mut dyn FnMut(Statement));

@@ -20,7 +20,7 @@ pub(crate) struct Word {
     pub(crate) place: usize,
 }
 
-/// Why axes are no words.
+/// Why axes cannot be written as words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum NoWord {
     /// The axis turns the spindle, and the job does not say the letter.

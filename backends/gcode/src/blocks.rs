@@ -8,7 +8,7 @@ use vcutc_backend_api::number::{FixedDecimal, NotFinite};
 use vcutc_backend_api::profile::LineNumbers;
 use vcutc_backend_api::script::{Text, Written};
 
-/// Largest N word: five digits are what every control reads [F-30]. Behind it numbers begin again.
+/// Largest N word: five digits are what every control reads [F-30]. After it numbers begin again.
 const LARGEST_NUMBER: u32 = 99_999;
 
 /// Writes the lines of a program's files.
@@ -63,7 +63,7 @@ impl<'a, 's> Blocks<'a, 's> {
         Ok(self.text.flush()?)
     }
 
-    /// A line that is no block: it has a number only where every line has.
+    /// A line that is not a block: it has a number only where every line has one.
     pub(crate) fn line(&mut self, line: &str) -> Written {
         self.line_number();
         Ok(self.text.line(line)?)
@@ -85,7 +85,7 @@ impl<'a, 's> Blocks<'a, 's> {
         blocks.iter().try_for_each(|block| self.block(block))
     }
 
-    /// A comment with words of ours and words that people wrote behind them.
+    /// A comment with words of ours and words that people wrote after them.
     pub(crate) fn comment(&mut self, ours: &str, theirs: &str) -> Written {
         self.line_number();
         let (letters, [open, close]) = (self.facts.comment_letters, self.facts.style.comment_signs());

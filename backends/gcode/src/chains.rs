@@ -25,7 +25,8 @@ use vcutc_backend_api::units::Length;
 /// Decimals of the distance: what every control reads [H-620].
 const DISTANCE: FixedDecimal = FixedDecimal::new(4);
 
-/// Smallest distance. To LinuxCNC `P0` is none at all [L-GC], and below this controls do not go on without a stop.
+/// Smallest distance. LinuxCNC takes `P0` for no distance at all [L-GC]; below this value controls stop
+/// between blocks.
 const SMALLEST_BLEND: Length = Length::mm(0.001);
 
 const NO_DISTANCE: &str =
@@ -61,7 +62,7 @@ pub(crate) fn piece(
     let Action::Follow { joint, .. } = *action else {
         return;
     };
-    let mut unsupported = |what| found.tell(what, BackendIssue::Unsupported { op, what });
+    let mut unsupported = |what| found.report(what, BackendIssue::Unsupported { op, what });
     if pace.is_some_and(|pace| pace.mode != FeedMode::Tip) {
         unsupported(STILL);
     }

@@ -79,7 +79,7 @@ pub(crate) enum Signs {
     Always,
 }
 
-/// Who calls the work offset up when the job gives it no number.
+/// What calls up the work offset when the job gives it no number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Unnumbered {
     /// The program: it is the first.
@@ -165,7 +165,7 @@ pub(crate) struct Facts {
     pub(crate) numbers_programs: bool,
     /// How many work offsets there are.
     pub(crate) work_offsets: u32,
-    /// Who calls the work offset up when the job gives it no number.
+    /// What calls up the work offset when the job gives it no number.
     pub(crate) unnumbered: Unnumbered,
     /// What the job has to say about switching tool-centre-point control.
     pub(crate) tcp_codes: TcpCodes,

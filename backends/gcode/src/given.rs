@@ -15,16 +15,16 @@ use vcutc_backend_api::readback::normalized;
 type Given<'p> = (Role, &'p [String]);
 
 /// What is wrong with the blocks of a job, each by itself and beside the others and what the program writes. Options of which
-/// something is told already are left out: what is no line at all is told as that.
+/// a problem is already reported are left out: what is not a line at all is reported as that.
 pub(crate) fn check(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<BackendIssue>) {
     let own = own_blocks(cell, settings);
     let all = settings.codes.all();
     for (place, &(role, lines)) in all.iter().enumerate() {
-        let is_told = |role: Role| issues.iter().any(|issue| is_about(issue, role.key()));
-        if is_told(role) {
+        let is_reported = |role: Role| issues.iter().any(|issue| is_about(issue, role.key()));
+        if is_reported(role) {
             continue;
         }
-        let unlike = |other: &&Given<'_>| !is_told_apart((role, lines), **other);
+        let unlike = |other: &&Given<'_>| !is_distinguished((role, lines), **other);
         let fault = lines
             .iter()
             .find_map(|line| unfit(line, role, settings.controller))
@@ -35,7 +35,7 @@ pub(crate) fn check(cell: &Cell, settings: &Settings<'_>, issues: &mut Vec<Backe
                 ))
             })
             .or_else(|| {
-                let mut others = all.iter().take(place).filter(|(other, _)| !is_told(*other));
+                let mut others = all.iter().take(place).filter(|(other, _)| !is_reported(*other));
                 let (other, _) = others.find(unlike)?;
                 Some(format!(
                     "it is `{}` as well, and the two have to differ; give another code",
@@ -72,7 +72,7 @@ fn own_blocks(cell: &Cell, settings: &Settings<'_>) -> Vec<String> {
     own.iter().flatten().map(|line| normalized(line)).collect()
 }
 
-/// Why a line is no block of a builder.
+/// Why a line is not a block of a machine builder.
 fn unfit(line: &str, role: Role, controller: &dyn Controller) -> Option<String> {
     let example = role.example(controller.facts());
     let beside = controller.facts().beside_m;
@@ -110,17 +110,17 @@ fn is_for_signals(code: u32, controller: &dyn Controller) -> bool {
     lines.any(|line| line.split(' ').next() == Some(format!("M{code}").as_str()))
 }
 
-/// The number of the only M code of a line that has, besides, only words of some letters, each once.
+/// The number of the only M code of a line that otherwise has only words of some letters, each once.
 fn m_code(line: &str, beside: &str) -> Option<u32> {
     let mut rest = line.trim_ascii();
     let mut seen = String::new();
     let mut code = None;
     while let Some(letter) = rest.chars().next() {
         let letter = letter.to_ascii_uppercase();
-        let behind = rest.get(1..)?.trim_ascii_start();
+        let after = rest.get(1..)?.trim_ascii_start();
         let is_of_number = |byte: &u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'+' | b'-');
-        let length = behind.bytes().take_while(is_of_number).count();
-        let (number, next) = behind.split_at_checked(length)?;
+        let length = after.bytes().take_while(is_of_number).count();
+        let (number, next) = after.split_at_checked(length)?;
         if seen.contains(letter) {
             return None;
         }
@@ -137,8 +137,9 @@ fn m_code(line: &str, beside: &str) -> Option<u32> {
     code
 }
 
-/// Whether whoever reads the program can tell two options apart. The two switches of the kinematics may share lines.
-fn is_told_apart((one, one_lines): Given<'_>, (other, other_lines): Given<'_>) -> bool {
+/// Whether a reader of the program can distinguish two options. The two switches of the kinematics may share
+/// lines.
+fn is_distinguished((one, one_lines): Given<'_>, (other, other_lines): Given<'_>) -> bool {
     let plain = |lines: &[String]| -> Vec<String> { lines.iter().map(|line| normalized(line)).collect() };
     let (one_lines, other_lines) = (plain(one_lines), plain(other_lines));
     if one_lines.is_empty() || other_lines.is_empty() {

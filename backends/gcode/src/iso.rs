@@ -41,7 +41,7 @@ pub(crate) fn g_code(code: u32, order: &mut Order<'_>) -> Parsed<bool> {
     Ok(true)
 }
 
-/// The G codes that LinuxCNC and Fanuc share besides, in tenths. False for others.
+/// Further G codes that LinuxCNC and Fanuc share, in tenths. False for others.
 pub(crate) fn american_g_code(code: u32, order: &mut Order<'_>) -> Parsed<bool> {
     match code {
         // The end of a cycle for holes.
@@ -55,7 +55,8 @@ pub(crate) fn american_g_code(code: u32, order: &mut Order<'_>) -> Parsed<bool> 
     Ok(true)
 }
 
-/// Rounding as far as the job says of corners in the air, or else what a chain goes on with. A distance of 0 is none.
+/// Rounding as far as the job says of corners in the air, or else what a chain goes on with. A distance of 0
+/// means none.
 pub(crate) fn rounding(distance: Option<Number>, scope: Scope<'_>) -> Mode {
     let end = distance.filter(|distance| distance.value > 0.0).map(|distance| {
         let of_job = scope.approximation;

@@ -47,8 +47,8 @@
 //! # Machines
 //!
 //! Machines with linear axes X, Y, Z and two rotary ones among A, B, C. An orientable spindle (axis S of a machine's sheet) has
-//! to be an axis of the control too, because the blade turns during motions; `spindle_axis` tells its letter. `M19` and `SPOS`
-//! only go from stand to stand and are never written.
+//! to be an axis of the control too, because the blade turns during motions; `spindle_axis` gives its letter.
+//! `M19` and `SPOS` only go from stand to stand and are never written.
 //!
 //! # Sources
 //!

@@ -1,7 +1,7 @@
 //! What a control does not take, found before anything is written.
 //!
-//! Of each kind of problem the first is told, with its op: a stock placed too far away would otherwise be told a million times.
-//! What is wrong with the options alone is in the module `demands`.
+//! Of each kind of problem only the first is reported, with its op: a stock placed too far away would
+//! otherwise be reported a million times. What is wrong with the options alone is in the module `demands`.
 
 use crate::arcs::{self, WrittenArc};
 use crate::axes::{NoWord, Word, printed, words};
@@ -100,7 +100,7 @@ fn letter_taken(letter: char) -> BackendIssue {
 fn machine(cell: &Cell, blades: &[Blade], settings: &Settings<'_>, found: &mut Findings) {
     let controller = settings.controller;
     if cell.home.is_none() {
-        found.tell("home", HOME_MISSING);
+        found.report("home", HOME_MISSING);
     }
     cell.tools
         .iter()
@@ -134,7 +134,7 @@ fn machine(cell: &Cell, blades: &[Blade], settings: &Settings<'_>, found: &mut F
                   add `rate_mm_s` and `rate_deg_s` to the sheet"
                 .to_owned(),
         };
-        found.tell("rates", issue);
+        found.report("rates", issue);
     }
 }
 
@@ -148,7 +148,7 @@ fn spindle(output: u32, controller: &dyn Controller, found: &mut Findings) {
              blade by S and M3",
             controller.facts().name
         );
-        found.tell("spindle", BackendIssue::OptionConflict { key: "spindle", why });
+        found.report("spindle", BackendIssue::OptionConflict { key: "spindle", why });
     }
 }
 
@@ -181,7 +181,7 @@ fn numbers(settings: &Settings<'_>, parts: &[Part], found: &mut Findings) {
                 "the program and its parts would go up to O{last}, and O8000 and more are the builder's"
             ),
         };
-        found.tell("program number", issue);
+        found.report("program number", issue);
     }
 }
 

@@ -10,7 +10,7 @@ use vcutc_backend_api::namer::{NameRules, Namer};
 /// Longest name of a main program: a program keeps its name when it grows into parts.
 const LONGEST_MAIN_NAME: usize = 18;
 
-/// Most parts that a suffix of six characters can tell apart.
+/// Most parts that a suffix of six characters can distinguish.
 pub(crate) const MOST_PARTS: usize = 9999;
 
 const PREFIX: &str = "VC_";

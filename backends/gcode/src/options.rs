@@ -12,7 +12,7 @@ use vcutc_backend_api::number::FixedDecimal;
 use vcutc_backend_api::script::{Common, approximation, decimals, header, lines_per_part};
 
 const DIALECT: &str = "dialect";
-/// In percent. A job that gives it can not be told from one that leaves it out.
+/// In percent. A job that gives it cannot be distinguished from one that leaves it out.
 pub(crate) const DEFAULT_HOME_SPEED: u32 = 10;
 pub(crate) const HOME_SPEED: &str = "home_speed";
 pub(crate) const TOOL_NUMBER: &str = "tool_number";
@@ -85,7 +85,7 @@ pub(crate) const OPTIONS: &[OptionSpec] = &[
 pub(crate) struct Settings<'p> {
     /// What every dialect takes.
     pub(crate) common: Common<'p>,
-    /// Who reads the program.
+    /// The controller that reads the program.
     pub(crate) controller: &'static dyn Controller,
     /// Format of angles in degrees.
     pub(crate) angles: FixedDecimal,

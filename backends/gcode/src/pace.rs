@@ -27,7 +27,7 @@ pub(crate) struct Pace {
 
 const SECONDS_A_MINUTE: f64 = 60.0;
 
-/// Two points that a control cannot tell apart, being nearer than the last decimal in each direction.
+/// Two points that a control cannot distinguish: they are nearer than the last decimal in each direction.
 fn is_same_place(settings: &Settings<'_>, a: Point3, b: Point3) -> bool {
     let unit = settings.common.lengths.unit();
     [(a.x, b.x), (a.y, b.y), (a.z, b.z)]

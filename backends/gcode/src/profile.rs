@@ -102,9 +102,9 @@ fn is_message(code: &str, controller: &dyn Controller) -> bool {
 fn has_harmless_words(code: &str, settings: &Settings<'_>) -> bool {
     let mut rest = code;
     while let Some(letter) = rest.chars().next() {
-        let behind = rest.get(letter.len_utf8()..).unwrap_or_default().trim_start();
-        let end = behind.find(|c: char| !(c.is_ascii_digit() || c == '.'));
-        let (number, further) = behind.split_at(end.unwrap_or(behind.len()));
+        let after = rest.get(letter.len_utf8()..).unwrap_or_default().trim_start();
+        let end = after.find(|c: char| !(c.is_ascii_digit() || c == '.'));
+        let (number, further) = after.split_at(end.unwrap_or(after.len()));
         let is_fine = match letter {
             'M' => number
                 .parse()

@@ -2,8 +2,8 @@
 //!
 //! A line is read in three steps that know nothing of each other's business. [`lines`](crate::statement) finds what of it is
 //! statement. The controller turns the statement into an [`Order`](crate::statement::Order): what the block says, in terms that
-//! all controllers share. [`control`] keeps what was said before, as a control does, and tells what the block therefore does;
-//! [`walk`] goes from file to file ([`scripts`]).
+//! all controllers share. [`control`] keeps what was said before, as a control does, and says what the block
+//! therefore does; [`walk`] goes from file to file ([`scripts`]).
 //!
 //! # What is understood
 //!

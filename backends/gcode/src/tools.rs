@@ -33,7 +33,8 @@ pub(crate) fn numbered(cell: &Cell, settings: &Settings<'_>, is: u32) -> Option<
     tools.find(|&id| number(cell, settings, id) == is)
 }
 
-/// Two tools must not have the same length in the control's table, except that of an edge where the tool is chosen besides.
+/// Two tools must not have the same length in the control's table, except that of an edge where the tool is
+/// chosen separately.
 pub(crate) fn are_distinct(cell: &Cell, settings: &Settings<'_>, found: &mut Findings) {
     let number_alone = match (settings.facts().number_of, cell.changer()) {
         (NumberOf::Tool, _) | (NumberOf::Edge, Some(Changer::Hand)) => true,
@@ -47,7 +48,7 @@ pub(crate) fn are_distinct(cell: &Cell, settings: &Settings<'_>, found: &mut Fin
             settings.facts().tool_number_name,
             number(cell, settings, id),
         );
-        found.tell(
+        found.report(
             TOOL_NUMBER,
             BackendIssue::OptionConflict {
                 key: TOOL_NUMBER,

@@ -40,11 +40,11 @@ pub(crate) fn routine(cell: &Cell, settings: &Settings<'_>, found: &mut Findings
     if calls && name.is_empty() {
         let why =
             "the blade is changed by a routine of the cell, and nothing says what it is called".to_owned();
-        found.tell(key, BackendIssue::OptionConflict { key, why });
+        found.report(key, BackendIssue::OptionConflict { key, why });
     } else if !name.is_empty() && !is_name(name) {
         let why = format!(
             "`{name}` is not the name of a routine: a letter, then letters, digits and `_`, at most 24 in all, and no word of KRL"
         );
-        found.tell(key, BackendIssue::OptionConflict { key, why });
+        found.report(key, BackendIssue::OptionConflict { key, why });
     }
 }

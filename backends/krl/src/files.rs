@@ -158,7 +158,8 @@ impl KrlDialect<'_, '_, '_> {
         Ok(self.text.line("}}")?)
     }
 
-    /// The `.dat` of a module. Declarations live here only: one behind an instruction of a `.src` does not compile [K-QG].
+    /// The `.dat` of a module. Declarations live here only: one after an instruction of a `.src` does not
+    /// compile [K-QG].
     fn data(&mut self, file: File<'_>) -> Written {
         self.text.file(&format!("{}.dat", file.name))?;
         self.marks()?;

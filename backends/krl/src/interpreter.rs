@@ -1,5 +1,5 @@
-//! KRL carried out, for everyone who reads it: the strict read-back of programs of this crate, and the conversion of milling
-//! programs, whoever wrote them.
+//! KRL carried out, for all who read it: the strict read-back of programs of this crate, and the conversion
+//! of milling programs, whoever wrote them.
 //!
 //! [`Execution`] is the control flow: it gives the statements of a program in the order in which a controller carries them
 //! out. [`State`] is what they change: variables ([`variables`]), and where the tool is ([`position`]). What a statement

@@ -3,14 +3,15 @@
 //! # The dialect
 //!
 //! A KRL program is a *module*: `NAME.src` holds the instructions of a routine `DEF NAME( )`, `NAME.dat` its data. All
-//! declarations stand in the `.dat`, because one behind an instruction of the `.src` does not compile. All modules of a
-//! controller share one name space; names have at most 24 characters and do not mind case.
+//! declarations stand in the `.dat`, because one after an instruction of the `.src` does not compile. All
+//! modules of a controller share one name space; names have at most 24 characters and do not mind case.
 //!
 //! `BAS (#INITMOV,0 )` resets everything motions depend on; tool, base, load, interpolation mode and speeds are set
-//! behind it. The first motion is `PTP` to the axis values of home. Every other `PTP` goes to a pose and says by status and
-//! turn (the module `configuration`) which of the ways to hold it is meant; all `LIN` behind it keep the status of where
-//! they start. `LIN` moves the tip on a straight line while A, B and C change along; with the same X, Y, Z it turns the blade about its still tip, timed by `$VEL.ORI1` and `.ORI2`
-//! instead of `$VEL.CP`. What an aggregate leaves out stays as programmed before, so every target here names all six.
+//! after it. The first motion is `PTP` to the axis values of home. Every other `PTP` goes to a pose and says
+//! by status and turn (the module `configuration`) which of the ways to hold it is meant; all `LIN` after it
+//! keep the status of where they start. `LIN` moves the tip on a straight line while A, B and C change along;
+//! with the same X, Y, Z it turns the blade about its still tip, timed by `$VEL.ORI1` and `.ORI2` instead of
+//! `$VEL.CP`. What an aggregate leaves out stays as programmed before, so every target here names all six.
 //!
 //! A move ends at a standstill unless a word such as `C_DIS` follows it. That word appears only in the air, only when
 //! the job asks for it, and only where the shortcut stays beside the stock. `$OUT[n]=TRUE` stops the advance run, so
@@ -56,9 +57,9 @@
 //!
 //! # Reading
 //!
-//! [`read::KrlReader`] tells what a program of this crate does, and nothing of what it does not know. It is built on what serves
-//! other readers of KRL as well, such as `vcutc convert`: [`syntax`] has the statements of a text with their places,
-//! [`interpreter`] carries them out.
+//! [`read::KrlReader`] says what a program of this crate does, and nothing about what it does not know. It is
+//! built on what serves other readers of KRL as well, such as `vcutc convert`: [`syntax`] has the statements
+//! of a text with their places, [`interpreter`] carries them out.
 //!
 //! # Machines
 //!
@@ -103,7 +104,8 @@ use vcutc_backend_api::script::{Borders, CAPABILITIES, Layout, Source, Text, emi
 use vcutc_backend_api::verify::{Capabilities, Capability};
 
 /// Lines end as those that the controller's own editor writes (it runs on Windows). With `;FOLD` and indentation a line stays
-/// below 132 characters, which every release reads; only `SCIRC` is longer, and its releases write longer lines themselves. Behind a `;` the pendant reads `;%` as the start of its own marks.
+/// below 132 characters, which every release reads; only `SCIRC` is longer, and its releases write longer
+/// lines themselves. After a `;` the pendant reads `;%` as the start of its own marks.
 const LAYOUT: Layout = Layout {
     line_end: b"\r\n",
     longest_comment: 110,

@@ -1,8 +1,8 @@
 //! What a controller does not take, found before anything is written.
 //!
 //! Sources: [K-SI] KUKA, KSS 8.3 Operating and Programming Instructions for System Integrators; [K-SYS] KUKA, System
-//! Variables for KSS 8.1 to 8.4. Of each kind of problem the first is told, with its op: a stock placed too far away
-//! would otherwise be told a million times.
+//! Variables for KSS 8.1 to 8.4. Of each kind of problem only the first is reported, with its op: a stock
+//! placed too far away would otherwise be reported a million times.
 
 use crate::change;
 use crate::options::Settings;
@@ -30,7 +30,8 @@ const LIMITS: ArmLimits = ArmLimits {
     load_kg: (0.001, 1300.0),
 };
 
-/// Largest axis angle, in degrees: beyond it T does not tell which turn is meant. Arms with six axes end at 350 or before.
+/// Largest axis angle, in degrees: beyond it T does not say which turn is meant. Arms with six axes end at
+/// 350 or before.
 const LARGEST_AXIS_DEG: f64 = 360.0;
 
 /// `TOOL_DATA[16]` and `LOAD_DATA[16]` [K-SYS].
@@ -42,7 +43,8 @@ const BASES: u32 = 32;
 /// `$IN[4096]` and `$OUT[4096]` [K-SYS].
 const SIGNALS: u32 = 4096;
 
-/// Inputs that the controller itself holds at TRUE and FALSE: the one never waits, the other waits for ever.
+/// Inputs that the controller itself holds at TRUE and FALSE: the one never waits, the other waits without
+/// end.
 const FIXED_INPUTS: [u32; 2] = [1025, 1026];
 
 const HOME_MISSING: BackendIssue = BackendIssue::MissingMachineField {
@@ -106,7 +108,7 @@ fn chains(program: &ReachableProgram, settings: &Settings<'_>, found: &mut Findi
 fn machine(cell: &Cell, blades: &[Blade], found: &mut Findings) {
     match cell.home {
         Some(angles) => axes(None, "home angle", angles, found),
-        None => found.tell("home", HOME_MISSING),
+        None => found.report("home", HOME_MISSING),
     }
     if let Some(change) = cell.change {
         axes(None, "angle of the change place", change.at, found);
@@ -171,7 +173,7 @@ fn frame(
 fn input(input: u32, found: &mut Findings) {
     found.number("input number", input, 1..=SIGNALS);
     if FIXED_INPUTS.contains(&input) {
-        found.tell(
+        found.report(
             "input number",
             BackendIssue::OutOfRange {
                 op: None,

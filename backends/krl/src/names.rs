@@ -16,7 +16,7 @@ pub(crate) const LONGEST_MAIN_NAME: usize = LONGEST_NAME - LONGEST_SUFFIX;
 /// `_p` and four digits.
 const LONGEST_SUFFIX: usize = 6;
 
-/// Most parts that such a suffix can tell apart.
+/// Most parts that such a suffix can distinguish.
 pub(crate) const MOST_PARTS: usize = 9999;
 
 /// Name of the variable in a data list that holds the home angles.

@@ -77,7 +77,7 @@ impl Planner {
         }
     }
 
-    /// The word behind a move that may be rounded.
+    /// The word after a move that may be rounded.
     pub(crate) const fn approximate(self) -> &'static [u8] {
         match self {
             Self::Classic => b" C_DIS",

@@ -1,9 +1,9 @@
 //! The post-processor profile of a machine, as far as KRL programs can follow it.
 //!
 //! Lines at the head and at the end of the main program are written as they are. They stand in front of
-//! `BAS (#INITMOV,0 )` and behind the last motion, so nothing that they set changes how the program moves. They may call,
-//! assign, declare and wait; all else is refused, and so is every line that names the output of the generator or the
-//! program's home, because the program would no longer be what was proven.
+//! `BAS (#INITMOV,0 )` and after the last motion, so nothing that they set changes how the program moves.
+//! They may call, assign, declare and wait; all else is refused, and so is every line that names the output
+//! of the generator or the program's home, because the program would no longer be what was proven.
 
 use crate::names::HOME;
 use crate::syntax::{Phrase, Statement, is_same_name, statements};
@@ -103,7 +103,7 @@ fn objection(line: &str, place: Place, own: &[u32]) -> Option<String> {
     Some(format!("`{line}` {why}"))
 }
 
-/// Whether a statement names the output of the generator, or outputs of which nobody can tell which they are: by a
+/// Whether a statement names the output of the generator, or outputs that cannot be identified: by a
 /// calculated number, as a range, or by a number alone.
 fn names_own_output(text: &str, own: &[u32]) -> bool {
     let text = normalized(text).to_ascii_uppercase();
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn its_own_extension_is_no_wish() {
+    fn its_own_extension_is_accepted() {
         let profile = Profile {
             extension: Some("SRC".to_owned()),
             ..Profile::default()

@@ -2,18 +2,18 @@
 //!
 //! [`syntax`](crate::syntax) turns lines into statements with places, and [`interpreter`](crate::interpreter) carries them out: both serve any
 //! reader of KRL. What is here is strict, and goes as far as the programs of this crate do: speeds and modes are kept, and
-//! every statement is told with what it does ([`Effect`](vcutc_backend_api::readback::Effect)).
+//! every statement is reported with what it does ([`Effect`](vcutc_backend_api::readback::Effect)).
 //!
 //! # What is understood
 //!
 //! * Modules of `.src` and `.dat`, subprograms of a file, `GLOBAL DEF`. The program is the first module that no other
-//!   calls. A routine is followed where it is called first; a second call of it is not understood, and the head of one that
-//!   nobody calls neither.
+//!   calls. A routine is followed where it is called first; a second call of it is not understood, nor is the
+//!   head of one that is never called.
 //! * `PTP`, `LIN`, `SPTP`, `SLIN` to literals and to positions with names, whose components may be given one by one. What a
 //!   literal leaves out is what the last one said; S and T count for moves of all axes only. External axes may be given
-//!   as 0, for the arms of this crate have none.
-//! * `C_DIS` behind `LIN` and `C_SPL` behind `SLIN`. Other ways of rounding, and rounded moves of all axes, are not
-//!   understood, because nothing says how far they cut a corner.
+//!   as 0, because the arms of this crate have none.
+//! * `C_DIS` after `LIN` and `C_SPL` after `SLIN`. Other ways of rounding, and rounded moves of all axes, are
+//!   not understood, because nothing says how far they cut a corner.
 //! * `$VEL.CP`, `$VEL.ORI1` and `.ORI2`, `$TOOL` and `$BASE` by value or number, `$OUT[n]`,
 //!   `WAIT SEC`, `WAIT FOR $IN[n]`.
 //! * Calls of the cell's routine that changes the blade, or `HALT` where a person does. Tool and load have to be set again
@@ -22,9 +22,9 @@
 //!   is a motion for which one of them was not said (the module `setup`).
 //! * Lines of the machine's profile at the head and the end of the program.
 //!
-//! Everything else is told as [`Unknown`](vcutc_backend_api::readback::Effect::Unknown): nothing is guessed. Lines with `&` at
-//! the head of a file are records of the controller's editor, which counts there how often it has saved a file; they are
-//! no statements, like comments.
+//! Everything else is reported as [`Unknown`](vcutc_backend_api::readback::Effect::Unknown): nothing is
+//! guessed. Lines with `&` at the head of a file are records of the controller's editor, which counts there
+//! how often it has saved a file; like comments, they are not statements.
 
 mod controller;
 mod profile;

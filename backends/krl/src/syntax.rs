@@ -2,7 +2,7 @@
 //!
 //! [`statements`] walks over a file line by line, for KRL has one statement a line, and borrows everything from the text.
 //! Names are as written; compare them without regard to case ([`is_same_name`]). What is KRL but not described here
-//! (control flow, splines, arithmetic, types of one's own) is [`Phrase::Other`]; what is no KRL is
+//! (control flow, splines, arithmetic, types of one's own) is [`Phrase::Other`]; what is not KRL is
 //! [`Phrase::Unreadable`]. Neither stops the walk.
 //!
 //! Sources: KUKA, Quickguide KRL-Syntax, KSS 8.x (2012); KUKA, KSS 8.3 Operating and Programming Instructions for System
@@ -21,7 +21,7 @@ pub use types::{
     is_same_name,
 };
 
-/// The statements of a text, in its order. Comments (with them all fold marks) and blank lines are none.
+/// The statements of a text, in its order. Comments (with all fold marks) and blank lines do not count.
 #[must_use]
 pub const fn statements(text: &str) -> Statements<'_> {
     Statements {
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn values_are_told_apart() {
+    fn values_are_distinguished() {
         assert_eq!(value("X=-1.5"), Value::Number(-1.5));
         assert_eq!(value("X='B101'"), Value::Number(5.0));
         assert_eq!(value("X='H fF'"), Value::Number(255.0));

@@ -22,7 +22,8 @@ pub(crate) type Rates = Apart<f64>;
 pub(crate) struct Turns {
     /// For each op that turns the blade.
     of: Vec<Option<Rates>>,
-    /// For each op how many lines its chain takes besides the op's own: of speeds and rounding, there and back.
+    /// For each op how many lines its chain takes in addition to the op's own: of speeds and rounding, there
+    /// and back.
     of_chains: Vec<u8>,
     /// For each op whether they are others than those of the turn before. The first ones stand at the head of the part.
     changes: Vec<bool>,

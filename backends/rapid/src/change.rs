@@ -49,7 +49,7 @@ fn request(change: &ToolChange<'_>) -> String {
 
 /// The routine must have a name where it is called, and one name is not that of several tools.
 pub(crate) fn names(cell: &Cell, settings: &Settings<'_>, findings: &mut Findings) {
-    let mut conflict = |key, why: String| findings.tell(key, BackendIssue::OptionConflict { key, why });
+    let mut conflict = |key, why: String| findings.report(key, BackendIssue::OptionConflict { key, why });
     let calls = cell.changer() == Some(Changer::Program);
     match settings.given(CHANGE_ROUTINE) {
         None if calls => conflict(

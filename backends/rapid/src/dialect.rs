@@ -29,7 +29,7 @@ const INDENT: &[u8] = b"    ";
 pub(crate) enum AxisTarget {
     /// By the axis values, which leave no doubt about how the arm stands.
     Axes,
-    /// By the pose, because the frames are those of the controller, which may be calibrated anew.
+    /// By the pose, because the frames are those of the controller, which may be calibrated again.
     Pose,
 }
 

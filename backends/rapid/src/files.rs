@@ -14,8 +14,8 @@ use vcutc_backend_api::ir::{Action, AxisValues, Load, RateId, Registered, Tool, 
 use vcutc_backend_api::script::{File, Files, TRIMMED, Written, feed, rate};
 use vcutc_backend_api::units::Length;
 
-/// The modes that moves depend on. A task that is started anew has them; one that is started at a part may not, nor one whose blade
-/// a routine of the cell has changed.
+/// The modes that moves depend on. A task that is started from the beginning has them; one that is started at
+/// a part may not, nor one whose blade a routine of the cell has changed.
 const MODES: [&str; 3] = ["    ConfJ\\On;", "    ConfL\\On;", "    SingArea\\Off;"];
 
 /// On arcs the blade turns about one axis, seen from the work object, in even steps along the way: as on lines [A-INS].

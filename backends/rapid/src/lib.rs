@@ -23,15 +23,15 @@
 //! | `Travel`, `Approach`, `Retract`, `Cut` | `MoveL [[x,y,z],[q1,q2,q3,q4],[cf1,cf4,cf6,cfx],[9E9, ..]],vc_speed1,fine,vc_tool\WObj:=vc_wobj;` |
 //! | `Follow` | `MoveL` or `MoveC`, with the zone `vc_blend` where the chain goes on |
 //! | `Turn` | the same with the position of the move before, timed by `v_ori` |
-//! | `Ultrasonic` | `SetDO do12,1;`, `SetDO do12,0;` behind a stop point |
+//! | `Ultrasonic` | `SetDO do12,1;`, `SetDO do12,0;` after a stop point |
 //! | `AwaitReady` | `WaitDI di7,1;` or `WaitTime t;` |
 //! | `Dwell` | `WaitTime t;` |
 //! | `ChangePlace` | `MoveAbsJ vc_change\NoEOffs,vc_axes,fine` |
 //! | `ToolChange` | the cell's routine `NAME n;` with the place of the tool, or `TPWrite` and `Stop;`; moves after it name another tool |
 //!
 //! A move of all axes to axis values leaves no doubt about how the arm stands, whatever a controller takes cfx for; should
-//! it take it for something else, the first `MoveL` stops. With frames that the controller keeps, and that may be calibrated
-//! anew, it is the pose that is meant, and `MoveJ` says it with `ConfJ\On`.
+//! it take it for something else, the first `MoveL` stops. With frames that the controller keeps, and that
+//! may be calibrated again, the pose is meant, and `MoveJ` says it with `ConfJ\On`.
 //!
 //! # Chains
 //!

@@ -34,7 +34,7 @@ const LIMITS: ArmLimits = ArmLimits {
     load_kg: (0.001, 1000.0),
 };
 
-/// A centre of mass nearer than this to the flange's origin, in mm, is none: all zeros are refused.
+/// A centre of mass nearer than this to the flange's origin, in mm, counts as missing: all zeros are refused.
 const NO_DISTANCE_MM: f64 = 0.001;
 
 /// Points of an arc are at least so far apart, in mm [A-INS].
@@ -43,7 +43,7 @@ const NEAREST_MM: f64 = 0.1;
 /// Middle and end of an arc lie in directions that are at least so far apart, in degrees, from where it begins [A-INS].
 const NARROWEST_DEG: f64 = 1.0;
 
-/// What modules may be called behind the dot; RobotWare 7 writes the second.
+/// What modules may be called after the dot; RobotWare 7 writes the second.
 const EXTENSIONS: [&str; 2] = ["mod", "modx"];
 
 const HOME_MISSING: BackendIssue = BackendIssue::MissingMachineField {
@@ -88,7 +88,8 @@ pub(crate) fn check<'p>(
 /// What the machine's profile asks for.
 fn profile(settings: &Settings<'_>, cell: &Cell, findings: &mut Findings) {
     let profile = settings.common.profile;
-    let mut refuse = |key: &'static str, why: String| findings.tell(key, BackendIssue::Profile { key, why });
+    let mut refuse =
+        |key: &'static str, why: String| findings.report(key, BackendIssue::Profile { key, why });
     if profile.line_numbers.is_some() {
         refuse("line_numbers", "RAPID has no numbers of lines".to_owned());
     }
@@ -126,14 +127,14 @@ fn names(settings: &Settings<'_>, cell: &Cell, findings: &mut Findings) {
                 "`{name}` is not a name: a letter, then letters, digits and `_`, at most 32 in all, no word or data of RAPID, \
                  and no `vc_` at its start, with which the program's own names begin"
             );
-            findings.tell(key, BackendIssue::OptionConflict { key, why });
+            findings.report(key, BackendIssue::OptionConflict { key, why });
         }
     }
     let mut taken = own_names();
     for (key, name) in used_names(settings, cell) {
         if taken.iter().any(|other| other.eq_ignore_ascii_case(&name)) {
             let why = format!("`{name}` already stands for something else in the program");
-            findings.tell(key, BackendIssue::OptionConflict { key, why });
+            findings.report(key, BackendIssue::OptionConflict { key, why });
         }
         taken.push(name);
     }
@@ -171,7 +172,7 @@ fn own_names() -> Vec<String> {
         .to_vec()
 }
 
-/// Names that the module of a program must not have, besides those of RAPID itself.
+/// Names that the module of a program must not have, in addition to those of RAPID itself.
 pub(crate) fn taken_names(settings: &Settings<'_>, cell: &Cell) -> Vec<String> {
     let used = used_names(settings, cell).into_iter().map(|(_, name)| name);
     let mut taken = own_names();
@@ -204,20 +205,20 @@ fn reserved(settings: &Settings<'_>, cell: &Cell, job: &str, parts: usize, findi
     if let Some(name) = reserved.iter().find(|name| is_own(name) || is_part(name)) {
         let key = "reserved";
         let why = format!("the program has something of the name `{name}` that cannot be called otherwise");
-        findings.tell(key, BackendIssue::Profile { key, why });
+        findings.report(key, BackendIssue::Profile { key, why });
     }
 }
 
 fn machine(cell: &Cell, blades: &[Blade], findings: &mut Findings) {
     if cell.home.is_none() {
-        findings.tell("home", HOME_MISSING);
+        findings.report("home", HOME_MISSING);
     }
     findings.generator(cell, blades);
     for (_, tool) in cell.tools.iter().filter(|(_, tool)| tool.frame.number.is_none()) {
         findings.frame(["tool X", "tool Y", "tool Z"], tool.frame, &LIMITS);
         match tool.load {
             Some(Registered::Value(carried)) => load(carried, findings),
-            Some(Registered::Number(_)) | None => findings.tell("load", LOAD_MISSING),
+            Some(Registered::Number(_)) | None => findings.report("load", LOAD_MISSING),
         }
     }
     findings.frame(["base X", "base Y", "base Z"], cell.base, &LIMITS);
@@ -232,7 +233,7 @@ fn load(load: Load, findings: &mut Findings) {
     let Point3 { x, y, z } = load.centre;
     if [x, y, z].iter().all(|part| part.abs() < NO_DISTANCE_MM) {
         let what = "load centre of mass";
-        findings.tell(
+        findings.report(
             what,
             BackendIssue::OutOfRange {
                 op: None,
@@ -342,7 +343,7 @@ fn turns(program: &ReachableProgram, findings: &mut Findings) {
                 )
             {
                 let what = "a move that turns an axis of the wrist by 90 deg or more at once";
-                findings.tell(what, BackendIssue::Unsupported { op, what });
+                findings.report(what, BackendIssue::Unsupported { op, what });
             }
             before = Some(point);
         }

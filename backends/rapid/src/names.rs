@@ -14,7 +14,7 @@ pub(crate) const LONGEST_MAIN_NAME: usize = LONGEST_NAME - LONGEST_SUFFIX;
 /// `_part` and four digits.
 const LONGEST_SUFFIX: usize = 9;
 
-/// Most parts that such a suffix can tell apart.
+/// Most parts that such a suffix can distinguish.
 pub(crate) const MOST_PARTS: usize = 9999;
 
 /// The entry of a task; exactly one routine has this name.
@@ -40,8 +40,8 @@ pub(crate) const RATE: &str = "vc_rate";
 /// Start of the names of speeddata; a number follows.
 pub(crate) const SPEED: &str = "vc_speed";
 
-/// Start of all names that programs have of themselves. Nobody else may have such a name: which of them a program needs is
-/// no matter of its job.
+/// Start of all names that programs have of themselves. Nothing else may have such a name: which of them a
+/// program needs does not depend on its job.
 const OWN: &str = "vc_";
 /// Start of names of modules that would otherwise be a word of RAPID, or one of our own names.
 const MODULE: &str = "job_";

@@ -134,8 +134,9 @@ impl<'p> Settings<'p> {
     }
 }
 
-/// The six members of the zone of rounded corners behind its first, in the proportions of ABB's own z1: reorientation and
-/// external axes begin to be rounded where the tip does, and turns at a tenth of it in degrees.
+/// The six members of the zone of rounded corners after its first, in the proportions of ABB's own z1:
+/// reorientation and external axes begin to be rounded where the tip does, and turns at a tenth of it in
+/// degrees.
 pub(crate) fn zone_members(distance: Length) -> [f64; 6] {
     let path = distance.to_mm();
     let turn = path / 10.0;

@@ -6,7 +6,8 @@
 
 use vcutc_backend_api::geometry::Orientation;
 
-/// Decimals of each part. A `num` has about seven digits; eight decimals are those that it can tell, and one to spare.
+/// Decimals of each part. A `num` has about seven digits; eight decimals are those that it can hold, and one
+/// to spare.
 const DECIMALS: usize = 8;
 
 /// One, in units of the last place.

@@ -2,11 +2,12 @@
 //!
 //! The way of a text: [`mod@lex`] finds words and signs, [`piece`] the stretches of statements, [`program`] the modules with
 //! their data and routines. Then the routines are followed from `main` on, call by call; every statement on the way is read by
-//! [`mod@sentence`] and told in the terms of [`instruction`]. The list of modules ([`mod@list`]) says what is loaded.
+//! [`mod@sentence`] and reported in the terms of [`instruction`]. The list of modules ([`mod@list`]) says
+//! what is loaded.
 //!
 //! Understood is the part of the language that programs for cutting need, in any layout, with literal or named data. All
-//! else is told as unknown: conditions, loops, arithmetic, other tools, other modes. A routine that is called a second time
-//! is unknown too, since its statements would be carried out twice.
+//! else is reported as unknown: conditions, loops, arithmetic, other tools, other modes. A routine that is
+//! called a second time is unknown too, since its statements would be carried out twice.
 
 mod data;
 mod instruction;
@@ -63,7 +64,8 @@ impl Reader for RapidReader {
         }
     }
 
-    /// Every move names its frames, and those that the program declares are told once, for all of its parts.
+    /// Every move names its frames, and those that the program declares are reported once, for all of its
+    /// parts.
     fn frames(&self) -> Frames {
         Frames::OnMachine
     }
@@ -83,12 +85,12 @@ impl Reader for RapidReader {
             settings: &settings,
         };
         let program = Program::of(sources.files, machine);
-        let told = program
+        let reported = program
             .modules
             .iter()
-            .map(|module| vec![Told::Not; module.pieces.len()]);
+            .map(|module| vec![Reported::Not; module.pieces.len()]);
         let mut interpreter = Interpreter {
-            told: told.collect(),
+            reported: reported.collect(),
             at_hand: None,
             own: lines_of(settings.common.profile),
             machine,
@@ -122,9 +124,9 @@ pub(crate) fn sentences(line: &str) -> Option<Vec<Sentence>> {
     .collect()
 }
 
-/// Whether a piece was told.
+/// Whether a piece was reported.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Told {
+enum Reported {
     Not,
     Already,
 }
@@ -139,8 +141,8 @@ struct Running {
 struct Interpreter<'a, 'h> {
     program: Program<'a>,
     machine: Machine<'a>,
-    /// Which pieces were told, by module.
-    told: Vec<Vec<Told>>,
+    /// Which pieces were reported, by module.
+    reported: Vec<Vec<Reported>>,
     /// The tool of the move before, where there are several.
     at_hand: Option<ToolId>,
     /// Statements of the machine's profile.
@@ -149,7 +151,7 @@ struct Interpreter<'a, 'h> {
 }
 
 impl Interpreter<'_, '_> {
-    /// Tells a piece of a file.
+    /// Reports a piece of a file.
     fn place(&mut self, file: u32, piece: Piece, effect: Effect) {
         let Piece { start, end, .. } = piece;
         (self.visit)(Statement {
@@ -158,10 +160,13 @@ impl Interpreter<'_, '_> {
         });
     }
 
-    /// Tells a piece of a module; whether it had not been told yet.
-    fn tell(&mut self, module: usize, piece: usize, effect: Effect) -> bool {
-        let flag = self.told.get_mut(module).and_then(|told| told.get_mut(piece));
-        let is_new = flag.is_some_and(|flag| core::mem::replace(flag, Told::Already) == Told::Not);
+    /// Reports a piece of a module. Returns whether it had not been reported before.
+    fn report(&mut self, module: usize, piece: usize, effect: Effect) -> bool {
+        let flag = self
+            .reported
+            .get_mut(module)
+            .and_then(|reported| reported.get_mut(piece));
+        let is_new = flag.is_some_and(|flag| core::mem::replace(flag, Reported::Already) == Reported::Not);
         if is_new && let Some(of) = self.program.modules.get(module) {
             let file = of.file;
             if let Some(&stretch) = of.pieces.get(piece) {
@@ -174,7 +179,7 @@ impl Interpreter<'_, '_> {
     /// Lists, declarations, and the frames of modules.
     fn known_beforehand(&mut self) {
         for list in core::mem::take(&mut self.program.lists) {
-            for (piece, effect) in list.told {
+            for (piece, effect) in list.statements {
                 self.place(list.file, piece, effect);
             }
         }
@@ -185,7 +190,7 @@ impl Interpreter<'_, '_> {
                 .get_mut(module)
                 .map(|module| core::mem::take(&mut module.effect));
             for (piece, effect) in effect.into_iter().flatten() {
-                self.tell(module, piece, effect);
+                self.report(module, piece, effect);
             }
         }
     }
@@ -214,25 +219,25 @@ impl Interpreter<'_, '_> {
         }
     }
 
-    /// Tells the header of a routine; what to follow, unless it was followed before.
+    /// Reports the header of a routine. Returns what to follow, unless it was followed before.
     fn enter(&mut self, routine: usize, effect: Effect) -> Option<Running> {
         let of = self.program.routines.get(routine)?;
         let (module, header) = (of.module, of.pieces.start);
         let next = header + 1;
-        self.tell(module, header, effect)
+        self.report(module, header, effect)
             .then_some(Running { routine, next })
     }
 
     /// Whether a routine can be followed from here.
     fn is_fresh(&self, routine: usize) -> bool {
         let fresh = self.program.routines.get(routine).and_then(|of| {
-            let told = self.told.get(of.module)?.get(of.pieces.start)?;
-            Some(of.plain && !of.pieces.is_empty() && *told == Told::Not)
+            let reported = self.reported.get(of.module)?.get(of.pieces.start)?;
+            Some(of.plain && !of.pieces.is_empty() && *reported == Reported::Not)
         });
         fresh == Some(true)
     }
 
-    /// Tells a piece of a routine; the routine that it calls.
+    /// Reports a piece of a routine. Returns the routine that it calls.
     fn step(&mut self, module: usize, routine: usize, place: usize, modes: &mut Modes) -> Option<usize> {
         let of = self.program.modules.get(module)?;
         let piece = *of.pieces.get(place)?;
@@ -270,15 +275,15 @@ impl Interpreter<'_, '_> {
                             optional: &optional,
                         };
                         let moves = self.machine.moves_with(instruction, view);
-                        let told = self.machine.effect(instruction, view, modes);
-                        if let (Some(moves), Effect::Command(_)) = (moves, &told.0) {
+                        let found = self.machine.effect(instruction, view, modes);
+                        if let (Some(moves), Effect::Command(_)) = (moves, &found.0) {
                             takes = self.takes(moves);
                         }
-                        if let Effect::Command(Command::ChangeTool(_)) = told.0 {
-                            // Which tool is at hand is stated anew by the next move.
+                        if let Effect::Command(Command::ChangeTool(_)) = found.0 {
+                            // The next move states again which tool is at hand.
                             self.at_hand = None;
                         }
-                        match told {
+                        match found {
                             (_, Known::No) => self.own_or_unknown(text),
                             (effect, Known::Yes) => effect,
                         }
@@ -296,15 +301,15 @@ impl Interpreter<'_, '_> {
         if let (Some(setting), Some(file)) = (takes, self.program.modules.get(module).map(|of| of.file)) {
             self.place(file, piece, Effect::Frame(FrameRole::Tool, setting));
         }
-        self.tell(module, place, effect);
+        self.report(module, place, effect);
         called
     }
 
     /// The frame that a move takes, where it names another tool than the move before it.
     fn takes(&mut self, (tool, setting): (ToolId, FrameSetting)) -> Option<FrameSetting> {
-        let is_told = !self.machine.cell.tools.are_several() || self.at_hand == Some(tool);
+        let is_known = !self.machine.cell.tools.are_several() || self.at_hand == Some(tool);
         self.at_hand = Some(tool);
-        (!is_told).then_some(setting)
+        (!is_known).then_some(setting)
     }
 
     /// What the machine's profile puts into programs is known; nothing else is.
@@ -316,10 +321,10 @@ impl Interpreter<'_, '_> {
         }
     }
 
-    /// Routines that nobody calls, and modules that are not loaded.
+    /// Routines that are never called, and modules that are not loaded.
     fn never_carried_out(&mut self) {
-        for module in 0..self.told.len() {
-            let count = self.told.get(module).map_or(0, Vec::len);
+        for module in 0..self.reported.len() {
+            let count = self.reported.get(module).map_or(0, Vec::len);
             for piece in 0..count {
                 let kind = self
                     .program
@@ -330,7 +335,7 @@ impl Interpreter<'_, '_> {
                     Some(PieceKind::Broken) => Effect::expected("`;`"),
                     Some(_) | None => Effect::Setting,
                 };
-                self.tell(module, piece, effect);
+                self.report(module, piece, effect);
             }
         }
     }

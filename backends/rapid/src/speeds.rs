@@ -59,7 +59,7 @@ impl Speeds {
         (feed.or(self.slowest.0), rate.or(self.slowest.1))
     }
 
-    /// The number of the speeddata of an action; none for one that is no motion along a line.
+    /// The number of the speeddata of an action; none for one that is not a motion along a line.
     pub(crate) fn number(&self, action: &Action) -> Option<u32> {
         self.numbers.get(&self.filled(named(action)?)).copied()
     }
@@ -91,7 +91,7 @@ fn sorted<T: Ord>(all: impl Iterator<Item = T>) -> Vec<T> {
     all
 }
 
-/// The speeds that an action names; none for one that is no motion along a line.
+/// The speeds that an action names; none for one that is not a motion along a line.
 pub(crate) fn named(action: &Action) -> Option<Pair> {
     match (action.feed(), action.rate()) {
         (None, None) => None,

@@ -166,7 +166,8 @@ impl Cell {
         Some(change.by)
     }
 
-    /// The place that a change to a tool names; none where a person changes the blades, or nobody does.
+    /// The place that a change to a tool names; none where a person changes the blades, or where they are not
+    /// changed.
     #[must_use]
     pub fn named_place(&self, tool: ToolId) -> Option<u32> {
         match self.changer()? {

@@ -73,7 +73,7 @@ fn an_op_without_axis_values() {
 }
 
 #[test]
-fn axis_values_that_are_no_numbers() {
+fn axis_values_that_are_not_numbers() {
     for value in [f64::NAN, f64::INFINITY] {
         let blamed = blamed(|_, motion| motion.ends[5].0[2] = value);
         assert_eq!(blamed, [(Some(5), MotionRule::Complete)]);
@@ -216,7 +216,7 @@ fn the_pretend_machine_has_no_blind_spot() {
 }
 
 #[test]
-fn the_machine_is_told_with_the_blade_at_hand() {
+fn the_machine_is_given_with_the_blade_at_hand() {
     let recipe = Recipe {
         operations: 2,
         ..Recipe::default()

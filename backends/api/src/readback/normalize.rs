@@ -3,7 +3,7 @@
 /// The text of a statement with one way of writing what has several: letters in upper case, no blanks but between two
 /// words, no zeros that a number does not need. What stands in double quotes stays as it is.
 ///
-/// Dialects that tell small letters from capitals outside of quotes are not served by this; none of ours does.
+/// Not for dialects that distinguish small letters from capitals outside of quotes; none of ours does.
 #[must_use]
 pub fn normalized(statement: &str) -> String {
     let mut writer = Writer {
@@ -75,8 +75,8 @@ impl Writer {
         end
     }
 
-    /// A number without sign. An exponent right behind it is part of it, so that `9E9` and `9E+09` are the same; behind a
-    /// single letter it is the next word (`M68E3`).
+    /// A number without sign. An exponent right after it is part of it, so that `9E9` and `9E+09` are the
+    /// same; after a single letter it is the next word (`M68E3`).
     fn number(&mut self, rest: &str) -> usize {
         let whole = digits(rest);
         let after = rest.get(whole..).unwrap_or_default();
@@ -108,19 +108,19 @@ impl Writer {
 
     /// The exponent of the number that was written last, if it has one.
     fn exponent(&mut self, rest: &str) -> usize {
-        let Some(behind) = rest.strip_prefix(['e', 'E']) else {
+        let Some(after) = rest.strip_prefix(['e', 'E']) else {
             return 0;
         };
-        let (sign, power) = match behind.strip_prefix(['+', '-']) {
+        let (sign, power) = match after.strip_prefix(['+', '-']) {
             Some(power) => (1, power),
-            None => (0, behind),
+            None => (0, after),
         };
         let count = digits(power);
         if count == 0 {
             return 0;
         }
         self.out.push('E');
-        if behind.starts_with('-') {
+        if after.starts_with('-') {
             self.out.push('-');
         }
         let power = power.get(..count).unwrap_or_default().trim_start_matches('0');

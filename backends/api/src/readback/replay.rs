@@ -40,7 +40,7 @@ enum Seen {
 /// The first place where a program is not what it should be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Divergence {
-    /// The op that was to come; none behind the last.
+    /// The op that was to come; none after the last.
     pub op: Option<OpId>,
     /// What stands there; nothing when the program ended too soon.
     pub place: Option<Place>,

@@ -1,4 +1,5 @@
-//! Programs told faithfully are followed to their end; told wrongly in one place, they are left right there.
+//! Programs that are reported faithfully are followed to their end. Where one statement is reported wrongly,
+//! they are followed up to it.
 
 use super::{
     Circle, Command, Comparator, Configuration, Divergence, DivergenceKind, Effect, End, FrameRole,
@@ -63,7 +64,7 @@ fn target(program: &ReachableProgram, op: OpId, tip: Point3, orientation: Orient
 }
 
 /// What the ops of a program say, put as commands.
-fn told(reachable: &ReachableProgram) -> Vec<Command> {
+fn commands_of(reachable: &ReachableProgram) -> Vec<Command> {
     let program = reachable.program();
     let cell = program.cell.as_ref().unwrap();
     let mut commands = Vec::new();
@@ -180,7 +181,7 @@ fn sample() -> ReachableProgram {
 fn faithful_programs_are_followed_op_by_op() {
     let all = samples().unwrap().into_iter().chain([("chain", sample())]);
     for (name, program) in all {
-        let commands = told(&program);
+        let commands = commands_of(&program);
         let count = commands.len();
         let replayed = replayed(&program, whole(&program, commands)).unwrap();
         let starts: Vec<u32> = replayed.iter().map(|place| place.start).collect();
@@ -191,7 +192,7 @@ fn faithful_programs_are_followed_op_by_op() {
 #[test]
 fn a_dropped_deed_is_missed_unless_nothing_would_change() {
     let program = sample();
-    let commands = told(&program);
+    let commands = commands_of(&program);
     for drop in 0..commands.len() {
         let mut shorter = commands.clone();
         shorter.remove(drop);
@@ -206,7 +207,7 @@ fn a_dropped_deed_is_missed_unless_nothing_would_change() {
 #[test]
 fn swapped_deeds_are_noticed_unless_they_are_equal() {
     let program = sample();
-    let commands = told(&program);
+    let commands = commands_of(&program);
     for first in 1..commands.len() {
         let mut swapped = commands.clone();
         swapped.swap(first - 1, first);
@@ -220,7 +221,7 @@ fn swapped_deeds_are_noticed_unless_they_are_equal() {
 #[test]
 fn one_deed_more_is_one_too_many() {
     let program = sample();
-    let commands = told(&program);
+    let commands = commands_of(&program);
     for repeated in 0..commands.len() {
         let mut longer = commands.clone();
         longer.insert(repeated, commands[repeated]);
@@ -235,7 +236,7 @@ fn one_deed_more_is_one_too_many() {
 #[test]
 fn parts_restate_what_holds() {
     let program = sample();
-    let commands = told(&program);
+    let commands = commands_of(&program);
     let ops = &program.program().ops;
     let retracted = |op: &crate::ir::Op| matches!(op.action, Action::Retract { .. });
     let cut = ops.iter().position(retracted).unwrap() + 1;
@@ -277,7 +278,7 @@ fn parts_restate_what_holds() {
 #[test]
 fn frames_come_first_and_have_their_values() {
     let program = sample();
-    let commands: Vec<Effect> = told(&program).into_iter().map(Effect::Command).collect();
+    let commands: Vec<Effect> = commands_of(&program).into_iter().map(Effect::Command).collect();
     let frames = frames(program.program());
     let kind = |effect: Vec<Effect>| replayed(&program, effect).map_err(|divergence| divergence.what);
     let without_base = frames.iter().take(1).chain(&commands).cloned().collect();
@@ -312,7 +313,7 @@ fn what_is_not_understood_is_never_passed_over() {
             expected: "a number".to_owned(),
         },
     ] {
-        let mut all = whole(&program, told(&program));
+        let mut all = whole(&program, commands_of(&program));
         all.insert(7, effect);
         let divergence = replayed(&program, all).unwrap_err();
         assert_eq!(divergence.what, DivergenceKind::NotUnderstood);
@@ -357,7 +358,7 @@ fn waypoints_are_passed_in_their_order() {
     let program =
         ReachableProgram::assemble(program.verified().clone(), motion, &|_, axes| blade_in_work(axes))
             .unwrap();
-    let commands = told(&program);
+    let commands = commands_of(&program);
     let Command::Straight { pace, .. } = commands[turn] else {
         panic!()
     };
@@ -448,7 +449,7 @@ proptest! {
         beyond in prop_oneof![-9.0..-1.1_f64, 1.1..9.0_f64],
     ) {
         let program = sample();
-        let mut commands = told(&program);
+        let mut commands = commands_of(&program);
         let place = place.index(commands.len());
         let command = commands[place];
         if let Some(near) = nudged(command, which, within) {
@@ -472,7 +473,7 @@ proptest! {
         off in prop_oneof![-9.0..-0.1_f64, 2.1..9.0_f64],
     ) {
         let program = sample();
-        let commands = told(&program);
+        let commands = commands_of(&program);
         let turning = |(place, command): (usize, &Command)| match command {
             Command::Straight { to, pace: Pace::Speeds { tip, turn: Some(rate) }, end } => Some((place, *to, *tip, *rate, *end)),
             _ => None,

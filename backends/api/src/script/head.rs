@@ -11,7 +11,7 @@ use crate::units::{AngularSpeed, Duration, Length};
 use crate::words::counted;
 use std::collections::BTreeMap;
 
-/// A comment: words of ours, and words that people wrote behind them.
+/// A comment: words of ours, and words that people wrote after them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct HeadLine<'p> {
     /// Ours: ASCII, at most 60 characters.

@@ -43,8 +43,8 @@ impl Borders {
 
 /// The parts of a program, at least one, with at most `limit` lines in the body of each where that can be had.
 ///
-/// `lines` tells how many lines a dialect makes of what stands before the op at a place in the list; every op has one more
-/// of its own.
+/// `lines` says how many lines a dialect makes of what stands before the op at a place in the list; every op
+/// has one more of its own.
 #[must_use]
 pub fn split(
     ops: &[Op],

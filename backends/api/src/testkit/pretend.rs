@@ -123,7 +123,7 @@ fn motion(program: &Program) -> Motion {
 /// How many samples are taken on the way of an op.
 const SAMPLES: u32 = 256;
 
-/// The waypoints of an op, for controllers that are told of them.
+/// The waypoints of an op, for controllers that need them.
 fn on_the_way(
     program: &Program,
     op: OpId,

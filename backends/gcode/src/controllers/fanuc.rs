@@ -106,7 +106,7 @@ impl Controller for Fanuc {
         }
     }
 
-    /// The number behind O, which is the first statement but for `%`.
+    /// The number after O, which is the first statement but for `%`.
     fn routine<'t>(&self, _: &'t str, text: &'t str) -> Option<Routine<'t>> {
         let mut at = 0;
         while let Some((line, next)) = line(text, at) {

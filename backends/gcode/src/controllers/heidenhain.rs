@@ -345,7 +345,7 @@ fn must(cursor: &mut Cursor<'_>, words: &[&str]) -> Parsed<()> {
     }
 }
 
-/// `PGM NAME MM` or `PGM NAME INCH`, behind the word that begins the statement.
+/// `PGM NAME MM` or `PGM NAME INCH`, after the word that begins the statement.
 fn program<'t>(cursor: &mut Cursor<'t>) -> Parsed<(Routine<'t>, Mode)> {
     must(cursor, &["PGM"])?;
     let Some(name) = cursor.token() else {

@@ -3,8 +3,8 @@
 //! Tool-centre-point control is a property of the kinematics module: while one is active that is not the identity, X, Y, Z are
 //! those of the tip. Which M codes switch between the two is a matter of each configuration (in the sample configurations
 //! M428 and M429, in either order), so the job has to say them [L-SW, L-BC]. The kinematics takes the tool offset at hand for
-//! the tool's length, so the offset changes only while the identity is active: `G43` stands before the switch and `G49` behind
-//! the switch back, for otherwise the axes would have to jump.
+//! the tool's length, so the offset changes only while the identity is active: `G43` stands before the switch
+//! and `G49` after the switch back, for otherwise the axes would have to jump.
 //!
 //! `G53` moves in machine coordinates with `G0` and `G1`, without the tool offset; with inverse time the whole block takes the
 //! time that F says. `M64` and `M65` wait for the motion before them. `M66` gives up after the time Q, with -1 in `#5399`, and goes
@@ -163,7 +163,8 @@ impl Controller for LinuxCnc {
         }
     }
 
-    /// The control looks for the name in small letters, whichever the call has [L-MC], on a disk that tells them apart.
+    /// The control looks for the name in small letters, whichever the call has [L-MC], on a disk that
+    /// distinguishes them.
     fn routine<'t>(&self, file: &'t str, _: &'t str) -> Option<Routine<'t>> {
         let name = file.strip_suffix(EXTENSION)?;
         let is_found = !name.bytes().any(|byte| byte.is_ascii_uppercase());

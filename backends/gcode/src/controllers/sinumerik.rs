@@ -2,19 +2,19 @@
 //!
 //! `TRAORI` switches the five-axis transformation on; `ORIAXES` and `ORIMKS` make the rotary axes go straight to their values,
 //! whichever of the two a machine's data asks for [S-840b]. `FGROUP` makes F the speed of the tip alone. `TRAFOOF` cancels
-//! tool corrections in part, so D stands behind every switch [S-840].
+//! tool corrections in part, so D stands after every switch [S-840].
 //!
-//! No tool is selected, for the knife is in the spindle; D is one of its edges, of which a tool has nine where D numbers are
-//! not managed apart from tools.
+//! No tool is selected, because the knife is in the spindle; D is one of its edges, of which a tool has nine
+//! where D numbers are not managed apart from tools.
 //!
-//! `SUPA` suppresses all offsets for one block, and with `D0` the words are positions of the axes. Outputs are written behind
-//! `STOPRE`, so that they switch where they stand and not when the block is read ahead.
+//! `SUPA` suppresses all offsets for one block, and with `D0` the words are positions of the axes. Outputs
+//! are written after `STOPRE`, so that they switch where they stand and not when the block is read ahead.
 //!
 //! `CIP` leads through the point I1, J1, K1, which is absolute under `G90` as the end is, in any plane [S-JP]. In a plane of two axes
 //! arcs are `G2` and `G3`. With `ORIAXES` the rotary axes turn along with either.
 //!
-//! Besides letters with numbers it has words, values behind `=`, and labels. A word that stands alone and is none of the
-//! control's is the name of a part.
+//! In addition to letters with numbers it has words, values after `=`, and labels. A word that stands alone
+//! and does not belong to the control is the name of a part.
 
 use crate::controller::{Arcs, Codes, Controller, Facts, File, Heads, NumberOf, ToolNumbers};
 use crate::iso::{g_code, m_code, rounding, seconds};
@@ -65,7 +65,7 @@ const FACTS: Facts = Facts {
         (Convention::MachineAngles, "ORIMKS"),
         (Convention::FeedOfTip, "FGROUP(X,Y,Z)"),
     ],
-    // With `D0` the words behind `SUPA` are positions of the axes.
+    // With `D0` the words after `SUPA` are positions of the axes.
     tool_of_axis_moves: Some(0),
     heads: Heads::None,
     endings: ["M30", "M17"],
@@ -345,7 +345,7 @@ fn output<'t>(cursor: &mut Cursor<'_>) -> Parsed<Order<'t>> {
     };
     cursor.end()?;
     Ok(Order {
-        behind_stop: Once::Yes,
+        after_stop: Once::Yes,
         ..Order::act(Act::Switch(number, state))
     })
 }

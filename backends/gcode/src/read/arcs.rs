@@ -14,7 +14,7 @@ pub(super) struct About {
     pub(super) axis: [f64; 3],
 }
 
-/// What says where an arc lies besides its block.
+/// What, apart from its block, says where an arc lies.
 #[derive(Clone, Copy)]
 pub(super) struct Said {
     pub(super) plane: Option<Plane>,

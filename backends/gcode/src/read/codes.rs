@@ -1,6 +1,6 @@
 //! Blocks that the job gives, because only the builder of the machine knows them.
 //!
-//! They are compared as texts, for nobody knows what they mean but the job, which says what they are for. One that has several
+//! They are compared as texts, because only the job knows what they are for. One that has several
 //! lines is there when its last line is.
 
 use crate::codes::Role;

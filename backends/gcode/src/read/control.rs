@@ -1,9 +1,10 @@
 //! What holds at a block, and what the block therefore does.
 //!
-//! A motion is told only where everything that it depends on has been said in the program, and is what programs of this crate
-//! have: absolute coordinates in mm, tool-centre-point control on or off as the motion needs it, a tool and a work offset,
-//! a meaning of F, a way to stop. Coordinates that a block leaves out are those of the block before, which is the controller's rule
-//! too; behind a switch of tool-centre-point control the linear ones mean something else and have to be said anew.
+//! A motion is reported only where the program has said everything that it depends on, and is what programs
+//! of this crate have: absolute coordinates in mm, tool-centre-point control on or off as the motion needs
+//! it, a tool and a work offset, a meaning of F, a way to stop. Coordinates that a block leaves out are those
+//! of the block before, which is the controller's rule too; after a switch of tool-centre-point control the
+//! linear ones mean something else and have to be said again.
 
 use super::arcs::{self, About, Said};
 use super::context::Context;
@@ -107,7 +108,7 @@ impl<'a> Control<'a> {
         self.forget();
     }
 
-    /// Nobody knows where the machine is.
+    /// It is not known where the machine is.
     pub(super) fn forget(&mut self) {
         self.tip = [None; 3];
         self.axes = [None; MOST_AXES];
@@ -120,7 +121,8 @@ impl<'a> Control<'a> {
         self.set(Mode::Tcp(tcp));
     }
 
-    /// What a block does. One that says where things go on does nothing else, and is none of the control's.
+    /// What a block does. A block that says where things go on does nothing else, and is not handled by the
+    /// control.
     pub(super) fn carry_out(&mut self, order: &Order<'_>) -> Parsed<Effect> {
         let cycle = self.cycle.take();
         if let Some(missing) = missing(cycle, order.act) {
@@ -155,12 +157,12 @@ impl<'a> Control<'a> {
             self.feed = order.feed;
         }
         match order.act {
-            Some(act) => self.act(act, order.behind_stop, cycle),
+            Some(act) => self.act(act, order.after_stop, cycle),
             None => Ok(effect),
         }
     }
 
-    /// Sets modes; what is told if they are all that a block has.
+    /// Sets modes. Returns the effect to report if the block has nothing else.
     fn modes(&mut self, modes: &[Mode]) -> Parsed<Effect> {
         let mut effect = Effect::Setting;
         let mut error = None;
@@ -475,7 +477,7 @@ impl<'a> Control<'a> {
         Ok(())
     }
 
-    /// The number behind F that counts for a block.
+    /// The number after F that counts for a block.
     fn speed(&mut self, order: &Order<'_>) -> Parsed<f64> {
         let said = match self.modes.feed {
             // Inverse time is that of one block.
@@ -514,8 +516,8 @@ impl<'a> Control<'a> {
             .any(|way| way > unit * 1.5)
     }
 
-    fn act(&mut self, act: Act, behind_stop: Once, cycle: Option<Cycle>) -> Parsed<Effect> {
-        if behind_stop == Once::Yes && self.reading == Reading::Ahead {
+    fn act(&mut self, act: Act, after_stop: Once, cycle: Option<Cycle>) -> Parsed<Effect> {
+        if after_stop == Once::Yes && self.reading == Reading::Ahead {
             return expected("`STOPRE` before an output");
         }
         let cell = self.context.cell;

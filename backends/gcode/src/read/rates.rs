@@ -1,7 +1,8 @@
 //! How fast a motion of all axes may go: the job's `home_speed`.
 //!
 //! The proof of reach says nothing about these motions but where they end, so their speed is compared with the rates of the
-//! axes, as far as the text says where the axes come from. Behind motions of the tip it says so of rotary axes only.
+//! axes, as far as the text says where the axes come from. After motions of the tip it says so of rotary axes
+//! only.
 
 use super::context::Context;
 use crate::controller::AxisPace;

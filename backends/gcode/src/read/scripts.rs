@@ -74,7 +74,7 @@ pub(super) struct Line<'t> {
     pub(super) place: Place,
     /// Bytes of the whole line.
     pub(super) length: usize,
-    /// The statement, or why there is none to be read.
+    /// The statement, or why none can be read.
     pub(super) code: Result<&'t str, ReadError>,
 }
 
@@ -156,7 +156,7 @@ fn calls<'t>(script: &Script<'t>, context: Context<'_>) -> Vec<Routine<'t>> {
     found
 }
 
-/// Most statements are coordinates behind a G code or `L`.
+/// Most statements are coordinates after a G code or `L`.
 fn may_be_call(code: &str) -> bool {
     match code.as_bytes() {
         [b'G' | b'g' | b'L' | b'l' | b'X' | b'x', second, ..] => {

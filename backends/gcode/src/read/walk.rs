@@ -12,7 +12,7 @@ use crate::options::Settings;
 use crate::statement::{Flow, Order, Parsed, ReadError, Routine, expected};
 use vcutc_backend_api::readback::{Command, Effect, Place, Sources, Statement};
 
-/// Tells all statements of a program.
+/// Reports all statements of a program.
 pub(super) fn read(sources: Sources<'_>, visit: &mut dyn FnMut(Statement)) {
     let settings = Settings::read(sources.options);
     // Without words every coordinate is unknown, which is what it is.
@@ -57,7 +57,7 @@ struct Interpreter<'t, 'h> {
     visit: &'h mut dyn FnMut(Statement),
 }
 
-/// How things go on behind a statement.
+/// How things go on after a statement.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Onward {
     Next,
@@ -67,7 +67,7 @@ enum Onward {
 }
 
 impl<'t> Interpreter<'t, '_> {
-    fn tell(&mut self, place: Place, effect: Effect) {
+    fn report(&mut self, place: Place, effect: Effect) {
         (self.visit)(Statement { place, effect });
     }
 
@@ -90,7 +90,7 @@ impl<'t> Interpreter<'t, '_> {
                 continue;
             };
             let (effect, onward) = self.statement(script, &line);
-            self.tell(line.place, effect);
+            self.report(line.place, effect);
             match onward {
                 Onward::Next => {}
                 Onward::Enter(part) => self.enter(part),
@@ -108,11 +108,11 @@ impl<'t> Interpreter<'t, '_> {
     fn ends_too_soon(&mut self, place: Place) {
         let [of_main, of_part] = self.context.settings.facts().endings;
         let missing = if self.stack.len() > 1 { of_part } else { of_main };
-        self.tell(place, Effect::expected(format!("`{missing}` at the end")));
+        self.report(place, Effect::expected(format!("`{missing}` at the end")));
         self.stack.pop();
     }
 
-    /// Tells the rest of the file, which is not carried out, and goes back to who called.
+    /// Reports the rest of the file, which is not carried out, and returns to the caller.
     fn leave(&mut self) {
         let Some(script) = self.stack.pop() else { return };
         while let Some(line) = self.next_of(script) {
@@ -131,7 +131,7 @@ impl<'t> Interpreter<'t, '_> {
                 )
                 | None => false,
             };
-            self.tell(line.place, if is_end { Effect::Setting } else { Effect::Unknown });
+            self.report(line.place, if is_end { Effect::Setting } else { Effect::Unknown });
         }
     }
 
@@ -146,7 +146,7 @@ impl<'t> Interpreter<'t, '_> {
         self.scripts.get_mut(script)?.next(style)
     }
 
-    /// Files that nobody calls: their first statement is not understood, and the others do nothing.
+    /// Files that are never called: their first statement is not understood, and the others do nothing.
     fn never_called(&mut self) {
         for script in 0..self.scripts.len() {
             if self.scripts.get(script).is_some_and(|script| script.entered) {
@@ -154,7 +154,7 @@ impl<'t> Interpreter<'t, '_> {
             }
             let mut effect = Effect::Unknown;
             while let Some(line) = self.next_of(script) {
-                self.tell(line.place, core::mem::replace(&mut effect, Effect::Setting));
+                self.report(line.place, core::mem::replace(&mut effect, Effect::Setting));
             }
         }
     }
@@ -191,7 +191,7 @@ impl<'t> Interpreter<'t, '_> {
         }
     }
 
-    /// Nothing is done behind the lines at the end.
+    /// Nothing is done after the lines at the end.
     fn in_its_stage(&mut self, effect: Effect) -> Effect {
         match (&effect, self.profile.stage) {
             (Effect::Command(_) | Effect::PartBegins, Stage::Foot) => {

@@ -12,11 +12,11 @@ pub(crate) struct Span {
 /// What comments and block numbers look like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Style {
-    /// `( )` and `;`, numbers behind N.
+    /// `( )` and `;`, numbers after N.
     Brackets,
-    /// `( )`, numbers behind N; `;` ends the block.
+    /// `( )`, numbers after N; `;` ends the block.
     Blocks,
-    /// `;`, numbers behind N. Brackets have a meaning.
+    /// `;`, numbers after N. Brackets have a meaning.
     Semicolon,
     /// `;`, and lines that begin with `*`; every line has a number.
     Numbered,
@@ -29,7 +29,7 @@ pub(crate) enum Code<'t> {
     None,
     /// This, without number and outer comments.
     Is(Span, &'t str),
-    /// It is no line to the control, which expects this instead.
+    /// The control does not accept the line, and expects this instead.
     Broken(Span, &'static str),
     /// A comment that LinuxCNC carries out: it stops the program, runs another, or writes files.
     Active(Span),
@@ -105,9 +105,9 @@ impl Style {
         }
         let code = line.get(from..to).unwrap_or_default();
         let number = self.number(code);
-        let behind = code.get(number..).unwrap_or_default();
+        let after = code.get(number..).unwrap_or_default();
         // A comment may stand between number and statement.
-        let (inner, to) = match self.bounds(behind) {
+        let (inner, to) = match self.bounds(after) {
             Ok((inner, end)) => (number + inner, number + end),
             Err(_) => (number, code.len()),
         };
@@ -140,8 +140,8 @@ impl Style {
                     continue;
                 }
                 (Self::Blocks, b';') => {
-                    let behind = line.get(at + 1..).unwrap_or_default();
-                    if behind.trim_ascii().is_empty() {
+                    let after = line.get(at + 1..).unwrap_or_default();
+                    if after.trim_ascii().is_empty() {
                         break;
                     }
                     return Err("the end of the line after `;`, which ends a block");
@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_and_comments_are_no_statement() {
+    fn numbers_and_comments_are_not_statements() {
         for (style, line, is) in [
             (Style::Brackets, "", None),
             (Style::Brackets, " (only words) ; more", None),

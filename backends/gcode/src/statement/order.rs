@@ -64,10 +64,10 @@ pub(crate) struct Order<'t> {
     pub(crate) feed: Option<f64>,
     /// What holds from here on.
     pub(crate) modes: Vec<Mode>,
-    /// What is done besides motion.
+    /// What is done apart from motion.
     pub(crate) act: Option<Act>,
-    /// It is done in time only behind a stop of reading ahead.
-    pub(crate) behind_stop: Once,
+    /// It is done in time only after a stop of reading ahead.
+    pub(crate) after_stop: Once,
     /// What is carried out next.
     pub(crate) flow: Option<Flow<'t>>,
 }
@@ -151,7 +151,7 @@ pub(crate) enum Cycle {
     Speed(u32),
     /// A loop with this number begins, which waits for an input.
     Loop(u32),
-    /// In the loop of this number this input has been waited for, though not for ever.
+    /// In the loop of this number this input has been waited for, though not without a limit.
     Waited(u32, u32),
 }
 
@@ -184,7 +184,7 @@ pub(crate) enum Convention {
 /// How many conventions there are.
 pub(crate) const CONVENTIONS: usize = 7;
 
-/// What is done besides motion.
+/// What is done apart from motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Act {
     /// An output is switched.
@@ -229,11 +229,11 @@ pub(crate) enum Flow<'t> {
     PartHead(Routine<'t>),
     /// A part is carried out.
     Call(Routine<'t>),
-    /// Back to who called.
+    /// Back to the caller.
     Return,
-    /// Back from the part of this name to who called.
+    /// Back from the part of this name to the caller.
     ReturnFrom(Routine<'t>),
-    /// Back to who called, or the end of the program.
+    /// Back to the caller, or the end of the program.
     Close(Routine<'t>),
     /// The program ends.
     End,
@@ -267,7 +267,7 @@ impl<'t> Order<'t> {
         }
     }
 
-    /// A block that does one thing besides motion.
+    /// A block that does one thing apart from motion.
     pub(crate) fn act(act: Act) -> Self {
         Self {
             act: Some(act),

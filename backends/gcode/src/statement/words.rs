@@ -338,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_word_is_told() {
+    fn what_is_not_a_word_is_reported() {
         for (code, what) in [
             ("G1 X", "a number after `X`"),
             ("G1 X-", "a number after `X`"),

@@ -464,7 +464,7 @@ fn rounding_is_that_of_the_job() {
         let (text, what) = departs(dialect, &two, |text| text.replacen(said, other, 1));
         assert_eq!((text.as_str(), what), (other, DivergenceKind::NotUnderstood));
     }
-    // Another distance is one of a chain, and these moves are none.
+    // Another distance belongs to a chain, and these moves are not one.
     for (dialect, said, other) in [
         ("linuxcnc", "G64 P2.0 Q0", "G64 P3.0 Q0"),
         ("linuxcnc", "G64 P2.0 Q0", "G64 P0.2 Q0"),

@@ -181,7 +181,7 @@ fn chains_are_read_back() {
     is_read_back(&on_the_head(stopping(chain())), "fanuc", &[]);
 }
 
-/// Corners in the air are rounded by another distance than chains, so a reader can tell them apart.
+/// Corners in the air are rounded by another distance than chains, so a reader can distinguish them.
 #[test]
 fn a_blend_as_far_as_corners_are_rounded() {
     let same = [("approximation", OptionValue::Length(Length::mm(0.1)))];
@@ -352,7 +352,7 @@ fn another_layout_is_the_same_chain() {
 
 /// Words of an arc that no program has, or that another control reads otherwise.
 #[test]
-fn words_that_are_no_arc() {
+fn words_that_are_not_an_arc() {
     let (program, stops) = (chain(), stopping(chain()));
     let oblique = turned(0.0, 30.0, 20.0);
     for (program, dialect, from, to) in [

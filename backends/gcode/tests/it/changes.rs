@@ -62,8 +62,8 @@ fn change(dialect: &'static str, by: Changer, numbers: Numbers) -> Vec<String> {
 
 /// Heidenhain's lines have numbers.
 fn without_number(line: &str) -> String {
-    let behind = line.trim_start_matches(|c: char| c.is_ascii_digit());
-    behind.trim_start().to_owned()
+    let after = line.trim_start_matches(|c: char| c.is_ascii_digit());
+    after.trim_start().to_owned()
 }
 
 #[test]

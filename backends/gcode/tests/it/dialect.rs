@@ -21,7 +21,8 @@ fn lines(bytes: &[u8]) -> Vec<&str> {
     core::str::from_utf8(bytes).unwrap().lines().collect()
 }
 
-/// Blocks of all files in the order in which they are carried out: files lie behind their caller in the order of the calls.
+/// Blocks of all files in the order in which they are carried out: files lie after their caller in the order
+/// of the calls.
 fn blocks(bundle: &Bundle, dialect: &str) -> Vec<Block> {
     let files = bundle.files().iter();
     files
@@ -486,7 +487,7 @@ fn a_machine_has_its_habits() {
 }
 
 #[test]
-fn numbers_begin_again_behind_five_digits() {
+fn numbers_begin_again_after_five_digits() {
     let program = reachable(recipe().program());
     let profile = Profile {
         line_numbers: Some(LineNumbers {

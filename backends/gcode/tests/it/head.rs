@@ -1,7 +1,8 @@
 //! A pretend machine whose head turns the blade any way: C carries B carries A.
 //!
 //! The pretend machine of the api has B and A alone, and cannot turn a blade into another direction of its way. This one has C
-//! besides, as the last of its axes, and holds the blade as `Rz(C) Ry(B) Rx(A)` turns an upright blade that leads towards +y.
+//! as well, as the last of its axes, and holds the blade as `Rz(C) Ry(B) Rx(A)` turns an upright blade that
+//! leads towards +y.
 
 use core::f64::consts::{FRAC_1_SQRT_2, PI};
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3};

@@ -1,4 +1,5 @@
-//! Whatever stands in a file, reading it ends, tells every line at most once, and says what it does not understand.
+//! Whatever stands in a file, reading it ends, reports every line at most once, and says what it does not
+//! understand.
 
 use crate::read_back::replayed;
 use crate::support::{DIALECTS, emit, needed, options, reachable, recipe};

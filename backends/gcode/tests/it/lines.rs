@@ -21,7 +21,7 @@ fn line_ends_of_every_system_and_ends_of_blocks() {
     }
 }
 
-/// Behind a comment it is a bad character, behind another one the end of the program.
+/// After a comment it is a bad character, after another one the end of the program.
 #[test]
 fn marks_of_a_tape_stand_first() {
     for dialect in ["linuxcnc", "fanuc"] {

@@ -1,8 +1,8 @@
 //! Programs with one character or one line changed: none passes for what it was.
 //!
 //! A mutant is caught when its commands are not those of the program, or when its statements have another normalized text, which is
-//! what `vcutc verify` tells as an edit without effect. What is neither must be a change of layout, comments or block numbers,
-//! by a way of comparing texts that shares no code with the reader.
+//! what `vcutc verify` reports as an edit without effect. What is neither must be a change of layout,
+//! comments or block numbers, by a way of comparing texts that shares no code with the reader.
 
 use crate::chains;
 use crate::read_back::replayed;
@@ -136,12 +136,12 @@ fn numbers(code: &str) -> String {
         } else {
             c.len_utf8()
         };
-        let (one, behind) = rest.split_at(length);
+        let (one, after) = rest.split_at(length);
         match one.parse::<f64>() {
             Ok(value) => out.push_str(&format!("{value}")),
             Err(_) => out.push_str(one),
         }
-        rest = behind;
+        rest = after;
     }
     out
 }
@@ -150,7 +150,7 @@ fn numbers(code: &str) -> String {
 const REPLACEMENTS: [&str; 9] = ["", "0", "7", "9", "-", ".", "X", " ", "\n"];
 
 #[test]
-fn one_character_more_less_or_other_is_told() {
+fn one_character_more_less_or_other_is_reported() {
     let mut tally = Tally::default();
     for dialect in DIALECTS {
         for (number, program) in programs(dialect).iter().enumerate() {
@@ -179,7 +179,7 @@ fn one_character_more_less_or_other_is_told() {
 }
 
 #[test]
-fn a_line_dropped_doubled_or_swapped_is_told() {
+fn a_line_dropped_doubled_or_swapped_is_reported() {
     let mut tally = Tally::default();
     for dialect in DIALECTS {
         for (number, program) in programs(dialect).iter().enumerate() {

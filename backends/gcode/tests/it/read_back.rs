@@ -38,7 +38,7 @@ pub(crate) fn replayed(
     (replay.finish(), statements)
 }
 
-/// Every statement is told once, in place, and every op is found in the order of the program.
+/// Every statement is reported once, in place, and every op is found in the order of the program.
 fn is_read_back(program: &ReachableProgram, dialect: &'static str, more: &[Given], profile: &Profile) {
     let bundle = emit_with(program, dialect, more, profile.clone());
     let mut given = needed(dialect);
@@ -57,29 +57,31 @@ fn is_read_back(program: &ReachableProgram, dialect: &'static str, more: &[Given
     };
     assert_eq!(places.len(), program.program().ops.len());
     assert!(places.windows(2).all(|pair| pair[0] < pair[1]), "{dialect}");
-    let mut told: Vec<_> = statements.iter().map(|statement| statement.place).collect();
-    told.sort_unstable();
+    let mut places: Vec<_> = statements.iter().map(|statement| statement.place).collect();
+    places.sort_unstable();
     assert!(
-        told.windows(2)
+        places
+            .windows(2)
             .all(|pair| pair[0].file < pair[1].file || pair[0].end < pair[1].start)
     );
     let lines_with_statements: usize = files.iter().map(|file| statements_of(&file.text, dialect)).sum();
-    assert_eq!(told.len(), lines_with_statements, "{dialect}");
+    assert_eq!(places.len(), lines_with_statements, "{dialect}");
 }
 
-/// Lines that are neither blank nor comment: the writer has no comments behind statements but that of Fanuc's O word.
+/// Lines that are neither blank nor comment: the writer has no comments after statements but that of Fanuc's
+/// O word.
 fn statements_of(text: &str, dialect: &str) -> usize {
     let comment = match dialect {
         "linuxcnc" | "fanuc" => '(',
         _ => ';',
     };
-    let behind_number = |line: &str| {
+    let after_number = |line: &str| {
         let line = line.trim_start_matches('N');
         line.trim_start_matches(|c: char| c.is_ascii_digit())
             .trim()
             .to_owned()
     };
-    let lines = text.lines().map(behind_number);
+    let lines = text.lines().map(after_number);
     lines
         .filter(|line| !line.is_empty() && !line.starts_with(comment))
         .count()

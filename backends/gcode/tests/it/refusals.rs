@@ -15,7 +15,7 @@ fn with(dialect: &'static str, more: &[Given]) -> Vec<Given> {
 }
 
 /// What the issues are about, in a few words each.
-fn told(issues: &[BackendIssue]) -> Vec<&str> {
+fn subjects(issues: &[BackendIssue]) -> Vec<&str> {
     issues
         .iter()
         .map(|issue| match issue {
@@ -68,7 +68,7 @@ fn codes_that_only_the_builder_knows() {
         ("heidenhain", vec!["on_code", "off_code"]),
     ] {
         let found = issues(recipe().program(), &alone(dialect));
-        assert_eq!(told(&found), should, "{dialect}");
+        assert_eq!(subjects(&found), should, "{dialect}");
     }
     let waits = || {
         cell(CellRecipe {
@@ -82,12 +82,12 @@ fn codes_that_only_the_builder_knows() {
         ("sinumerik", vec![]),
         ("heidenhain", vec![]),
     ] {
-        assert_eq!(told(&issues(waits(), &needed(dialect))), should, "{dialect}");
+        assert_eq!(subjects(&issues(waits(), &needed(dialect))), should, "{dialect}");
         let given = with(dialect, &[("ready_code", block("M152"))]);
         assert_eq!(issues(waits(), &given), [], "{dialect}");
         // This machine is ready after a time.
         assert_eq!(
-            told(&issues(recipe().program(), &given)),
+            subjects(&issues(recipe().program(), &given)),
             ["ready_code"],
             "{dialect}"
         );
@@ -98,21 +98,29 @@ fn codes_that_only_the_builder_knows() {
 fn codes_that_have_no_use_or_half_of_one() {
     for dialect in ["fanuc", "sinumerik", "heidenhain"] {
         let given = with(dialect, &[("tcp_on", block("M429"))]);
-        assert_eq!(told(&issues(recipe().program(), &given)), ["tcp_on"], "{dialect}");
+        assert_eq!(
+            subjects(&issues(recipe().program(), &given)),
+            ["tcp_on"],
+            "{dialect}"
+        );
     }
     let half = with("linuxcnc", &[("on_code", block("M101"))]);
-    assert_eq!(told(&issues(recipe().program(), &half)), ["off_code"]);
+    assert_eq!(subjects(&issues(recipe().program(), &half)), ["off_code"]);
 }
 
 #[test]
-fn codes_that_are_no_block() {
+fn codes_that_are_not_a_block() {
     for text in ["", "   ", "M50\nG0 X0", "M\u{fc}", &"M50 ".repeat(40)] {
         let given = with("heidenhain", &[("on_code", block(text))]);
-        assert_eq!(told(&issues(recipe().program(), &given)), ["on_code"], "{text:?}");
+        assert_eq!(
+            subjects(&issues(recipe().program(), &given)),
+            ["on_code"],
+            "{text:?}"
+        );
     }
     let two = OptionValue::Lines(vec!["M50".to_owned(), "M51".to_owned()]);
     assert_eq!(
-        told(&issues(recipe().program(), &with("fanuc", &[("on_code", two)]))),
+        subjects(&issues(recipe().program(), &with("fanuc", &[("on_code", two)]))),
         ["on_code"]
     );
 }
@@ -136,7 +144,7 @@ fn refused(dialect: &'static str, key: &'static str, texts: &[&str]) -> Option<S
     given.push((key, OptionValue::Lines(lines)));
     match issues(ready, &given).as_slice() {
         [] => None,
-        [BackendIssue::OptionConflict { key: told, why }] if *told == key => Some(why.clone()),
+        [BackendIssue::OptionConflict { key: about, why }] if *about == key => Some(why.clone()),
         more => panic!("{dialect} {key} {texts:?}: {more:?}"),
     }
 }
@@ -228,7 +236,7 @@ fn codes_and_words_that_a_dialect_has_for_itself() {
 }
 
 #[test]
-fn codes_that_cannot_be_told_apart() {
+fn codes_that_cannot_be_distinguished() {
     for dialect in DIALECTS {
         let [on, off] = match dialect {
             "fanuc" | "heidenhain" => ["M50", "M051"],
@@ -252,7 +260,7 @@ fn codes_that_cannot_be_told_apart() {
 
     // The program switches output 12 by this.
     let own = with("linuxcnc", &[("tcp_on", block("M64 p012"))]);
-    assert_eq!(told(&issues(recipe().program(), &own)), ["tcp_on"]);
+    assert_eq!(subjects(&issues(recipe().program(), &own)), ["tcp_on"]);
 }
 
 /// What messages offer is taken.
@@ -276,7 +284,7 @@ fn rounding_and_decimals_that_a_dialect_lacks() {
         );
         let found = issues(recipe().program(), &given);
         assert_eq!(
-            told(&found).contains(&"approximation"),
+            subjects(&found).contains(&"approximation"),
             !rounds(dialect),
             "{dialect}"
         );
@@ -300,7 +308,7 @@ fn a_speed_of_moves_of_all_axes_that_a_dialect_cannot_say() {
         let given = with(dialect, &[("home_speed", OptionValue::Integer(30))]);
         let found = issues(recipe().program(), &given);
         let should: &[&str] = if dialect == "fanuc" { &["home_speed"] } else { &[] };
-        assert_eq!(told(&found), should, "{dialect}");
+        assert_eq!(subjects(&found), should, "{dialect}");
     }
 }
 
@@ -310,7 +318,7 @@ fn profiles_that_a_dialect_cannot_follow() {
         let found = issues_with(recipe().program(), &needed(dialect), profile);
         let of_profile = |issue: &BackendIssue| matches!(issue, BackendIssue::Profile { .. });
         assert!(found.iter().all(of_profile), "{found:?}");
-        told(&found).join(" ")
+        subjects(&found).join(" ")
     };
     let numbers = |start, step| Profile {
         line_numbers: Some(LineNumbers { start, step }),
@@ -335,18 +343,18 @@ fn machines_that_lack_something() {
     let cell = program.cell.as_mut().unwrap();
     cell.axes[3].rate = None;
     assert_eq!(
-        told(&issues(program.clone(), &needed("linuxcnc"))),
+        subjects(&issues(program.clone(), &needed("linuxcnc"))),
         ["home_speed"]
     );
     assert_eq!(issues(program, &needed("fanuc")), []);
 
     let silent = cell_without_generator();
-    assert_eq!(told(&issues(silent, &needed("sinumerik"))), ["ultrasonic"]);
+    assert_eq!(subjects(&issues(silent, &needed("sinumerik"))), ["ultrasonic"]);
 
     let mut homeless = recipe().program();
     homeless.cell.as_mut().unwrap().home = None;
     homeless.ops.retain(|op| !matches!(op.action, Action::Home));
-    assert_eq!(told(&issues(homeless, &needed("sinumerik"))), ["home"]);
+    assert_eq!(subjects(&issues(homeless, &needed("sinumerik"))), ["home"]);
 }
 
 /// A program without any cut, since no program cuts with a silent blade.
@@ -374,8 +382,8 @@ fn spindles_without_a_letter() {
         issues(program, given)
     };
     let given = |letter| with("sinumerik", &[("spindle_axis", OptionValue::Choice(letter))]);
-    assert_eq!(told(&spindle(&needed("sinumerik"))), ["spindle_axis"]);
-    assert_eq!(told(&spindle(&given("a"))), ["spindle_axis"]);
+    assert_eq!(subjects(&spindle(&needed("sinumerik"))), ["spindle_axis"]);
+    assert_eq!(subjects(&spindle(&given("a"))), ["spindle_axis"]);
     assert_eq!(spindle(&given("c")), []);
 }
 
@@ -392,7 +400,7 @@ fn tools_beside_the_spindle_and_numbers_beyond_the_tables() {
     };
     assert_eq!(issues(tool(0.0004, 0.0, None), &needed("fanuc")), []);
     let found = issues(tool(0.25, -3.0, Some(1000)), &needed("fanuc"));
-    assert_eq!(told(&found), ["tool number", "tool X", "tool Y"]);
+    assert_eq!(subjects(&found), ["tool number", "tool X", "tool Y"]);
     assert!(
         matches!(&found[1], BackendIssue::OutOfRange { value, allowed, .. }
             if value == "0.25 mm" && allowed == "-0.0005 to 0.0005 mm"),
@@ -415,7 +423,10 @@ fn tools_beside_the_spindle_and_numbers_beyond_the_tables() {
             cell(CellRecipe { base, ..five_axis })
         };
         assert_eq!(issues(base(last), &needed(dialect)), [], "{dialect}");
-        assert_eq!(told(&issues(base(last + 1), &needed(dialect))), ["base number"]);
+        assert_eq!(
+            subjects(&issues(base(last + 1), &needed(dialect))),
+            ["base number"]
+        );
     }
 }
 
@@ -430,7 +441,7 @@ fn signals_beyond_the_control() {
     };
     assert_eq!(issues(signals(63, 63), &needed("linuxcnc")), []);
     assert_eq!(
-        told(&issues(signals(64, 64), &needed("linuxcnc"))),
+        subjects(&issues(signals(64, 64), &needed("linuxcnc"))),
         ["output number", "input number"]
     );
     let own = [
@@ -447,14 +458,14 @@ fn speeds_and_times_that_cannot_be_said() {
         cut_feed: Speed::mm_per_s(0.0005),
         ..recipe()
     };
-    assert_eq!(told(&issues(slow.program(), &needed("fanuc"))), ["tip speed"]);
+    assert_eq!(subjects(&issues(slow.program(), &needed("fanuc"))), ["tip speed"]);
     assert_eq!(issues(slow.program(), &needed("linuxcnc")), []);
     let fast = Recipe {
         travel_feed: Speed::mm_per_s(1700.0),
         ..recipe()
     };
     assert_eq!(
-        told(&issues(fast.program(), &needed("heidenhain"))),
+        subjects(&issues(fast.program(), &needed("heidenhain"))),
         ["tip speed"]
     );
     let creeping = Recipe {
@@ -462,7 +473,7 @@ fn speeds_and_times_that_cannot_be_said() {
         ..recipe()
     };
     assert_eq!(
-        told(&issues(creeping.program(), &needed("fanuc"))),
+        subjects(&issues(creeping.program(), &needed("fanuc"))),
         ["reorientation rate", "tip speed"]
     );
     let patient = Recipe {
@@ -470,7 +481,7 @@ fn speeds_and_times_that_cannot_be_said() {
         ..recipe()
     };
     assert_eq!(
-        told(&issues(patient.program(), &needed("fanuc"))),
+        subjects(&issues(patient.program(), &needed("fanuc"))),
         ["waiting time"]
     );
 }
@@ -488,7 +499,7 @@ fn coordinates_beyond_the_digits() {
     let fine = with("fanuc", &[("decimals", OptionValue::Integer(4))]);
     assert_eq!(issues(far(9_000.0), &fine), []);
     let found = issues(far(40_000.0), &fine);
-    assert!(told(&found).contains(&"X"), "{found:?}");
+    assert!(subjects(&found).contains(&"X"), "{found:?}");
     assert_eq!(issues(far(40_000.0), &needed("fanuc")), []);
 }
 
@@ -496,7 +507,7 @@ fn coordinates_beyond_the_digits() {
 fn numbers_of_programs_that_are_the_builders() {
     let number = |number| {
         let given = with("fanuc", &[("program_number", OptionValue::Integer(number))]);
-        told(&issues(recipe().program(), &given)).join(" ")
+        subjects(&issues(recipe().program(), &given)).join(" ")
     };
     assert_eq!(number(7998), "");
     assert_eq!(number(7999), "program_number");

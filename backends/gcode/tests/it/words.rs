@@ -10,7 +10,7 @@ pub(crate) struct Block {
 }
 
 impl Block {
-    /// The number behind a letter.
+    /// The number after a letter.
     pub(crate) fn number(&self, letter: char) -> Option<f64> {
         let found = self.words.iter().find(|(known, _)| *known == letter);
         found.map(|(_, number)| number.parse().unwrap())
@@ -24,7 +24,8 @@ impl Block {
     }
 }
 
-/// What stands in a file that are no blocks of letters and numbers, and whole blocks that have words of more letters.
+/// Texts of a file that are not blocks of letters and numbers, and whole blocks that have words of more
+/// letters.
 const OTHERS: &[&str] = &[
     "%",
     "STOPRE",

@@ -12,7 +12,7 @@ pub struct Routine<'t> {
     pub file: usize,
     /// Its name; empty when its head has none that could be called.
     pub name: &'t str,
-    /// From the line of its head to behind the line that ends it.
+    /// From the line of its head up to and including the line that ends it.
     pub span: Span,
     /// The module's own routine is its first.
     pub rank: Rank,
@@ -25,7 +25,7 @@ pub struct Routine<'t> {
 pub enum Rank {
     /// The module's routine, which bears the name of the file.
     First,
-    /// A subprogram behind it.
+    /// A subprogram after it.
     Further,
 }
 
@@ -40,7 +40,7 @@ pub struct Index<'t> {
     open: BTreeMap<String, usize>,
     /// Names, in upper case, of what only routines of a file may call.
     local: BTreeMap<(usize, String), usize>,
-    /// Names, in upper case, behind which brackets follow.
+    /// Names, in upper case, after which brackets follow.
     called: BTreeSet<String>,
 }
 
@@ -162,7 +162,7 @@ impl<'t> Index<'t> {
         self.local.get(&(file, name)).copied().or(open)
     }
 
-    /// The routine to begin with: the first of a file that nobody calls.
+    /// The routine to begin with: the first of a file that is not called.
     #[must_use]
     pub fn main(&self) -> Option<usize> {
         let firsts = || {

@@ -22,8 +22,8 @@ fn velocity(field: &str) -> Option<Velocity> {
     meaning(field, &fields)
 }
 
-/// What an assignment makes of the speeds: `$VEL.CP=0.2`, `$VEL={CP 0.2,ORI1 200.0}`. Neither field nor value is known where
-/// they are none of these. None for an assignment to something else.
+/// What an assignment makes of the speeds: `$VEL.CP=0.2`, `$VEL={CP 0.2,ORI1 200.0}`. The field and the value
+/// are not known where they are not among these. None for an assignment to something else.
 pub fn velocities<'v>(
     to: &Variable<'_>,
     value: &'v Value<'_>,

@@ -1,4 +1,4 @@
-//! Named positions and frames, and who sees them.
+//! Named positions and frames, and their scope.
 
 use crate::syntax::{Component, Coordinates, Declaration, Scope, Value, Variable, meaning};
 use std::collections::BTreeMap;

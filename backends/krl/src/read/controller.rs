@@ -60,7 +60,7 @@ fn moves_external_axes(target: &Coordinates) -> bool {
         .any(|value| value != 0.0)
 }
 
-/// Why a motion is not told as a command.
+/// Why a motion is not reported as a command.
 enum MotionError {
     Unknown,
     Expected(&'static str),
@@ -100,7 +100,7 @@ impl<'a> Controller<'a> {
             Phrase::Motion(motion) => match self.motion(context, motion) {
                 Ok(command) => Effect::Command(command),
                 Err(error) => {
-                    // Nobody knows where it leads, so nobody knows what later targets leave out.
+                    // It is not known where it leads, so what later targets leave out is not known either.
                     self.state.position = Position::default();
                     error.into()
                 }
@@ -145,7 +145,8 @@ impl<'a> Controller<'a> {
         Effect::Command(Command::ChangeTool(None))
     }
 
-    /// Another blade is in: nobody knows where its tip is, what the flange carries, or what the routine or a person has set.
+    /// Another blade is in: it is not known where its tip is, what the flange carries, or what the routine or
+    /// a person has set.
     fn changed(&mut self, tool: Option<ToolId>) {
         self.wanted.tool = tool;
         self.setup = Setup::started();

@@ -11,12 +11,12 @@ use crate::syntax::{Phrase, Span, Statement as Syntax, Statements, is_same_name}
 use vcutc_backend_api::ir::ToolId;
 use vcutc_backend_api::readback::{Effect, Place, Sources, Statement};
 
-/// Tells all statements of a program.
+/// Reports all statements of a program.
 pub(super) fn read(sources: Sources<'_>, visit: &mut dyn FnMut(Statement)) {
     let settings = Settings::read(sources.options);
     let mut files = sources.files.iter();
     if let Some(file) = files.position(|file| u32::try_from(file.text.len()).is_err()) {
-        return tell(
+        return report(
             visit,
             file,
             END_OF_NOTHING,
@@ -52,7 +52,7 @@ pub(super) fn read(sources: Sources<'_>, visit: &mut dyn FnMut(Statement)) {
         match line.phrase {
             // Records of the editor stand in front of the first routine.
             Phrase::Mark(_) if gap == 0 => {}
-            _ => reading.tell(file, line.span, Effect::expected("`DEF` of a routine")),
+            _ => reading.report(file, line.span, Effect::expected("`DEF` of a routine")),
         }
     }
     if let Some(main) = main {
@@ -64,7 +64,7 @@ pub(super) fn read(sources: Sources<'_>, visit: &mut dyn FnMut(Statement)) {
 
 const END_OF_NOTHING: Span = Span { start: 0, end: 0 };
 
-fn tell(visit: &mut dyn FnMut(Statement), file: usize, span: Span, effect: Effect) {
+fn report(visit: &mut dyn FnMut(Statement), file: usize, span: Span, effect: Effect) {
     let place = Place::of(file, span.start..span.end);
     visit(Statement { place, effect });
 }
@@ -104,13 +104,13 @@ enum Next {
 }
 
 impl Reading<'_, '_> {
-    fn tell(&mut self, file: usize, span: Span, effect: Effect) {
-        tell(self.visit, file, span, effect);
+    fn report(&mut self, file: usize, span: Span, effect: Effect) {
+        report(self.visit, file, span, effect);
     }
 
-    /// Tells what is missing where a text ends.
+    /// Reports what is missing where a text ends.
     fn missing(&mut self, file: usize, end: usize, what: &str) {
-        self.tell(file, Span { start: end, end }, Effect::expected(what));
+        self.report(file, Span { start: end, end }, Effect::expected(what));
     }
 
     /// A data list: its variables are there before anything is carried out.
@@ -142,7 +142,7 @@ impl Reading<'_, '_> {
                 (Part::Inside, _) => Effect::expected("a declaration, or `ENDDAT`"),
                 (Part::After, _) => Effect::expected("nothing after `ENDDAT`"),
             };
-            self.tell(file, line.span, effect);
+            self.report(file, line.span, effect);
         }
         if part == Part::Inside {
             self.missing(file, end, "`ENDDAT`");
@@ -166,7 +166,7 @@ impl Reading<'_, '_> {
                 }
             };
             let (effect, next) = self.step(execution, &line);
-            self.tell(line.file, line.statement.span, effect);
+            self.report(line.file, line.statement.span, effect);
             match next {
                 Next::GoOn => {}
                 Next::Enter(routine) => self.enter(execution, routine),
@@ -247,7 +247,8 @@ impl Reading<'_, '_> {
             || self.footer.is_some_and(|from| line.span.start >= from) && line.phrase != Phrase::End
     }
 
-    /// Tells the routines that nobody calls: not understood, as someone must have meant them to do something.
+    /// Reports the routines that are never called. They are not understood: somebody must have meant them to
+    /// do something.
     fn never_called(&mut self, execution: &Execution<'_>) {
         for (file, lines) in execution.never_called() {
             for (place, line) in lines.enumerate() {
@@ -256,7 +257,7 @@ impl Reading<'_, '_> {
                     _ if place == 0 => Effect::Unknown,
                     _ => Effect::Setting,
                 };
-                self.tell(file, line.span, effect);
+                self.report(file, line.span, effect);
             }
         }
     }

@@ -1,8 +1,9 @@
-//! What motions depend on besides their targets: modes, speeds, load, rounding.
+//! What motions depend on apart from their targets: modes, speeds, load, rounding.
 //!
-//! `BAS (#INITMOV,0 )` resets all of it to what the controller keeps, which no text tells. So a motion is only understood
-//! when everything it depends on has been said behind that; and what is said must be what the job says, because paths,
-//! rates and corners were proven for that. Another mode is not understood, even though the controller knows it.
+//! `BAS (#INITMOV,0 )` resets all of it to what the controller keeps, which no text says. So a motion is only
+//! understood when everything it depends on has been said after that; and what is said must be what the job
+//! says, because paths, rates and corners were proven for that. Another mode is not understood, even though
+//! the controller knows it.
 
 use crate::interpreter::speeds::{Velocity, velocities};
 use crate::options::Settings;
@@ -102,7 +103,7 @@ impl<'a> Wanted<'a> {
 }
 
 impl Setup {
-    /// Behind `BAS (#INITMOV,0 )`.
+    /// After `BAS (#INITMOV,0 )`.
     pub(super) fn started() -> Self {
         Self {
             said: Said::Start.bit(),

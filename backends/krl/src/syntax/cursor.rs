@@ -37,7 +37,7 @@ const MOST_DIGITS: usize = 19;
 pub(crate) enum Number {
     None,
     Is(f64),
-    /// Digits that are no number, or one that is too large.
+    /// Digits that do not make a number, or make one that is too large.
     Bad,
 }
 
@@ -51,7 +51,7 @@ impl<'t> Cursor<'t> {
         self.text.as_bytes().get(at).copied()
     }
 
-    /// The next byte that is no blank.
+    /// The next byte that is not a blank.
     #[inline]
     pub(crate) fn peek(&mut self) -> Option<u8> {
         let mut at = self.at;
@@ -72,7 +72,7 @@ impl<'t> Cursor<'t> {
         self.text.get(self.at..).unwrap_or_default()
     }
 
-    /// The text from here to another place behind it, without the blanks around it.
+    /// The text from here to another place after it, without the blanks around it.
     pub(crate) fn until(&self, other: Self) -> &'t str {
         self.text.get(self.at..other.at).unwrap_or_default().trim_ascii()
     }
@@ -198,8 +198,8 @@ impl<'t> Cursor<'t> {
         }
     }
 
-    /// Goes over digits. Gives how many, and the number that they make behind those of another; meaningless when there are
-    /// more than fit.
+    /// Goes over digits. Gives how many, and the number that they make after those of another; meaningless
+    /// when there are more than fit.
     #[inline]
     fn digits(&mut self, before: u64) -> (usize, u64) {
         let start = self.at;
@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_none() {
+    fn what_is_not_a_number_is_none_or_bad() {
         for text in ["", "-", ".", "X", "{"] {
             assert_eq!(number(text), Number::None, "{text}");
         }

@@ -1,4 +1,4 @@
-//! Statements that move: the word, the target, and what stands behind it.
+//! Statements that move: the word, the target, and what stands after it.
 
 use super::cursor::{Cursor, Number};
 use super::types::{
@@ -95,7 +95,7 @@ fn target<'t>(cursor: &mut Cursor<'t>) -> Parsed<Target<'t>> {
     }
 }
 
-/// What stands behind a target: `C_DIS`, `C_PTP C_DIS`, `#TOOL`, `WITH ...`, each at most once, in any order.
+/// What stands after a target: `C_DIS`, `C_PTP C_DIS`, `#TOOL`, `WITH ...`, each at most once, in any order.
 #[inline]
 fn tail<'t>(cursor: &mut Cursor<'t>) -> Parsed<Tail<'t>> {
     let mut tail = Tail::default();
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn relative_motions_say_their_directions_before_or_behind_the_rounding() {
+    fn relative_motions_say_their_directions_before_or_after_the_rounding() {
         for line in ["LIN_REL {Z 10} #TOOL C_DIS", "lin_rel {Z 10} c_dis #tool"] {
             let tail = tail(line);
             assert_eq!(tail.directions, Some(Directions::Tool), "{line}");

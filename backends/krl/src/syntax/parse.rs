@@ -19,7 +19,7 @@ pub(super) fn code(line: &str, start: usize) -> Option<(Span, &str)> {
     (!code.is_empty()).then_some((Span { start, end }, code))
 }
 
-/// Where the comment begins, knowing the first `;`: one between double quotes is none.
+/// Where the comment begins, given the first `;`. A `;` between double quotes does not begin one.
 fn before_comment(line: &str, first: usize) -> usize {
     if !line.get(..first).is_some_and(|before| before.contains('"')) {
         return first;

@@ -36,7 +36,7 @@ pub struct Statement<'t> {
 /// What a statement is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Phrase<'t> {
-    /// `&ACCESS RVP`: a record of the controller's editor; what stands behind the `&`.
+    /// `&ACCESS RVP`: a record of the controller's editor; what stands after the `&`.
     Mark(&'t str),
     /// `DEF name( )`, the head of a routine.
     Def {
@@ -123,7 +123,7 @@ pub struct Declaration<'t> {
     pub name: Variable<'t>,
     /// Its value.
     pub value: Option<Value<'t>>,
-    /// What stands behind a comma: further names of the same type, without values.
+    /// What stands after a comma: further names of the same type, without values.
     pub further: &'t str,
 }
 
@@ -366,7 +366,7 @@ pub struct Arc<'t> {
     pub target: Target<'t>,
     /// `CA`: how far it goes round, in degrees; none where it ends at its target.
     pub angle: Option<f64>,
-    /// What stands behind it.
+    /// What stands after it.
     pub tail: Tail<'t>,
 }
 
@@ -379,12 +379,12 @@ pub enum Points {
     Relative,
 }
 
-/// What stands behind the target of a motion.
+/// What stands after the target of a motion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tail<'t> {
     /// Where its end may be rounded.
     pub approximation: Option<Approximation>,
-    /// A second such word: behind `PTP` the way back to a straight line, `C_PTP C_DIS`.
+    /// A second such word: after `PTP` the way back to a straight line, `C_PTP C_DIS`.
     pub second: Option<Approximation>,
     /// The directions of a motion that is relative, where they are said.
     pub directions: Option<Directions>,
@@ -401,7 +401,7 @@ pub enum Directions {
     Tool,
 }
 
-/// `$VEL.CP=0.2` behind `WITH`.
+/// `$VEL.CP=0.2` after `WITH`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting<'t> {
     /// What gets a value.
@@ -412,7 +412,7 @@ pub struct Setting<'t> {
     pub text: &'t str,
 }
 
-/// A value behind `WITH`.
+/// A value after `WITH`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SettingValue<'t> {
     /// As in an assignment.
@@ -453,7 +453,7 @@ pub enum Target<'t> {
     Variable(Variable<'t>),
 }
 
-/// Words behind a motion that allow its end to be rounded.
+/// Words after a motion that allow its end to be rounded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Approximation {
     /// `C_DIS`: from a distance on.

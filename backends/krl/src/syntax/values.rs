@@ -6,7 +6,7 @@ use super::types::{Component, Coordinates, Field, Value, Variable, is_same_name}
 /// How deep structures lie within structures; `LOAD` needs two.
 pub(super) const DEEPEST: u32 = 4;
 
-/// Why a line is no phrase of its kind.
+/// Why a line is not a phrase of its kind.
 pub(super) enum ParseError {
     /// Something else was expected.
     Expected(&'static str),
@@ -24,7 +24,7 @@ pub(super) fn name<'t>(cursor: &mut Cursor<'t>) -> Parsed<&'t str> {
     cursor.word().ok_or(ParseError::Expected("a name"))
 }
 
-/// The place and the field behind a name.
+/// The place and the field after a name.
 pub(super) fn variable<'t>(called: &'t str, cursor: &mut Cursor<'t>) -> Parsed<Variable<'t>> {
     let mut index = None;
     if cursor.skip(b'[') {

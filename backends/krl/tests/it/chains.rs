@@ -1,6 +1,6 @@
 //! Chains: lines and arcs through the work without a stop between them.
 
-use crate::read_back::{Count, Original, replayed, text, told};
+use crate::read_back::{Count, Original, replayed, statements, text};
 use crate::support::{emit, issues, lines, options, reachable};
 use proptest::prelude::*;
 use vcutc_backend_api::arc::CircularArc;
@@ -41,8 +41,8 @@ fn replay(
     files: &[ProgramFile],
 ) -> Result<usize, Divergence> {
     let options = options(values);
-    let told = told(files, program, &options);
-    replayed(&told, program, &options).map(|places| places.len())
+    let statements = statements(files, program, &options);
+    replayed(&statements, program, &options).map(|places| places.len())
 }
 
 /// The lines of the chain, with what is set between its pieces.
@@ -283,8 +283,8 @@ fn other_arcs_are_unknown() {
             line.replacen(from, to, 1)
         };
         files[0].text = format!("{before}{line}\r\n{rest}");
-        let told = told(&files, &program, &options);
-        let statement = told
+        let statements = statements(&files, &program, &options);
+        let statement = statements
             .iter()
             .find(|statement| text(&files, statement).starts_with("CIRC"))
             .unwrap();
@@ -305,7 +305,7 @@ fn no_character_and_no_line_of_a_chain_can_be_changed_unnoticed() {
 
 /// What `program` is refused for.
 fn refused(program: Program) -> Vec<(&'static str, String)> {
-    let told = issues(program, &[]).into_iter().map(|issue| match issue {
+    let subjects = issues(program, &[]).into_iter().map(|issue| match issue {
         BackendIssue::OutOfRange {
             op: Some(_),
             what,
@@ -314,7 +314,7 @@ fn refused(program: Program) -> Vec<(&'static str, String)> {
         } => (what, value),
         other => panic!("{other:?}"),
     });
-    told.collect()
+    subjects.collect()
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Programs that change the blade.
 
-use crate::read_back::{replayed, told};
+use crate::read_back::{replayed, statements};
 use crate::support::{emit, issues, lines, options, reachable};
 use vcutc_backend_api::backend::{BackendIssue, OptionValue};
 use vcutc_backend_api::bundle::Bundle;
@@ -34,7 +34,7 @@ fn change(bundle: &Bundle) -> Vec<String> {
 
 fn read(files: &[ProgramFile], program: &ReachableProgram) -> Result<usize, Divergence> {
     let options = options(&[routine()]);
-    replayed(&told(files, program, &options), program, &options).map(|places| places.len())
+    replayed(&statements(files, program, &options), program, &options).map(|places| places.len())
 }
 
 /// What is found of a program in whose text something is replaced.

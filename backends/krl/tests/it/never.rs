@@ -97,7 +97,7 @@ fn anything_but_marks_before_def() {
 }
 
 #[test]
-fn a_declaration_behind_an_instruction() {
+fn a_declaration_after_an_instruction() {
     for bundle in bundles() {
         for (name, code) in code(&bundle, ".src") {
             let init = code.iter().position(|line| line.starts_with("BAS")).unwrap();

@@ -1,6 +1,6 @@
 //! Programs as other people and other software write them.
 
-use crate::read_back::{replayed, text, told};
+use crate::read_back::{replayed, statements, text};
 use crate::support::{options, reachable};
 use proptest::prelude::*;
 use vcutc_backend_api::backend::{OptionValue, Options};
@@ -51,24 +51,26 @@ fn a_program_written_by_hand_is_the_same_program() {
         odd.contains("\r\n") && odd.contains("\u{fc}r"),
         "the file lost its bytes"
     );
-    let told = told(&files, &program, &options);
-    if let Err(divergence) = replayed(&told, &program, &options) {
+    let statements = statements(&files, &program, &options);
+    if let Err(divergence) = replayed(&statements, &program, &options) {
         let at = divergence.place.map(|place| {
-            let statement = told.iter().find(|statement| statement.place == place);
+            let statement = statements.iter().find(|statement| statement.place == place);
             text(&files, statement.unwrap())
         });
         panic!("{divergence:?} at {at:?}");
     }
 }
 
-/// The program by hand with a line put before its first `$OUT`, and how that line is told.
+/// The program by hand with a line put before its first `$OUT`, and how that line is reported.
 fn with_line(line: &str) -> (Effect, bool) {
     let (program, options) = two_cuts();
     let mut files = by_hand();
     files[1].text = files[1].text.replacen("$out [", &format!("{line}\r\n$out ["), 1);
-    let told = told(&files, &program, &options);
-    let statement = told.iter().find(|statement| text(&files, statement) == line);
-    let is_followed = replayed(&told, &program, &options).is_ok();
+    let statements = statements(&files, &program, &options);
+    let statement = statements
+        .iter()
+        .find(|statement| text(&files, statement) == line);
+    let is_followed = replayed(&statements, &program, &options).is_ok();
     (statement.unwrap().effect.clone(), is_followed)
 }
 
@@ -137,7 +139,7 @@ fn what_is_krl_but_not_understood_is_said_to_be_so() {
 }
 
 #[test]
-fn what_is_no_krl_is_told_with_what_was_expected() {
+fn what_is_not_krl_is_reported_with_what_was_expected() {
     for (line, expected) in [
         ("LIN {X 1,2}", "the name of a component"),
         ("LIN {X 1.2.3}", "a number"),
@@ -205,13 +207,13 @@ fn what_was_not_said_is_missing() {
     for (line, missing) in lines {
         let mut files = by_hand();
         changed(&mut files[0], line, "");
-        let told = told(&files, &program, &options);
-        let first = told.iter().find_map(|statement| match &statement.effect {
+        let statements = statements(&files, &program, &options);
+        let first = statements.iter().find_map(|statement| match &statement.effect {
             Effect::Unreadable { expected } => Some(expected.as_str()),
             _ => None,
         });
         assert_eq!(first, Some(missing));
-        let divergence = replayed(&told, &program, &options).unwrap_err();
+        let divergence = replayed(&statements, &program, &options).unwrap_err();
         assert_eq!(divergence.what, DivergenceKind::NotUnderstood);
     }
 }
@@ -221,22 +223,22 @@ fn rates_of_swivel_and_twist_must_be_those_of_the_turn() {
     let (program, options) = two_cuts();
     let mut files = by_hand();
     changed(&mut files[0], "$VEL.ORI2=77.4968", "$VEL.ORI2=90");
-    let told = told(&files, &program, &options);
-    let divergence = replayed(&told, &program, &options).unwrap_err();
+    let statements = statements(&files, &program, &options);
+    let divergence = replayed(&statements, &program, &options).unwrap_err();
     assert!(
         matches!(divergence.what, DivergenceKind::Differs(_)),
         "{divergence:?}"
     );
 }
 
-/// What is told of a changed file, for those statements that are no KRL.
+/// What is reported of a changed file, for those statements that are not KRL.
 fn complaints(file: usize, change: impl Fn(&mut ProgramFile)) -> Vec<(String, String)> {
     let (program, options) = two_cuts();
     let mut files = by_hand();
     change(&mut files[file]);
-    let told = told(&files, &program, &options);
-    assert!(replayed(&told, &program, &options).is_err());
-    let complaints = told.iter().filter_map(|statement| match &statement.effect {
+    let statements = statements(&files, &program, &options);
+    assert!(replayed(&statements, &program, &options).is_err());
+    let complaints = statements.iter().filter_map(|statement| match &statement.effect {
         Effect::Unreadable { expected } => Some((text(&files, statement).to_owned(), expected.clone())),
         _ => None,
     });
@@ -273,12 +275,12 @@ fn modules_have_a_head_an_end_and_the_name_of_their_file() {
 }
 
 #[test]
-fn a_routine_that_nobody_calls_is_not_understood() {
+fn a_routine_that_is_never_called_is_not_understood() {
     let (program, options) = two_cuts();
     let mut files = by_hand();
     files[1].text.push_str("DEF spare( )\nHALT\nEND\n");
-    let told = told(&files, &program, &options);
-    let spare: Vec<_> = told
+    let statements = statements(&files, &program, &options);
+    let spare: Vec<_> = statements
         .iter()
         .rev()
         .take(3)
@@ -292,7 +294,7 @@ fn a_routine_that_nobody_calls_is_not_understood() {
             ("DEF spare( )", &Effect::Unknown),
         ]
     );
-    assert!(replayed(&told, &program, &options).is_err());
+    assert!(replayed(&statements, &program, &options).is_err());
 }
 
 /// A variable of a routine hides that of its module, and one of the module that of all.
@@ -305,8 +307,8 @@ fn the_nearest_variable_counts() {
         "ENDDAT",
         "DECL GLOBAL E6POS XP_BACK={X 0}\nDECL GLOBAL E6AXIS XVC_HOME={A1 5}\nENDDAT",
     );
-    let told = told(&files, &program, &options);
-    assert!(replayed(&told, &program, &options).is_ok());
+    let statements = statements(&files, &program, &options);
+    assert!(replayed(&statements, &program, &options).is_ok());
 }
 
 /// Something like KRL: lines of words, signs and numbers in any order.
@@ -356,14 +358,18 @@ fn like_krl() -> impl Strategy<Value = String> {
 /// Every line gives one statement at most, and every file one more for an end that is missing.
 fn is_bounded(files: &[ProgramFile]) -> Result<(), TestCaseError> {
     let (program, options) = two_cuts();
-    let told = told(files, &program, &options);
+    let statements = statements(files, &program, &options);
     let lines: usize = files.iter().map(|file| file.text.split('\n').count()).sum();
     let heads: usize = files
         .iter()
         .map(|file| file.text.to_uppercase().matches("DEF").count())
         .sum();
-    prop_assert!(told.len() <= lines + heads, "{} of {lines} lines", told.len());
-    for statement in &told {
+    prop_assert!(
+        statements.len() <= lines + heads,
+        "{} of {lines} lines",
+        statements.len()
+    );
+    for statement in &statements {
         prop_assert!(
             files[statement.place.file as usize]
                 .text
@@ -371,13 +377,13 @@ fn is_bounded(files: &[ProgramFile]) -> Result<(), TestCaseError> {
         );
         let _ = text(files, statement);
     }
-    let mut places: Vec<_> = told
+    let mut places: Vec<_> = statements
         .iter()
         .map(|statement| statement.place)
         .filter(|place| place.start < place.end)
         .collect();
     places.sort_unstable();
-    prop_assert!(places.windows(2).all(|pair| pair[0] != pair[1]), "told twice");
+    prop_assert!(places.windows(2).all(|pair| pair[0] != pair[1]), "reported twice");
     Ok(())
 }
 

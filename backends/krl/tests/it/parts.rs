@@ -139,7 +139,7 @@ fn a_part_alone_starts_from_a_known_pose_with_the_blade_vibrating() {
 }
 
 #[test]
-fn old_releases_are_told_of_the_parts() {
+fn parts_are_declared_for_old_releases() {
     let program = reachable(Recipe::default().program());
     let values = [
         ("lines_per_part", OptionValue::Integer(30)),

@@ -20,20 +20,24 @@ pub(crate) fn cell(program: &ReachableProgram) -> &Cell {
     program.program().cell.as_ref().unwrap()
 }
 
-/// All statements that a program's files are told as.
-pub(crate) fn told(files: &[ProgramFile], program: &ReachableProgram, options: &Options) -> Vec<Statement> {
-    let mut told = Vec::new();
+/// All statements that are reported of a program's files.
+pub(crate) fn statements(
+    files: &[ProgramFile],
+    program: &ReachableProgram,
+    options: &Options,
+) -> Vec<Statement> {
+    let mut statements = Vec::new();
     let sources = Sources {
         files,
         cell: cell(program),
         options,
     };
-    KrlReader.read(sources, &mut |statement| told.push(statement));
-    told
+    KrlReader.read(sources, &mut |statement| statements.push(statement));
+    statements
 }
 
 pub(crate) fn replayed(
-    told: &[Statement],
+    statements: &[Statement],
     program: &ReachableProgram,
     options: &Options,
 ) -> Result<Vec<Place>, Divergence> {
@@ -42,7 +46,7 @@ pub(crate) fn replayed(
         Comparator::new(program, reader, reader.resolution(options)),
         reader.frames(),
     );
-    for statement in told {
+    for statement in statements {
         replay.take(statement);
     }
     replay.finish()
@@ -53,8 +57,9 @@ pub(crate) fn text<'f>(files: &'f [ProgramFile], statement: &Statement) -> &'f s
     &files[place.file as usize].text[place.start as usize..place.end as usize]
 }
 
-fn normalized_texts(files: &[ProgramFile], told: &[Statement]) -> Vec<String> {
-    told.iter()
+fn normalized_texts(files: &[ProgramFile], statements: &[Statement]) -> Vec<String> {
+    statements
+        .iter()
         .map(|statement| normalized(text(files, statement)))
         .collect()
 }
@@ -78,19 +83,20 @@ proptest! {
         let program = reachable(recipe.program());
         let files = program_files(&emit(&program, &values));
         let options = options(&values);
-        let told = told(&files, &program, &options);
-        let replayed = replayed(&told, &program, &options);
+        let statements = statements(&files, &program, &options);
+        let replayed = replayed(&statements, &program, &options);
         prop_assert!(replayed.is_ok(), "{:?}", replayed);
         prop_assert_eq!(replayed.unwrap().len(), program.program().ops.len());
     }
 
-    /// Held against a list of the lines that are no comments, made without the reader.
+    /// Compared with a list of the lines that are not comments, made without the reader.
     #[test]
-    fn every_statement_is_told_once(recipe in recipe(), values in values()) {
+    fn every_statement_is_reported_once(recipe in recipe(), values in values()) {
         let program = reachable(recipe.program());
         let files = program_files(&emit(&program, &values));
-        let told = told(&files, &program, &options(&values));
-        let mut got: Vec<_> = told.iter().map(|statement| (statement.place.file, text(&files, statement))).collect();
+        let statements = statements(&files, &program, &options(&values));
+        let got = statements.iter().map(|statement| (statement.place.file, text(&files, statement)));
+        let mut got: Vec<_> = got.collect();
         let mut lines: Vec<_> = (0_u32..).zip(&files).flat_map(|(place, file)| {
             let lines = file.text.lines().map(|line| line.split(';').next().unwrap().trim());
             lines.filter(|line| !line.is_empty() && !line.starts_with('&')).map(move |line| (place, line))
@@ -115,8 +121,8 @@ proptest! {
             ..Profile::default()
         });
         let files = emitted(&program, &options);
-        let told = told(&files, &program, &options);
-        let replayed = replayed(&told, &program, &options);
+        let statements = statements(&files, &program, &options);
+        let replayed = replayed(&statements, &program, &options);
         prop_assert!(replayed.is_ok(), "{:?}", replayed);
     }
 }
@@ -134,7 +140,7 @@ const LINES: [&str; 7] = [
 
 /// The lines of a profile count only where the writer puts them.
 #[test]
-fn a_line_of_the_profile_elsewhere_is_told_as_what_it_does() {
+fn a_line_of_the_profile_elsewhere_is_reported_as_what_it_does() {
     let program = reachable(Recipe::default().program());
     let options = options(&[]).with_profile(Profile {
         footer: vec!["$OUT[5]=TRUE".to_owned()],
@@ -143,8 +149,8 @@ fn a_line_of_the_profile_elsewhere_is_told_as_what_it_does() {
     let mut files = emitted(&program, &options);
     let moved = files[0].text.replace("$OUT[5]=TRUE\r\n", "");
     files[0].text = moved.replacen("PTP XVC_HOME\r\n", "$OUT[5]=TRUE\r\nPTP XVC_HOME\r\n", 1);
-    let told = told(&files, &program, &options);
-    let divergence = replayed(&told, &program, &options).unwrap_err();
+    let statements = statements(&files, &program, &options);
+    let divergence = replayed(&statements, &program, &options).unwrap_err();
     let place = divergence.place.unwrap();
     assert_eq!(
         &files[place.file as usize].text[place.start as usize..place.end as usize],
@@ -185,11 +191,11 @@ impl<'p> Original<'p> {
     pub(crate) fn new(program: &'p ReachableProgram, values: &[(&str, OptionValue)]) -> Self {
         let options = options(values);
         let files = emitted(program, &options);
-        let told = told(&files, program, &options);
-        assert_eq!(replayed(&told, program, &options).map(|_| ()), Ok(()));
+        let statements = statements(&files, program, &options);
+        assert_eq!(replayed(&statements, program, &options).map(|_| ()), Ok(()));
         Self {
             program,
-            normalized_texts: normalized_texts(&files, &told),
+            normalized_texts: normalized_texts(&files, &statements),
             options,
             files,
         }
@@ -198,10 +204,10 @@ impl<'p> Original<'p> {
     fn try_change(&self, file: usize, text: String, count: &mut Count) {
         let mut files = self.files.clone();
         files[file].text = text;
-        let told = told(&files, self.program, &self.options);
-        if replayed(&told, self.program, &self.options).is_err() {
+        let statements = statements(&files, self.program, &self.options);
+        if replayed(&statements, self.program, &self.options).is_err() {
             count.departed += 1;
-        } else if normalized_texts(&files, &told) != self.normalized_texts {
+        } else if normalized_texts(&files, &statements) != self.normalized_texts {
             count.other_statement += 1;
         } else {
             let meaning = |files: &[ProgramFile]| tokens(&files[file].text);
@@ -224,7 +230,7 @@ impl<'p> Original<'p> {
         }
     }
 
-    /// Every line taken out, told twice, and swapped with the next.
+    /// Every line taken out, doubled, and swapped with the next.
     pub(crate) fn change_lines(&self, count: &mut Count) {
         for (file, ProgramFile { text, .. }) in self.files.iter().enumerate() {
             let lines: Vec<_> = text.split_inclusive('\n').collect();
@@ -325,13 +331,13 @@ fn everything() -> Vec<(&'static str, OptionValue)> {
     ]
 }
 
-/// Nothing that was written is told as not understood.
+/// Nothing that was written is reported as not understood.
 #[test]
 fn all_that_is_written_is_understood() {
     for (name, program) in &samples().unwrap() {
         let options = options(&everything());
         let files = emitted(program, &options);
-        for statement in told(&files, program, &options) {
+        for statement in statements(&files, program, &options) {
             let is_understood = !matches!(statement.effect, Effect::Unknown | Effect::Unreadable { .. });
             assert!(is_understood, "{name}: {}", text(&files, &statement));
         }

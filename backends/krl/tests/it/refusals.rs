@@ -67,7 +67,7 @@ fn machines_that_krl_does_not_drive() {
             |cell| cell.axes[0].kind = AxisKind::Linear,
             Some(MachineMismatch::Arm),
         ),
-        // It is told once, and nothing else of a machine that is another one anyway.
+        // It is reported once, and nothing else: the machine is another one anyway.
         (
             |cell| {
                 cell.maker = Maker::Abb;
@@ -109,7 +109,8 @@ fn an_arm_whose_branches_have_no_status() {
     assert_eq!(mismatch(&program), Some(MachineMismatch::Arm));
 }
 
-/// A turn of the axes that `T` cannot tell from another, at a move of all axes and where a part begins.
+/// A turn of the axes that `T` cannot distinguish from another, at a move of all axes and where a part
+/// begins.
 #[test]
 fn axes_beyond_a_whole_turn() {
     let angles = |shift: fn(&Action) -> bool, lines: u32| {
@@ -260,7 +261,7 @@ fn a_rate_that_only_a_turn_has_and_a_wait_that_never_ends() {
 }
 
 #[test]
-fn a_speed_is_told_with_its_first_op_and_unit() {
+fn a_speed_is_reported_with_its_first_op_and_unit() {
     let program = Recipe {
         cut_feed: Speed::m_per_s(5.0),
         ..Recipe::default()
@@ -272,13 +273,13 @@ fn a_speed_is_told_with_its_first_op_and_unit() {
         .position(|op| matches!(op.action, Action::Cut { .. }))
         .unwrap();
     let place = Some(OpId(u32::try_from(first_cut).unwrap()));
-    let told = (
+    let expected = (
         "tip speed",
         place,
         "5.0 m/s".to_owned(),
         "0.000001 to 3.0 m/s".to_owned(),
     );
-    assert_eq!(out_of_range(program), [told]);
+    assert_eq!(out_of_range(program), [expected]);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Programs with a blade that spins.
 
-use crate::read_back::{replayed, told};
+use crate::read_back::{replayed, statements};
 use crate::support::{emit, lines, options, reachable};
 use vcutc_backend_api::backend::{Backend, OptionValue};
 use vcutc_backend_api::ir::{Changer, Program, Spindle};
@@ -45,7 +45,7 @@ fn it_is_read_back_however_it_is_split_and_every_change_is_found() {
         let given = [(LINES_PER_PART, OptionValue::Integer(limit))];
         let files = program_files(&emit(&program, &given));
         let options = options(&given);
-        assert!(replayed(&told(&files, &program, &options), &program, &options).is_ok());
+        assert!(replayed(&statements(&files, &program, &options), &program, &options).is_ok());
     }
     for (from, to) in [
         ("$OUT[13]=TRUE", ""),
@@ -57,7 +57,7 @@ fn it_is_read_back_however_it_is_split_and_every_change_is_found() {
         files[0].text = files[0].text.replace(from, to);
         let options = options(&[]);
         assert!(
-            replayed(&told(&files, &program, &options), &program, &options).is_err(),
+            replayed(&statements(&files, &program, &options), &program, &options).is_err(),
             "{from} {to}"
         );
     }

@@ -99,7 +99,7 @@ pub(super) struct RobTarget {
 pub(super) enum Zone {
     /// A stop point.
     Fine,
-    /// The members behind the first.
+    /// The members after the first.
     Fly([f64; 6]),
 }
 

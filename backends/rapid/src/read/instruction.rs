@@ -1,8 +1,9 @@
-//! What an instruction of RAPID does, or that nobody here knows.
+//! What an instruction of RAPID does, or that it is not known.
 //!
 //! Moves are known in the form in which programs for this machine may have them: by literal or named targets, with the tool
 //! and the work object of the job, at speeds that are said, under modes that are said. Whatever is meant otherwise
-//! (another tool, `ConfL\Off`, an offset) is not told as a move, since it would lead elsewhere than the text says.
+//! (another tool, `ConfL\Off`, an offset) is not reported as a move, since it would lead elsewhere than the
+//! text says.
 
 use super::data::{Datum, SpeedData, View, Zone};
 use super::sentence::{Optional, Value};
@@ -194,8 +195,8 @@ impl Machine<'_> {
         }
     }
 
-    /// The optional arguments besides `\WObj`, when tool and work object are those that the program declares, whose values are
-    /// told where they are declared, or those of the controller that the job means.
+    /// The optional arguments other than `\WObj`. Tool and work object are those that the program declares,
+    /// whose values are reported where they are declared, or those of the controller that the job means.
     fn frames<'o>(
         &self,
         optional: &'o [Optional],
@@ -288,7 +289,7 @@ impl Machine<'_> {
     }
 }
 
-/// The number behind the start of a signal's name, as the writer puts it there.
+/// The number after the start of a signal's name, as the writer puts it there.
 fn numbered(signal: &str, start: &str) -> Option<u32> {
     let digits = signal.strip_prefix(start)?;
     let number: u32 = digits.parse().ok()?;

@@ -76,7 +76,7 @@ fn next_of(text: &str, at: usize) -> Option<usize> {
     rest.find(|c: char| !c.is_whitespace()).map(|blanks| at + blanks)
 }
 
-/// The name behind `<Module>`, and the end of its closing tag.
+/// The name after `<Module>`, and the end of its closing tag.
 fn module(text: &str, at: usize) -> Option<(String, usize)> {
     const CLOSES: &str = "</module>";
     let rest = text.get(at..)?;

@@ -1,7 +1,7 @@
 //! A module's text in pieces: headers and ends of modules and routines, control flow, and statements up to their `;`.
 //!
-//! Pieces are found in one pass over the tokens and kept without them, since programs are long; who wants to know what a
-//! statement says reads its stretch of text again ([`super::sentence()`]).
+//! Pieces are found in one pass over the tokens and kept without them, since programs are long; a caller that
+//! wants to know what a statement says reads its stretch of text again ([`super::sentence()`]).
 
 use super::lex::{Kind, Lexer, Token};
 use std::collections::BTreeSet;
@@ -65,7 +65,7 @@ pub(super) fn pieces(whole: &str) -> Pieces {
     cutter.pieces
 }
 
-/// Words that begin or end a module or routine: no statement goes on behind them.
+/// Words that begin or end a module or routine: no statement goes on after them.
 const BORDERS: [&str; 8] = [
     "MODULE",
     "ENDMODULE",

@@ -38,7 +38,7 @@ pub(super) struct Routine {
 #[derive(Debug)]
 pub(super) struct List {
     pub(super) file: u32,
-    pub(super) told: Vec<(Piece, Effect)>,
+    pub(super) statements: Vec<(Piece, Effect)>,
 }
 
 #[derive(Debug, Default)]
@@ -120,9 +120,12 @@ impl<'t> Program<'t> {
                 }
                 (_, None) => Effect::Setting,
             };
-            let told = entries(&file.text).into_iter();
-            let told = told.map(|entry| (entry.piece, effect(&entry))).collect();
-            self.lists.push(List { file: number, told });
+            let statements = entries(&file.text).into_iter();
+            let statements = statements.map(|entry| (entry.piece, effect(&entry))).collect();
+            self.lists.push(List {
+                file: number,
+                statements,
+            });
         }
         named
     }
@@ -277,7 +280,7 @@ impl<'t> Program<'t> {
         }
     }
 
-    /// A declaration of a routine; none when the statement is no declaration.
+    /// A declaration of a routine; none when the statement is not a declaration.
     fn local_declaration(&mut self, text: &str, routine: usize) -> Option<Effect> {
         let starts = ["CONST", "VAR", "PERS"];
         let begins = |word: &&str| {
@@ -308,7 +311,7 @@ impl<'t> Program<'t> {
         }
     }
 
-    /// Tells the frames of the tools and work objects that moves use, where they are declared.
+    /// Reports the frames of the tools and work objects that moves use, where they are declared.
     fn frames(&mut self, machine: Machine<'_>) {
         for index in 0..self.modules.len() {
             let Some(module) = self.modules.get(index) else {

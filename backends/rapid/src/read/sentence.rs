@@ -51,7 +51,7 @@ pub(crate) enum Sentence {
 /// Reads a statement, up to and with its `;`.
 ///
 /// # Errors
-/// What was expected where it is no statement.
+/// What was expected where it is not a statement.
 pub(super) fn sentence(text: &str) -> Result<Sentence, String> {
     let mut reader = Reader {
         text,
@@ -302,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn arguments_are_told_apart() {
+    fn arguments_are_distinguished() {
         let (name, required, optional) =
             instruction("moveL [[1,-2.5,.5],p2] , v10\\V:=3, fine \\ Inpos ,tool1\\WObj:=w1;");
         assert_eq!(name, "MOVEL");
@@ -331,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_statement_says_what_is_missing() {
+    fn what_is_not_a_statement_says_what_is_missing() {
         for (text, expected) in [
             ("MoveL p1,,v10;", "a value"),
             ("MoveL p1", "`,`, `\\` or `;`"),

@@ -211,13 +211,13 @@ fn a_blend_as_large_as_the_approximation() {
 
 /// What a program is refused for.
 fn refused(program: Program) -> Vec<&'static str> {
-    let told = issues(program, &[]).into_iter().map(|issue| match issue {
+    let subjects = issues(program, &[]).into_iter().map(|issue| match issue {
         BackendIssue::OutOfRange {
             op: Some(_), what, ..
         } => what,
         other => panic!("{other:?}"),
     });
-    told.collect()
+    subjects.collect()
 }
 
 #[test]

@@ -100,7 +100,7 @@ fn far_turns_of_the_wrist_are_taken_apart() {
 }
 
 #[test]
-fn confdata_tells_full_turns() {
+fn confdata_distinguishes_full_turns() {
     let conf = |home: [f64; 6]| {
         let cell = CellRecipe {
             home: AxisValues(home.map(f64::to_radians)),

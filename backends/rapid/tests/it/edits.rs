@@ -1,4 +1,4 @@
-//! Programs that people have edited: what means the same is taken, and what does not is told.
+//! Programs that people have edited: what means the same is accepted, and what does not is reported.
 
 use crate::round_trip::replayed;
 use crate::support::{cell, emit_with, one_cut, options, reachable};
@@ -160,8 +160,8 @@ fn what_is_not_known_is_not_taken_for_a_move() {
         ("ENDMODULE", ""),
     ] {
         let found = edited(from, to).expect_err(to);
-        let is_told = matches!(found.what, DivergenceKind::NotUnderstood | DivergenceKind::Ends);
-        assert!(is_told, "{to}: {found:?}");
+        let is_reported = matches!(found.what, DivergenceKind::NotUnderstood | DivergenceKind::Ends);
+        assert!(is_reported, "{to}: {found:?}");
     }
 }
 

@@ -222,7 +222,7 @@ fn text_that_is_not_ascii_and_negative_zeros() {
 
 /// A rounded corner before an output, a turn or a cut would be too early.
 #[test]
-fn outputs_and_waits_behind_a_move_that_does_not_stop() {
+fn outputs_and_waits_after_a_move_that_does_not_stop() {
     for bundle in bundles() {
         let code = code(&bundle);
         for pair in code.windows(2) {

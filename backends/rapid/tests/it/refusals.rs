@@ -132,7 +132,7 @@ fn numbers_beyond_what_is_taken() {
 }
 
 #[test]
-fn names_that_are_none() {
+fn names_that_are_not_names() {
     for (key, name) in [
         ("ultrasonic_signal", "do 12"),
         ("tool_name", "tool0"),

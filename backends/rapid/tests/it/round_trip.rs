@@ -102,7 +102,7 @@ proptest! {
             let end = (start + taken).min(file.text.len());
             file.text.replace_range(start..end, &put);
         }
-        tell_all(&files, &options);
+        assert_read_once(&files, &options);
     }
 
     #[test]
@@ -112,12 +112,12 @@ proptest! {
             .zip(["a.mod", "b.pgf", "c.mod"])
             .map(|(text, name)| ProgramFile { name: name.to_owned(), text })
             .collect();
-        tell_all(&files, &options(&[]));
+        assert_read_once(&files, &options(&[]));
     }
 }
 
-/// Reads files; every statement stands in its file, and none is told twice.
-fn tell_all(files: &[ProgramFile], options: &Options) {
+/// Reads files. Every statement stands in its file, and none is reported twice.
+fn assert_read_once(files: &[ProgramFile], options: &Options) {
     let reader = Rapid.reader().unwrap();
     let program = recipe().program();
     let sources = Sources {
@@ -125,13 +125,13 @@ fn tell_all(files: &[ProgramFile], options: &Options) {
         cell: program.cell.as_ref().unwrap(),
         options,
     };
-    let mut told = std::collections::BTreeSet::new();
+    let mut places = std::collections::BTreeSet::new();
     reader.read(sources, &mut |statement| {
         let place = statement.place;
         let text = files[place.file as usize]
             .text
             .get(place.start as usize..place.end as usize);
         assert!(text.is_some_and(|text| !text.is_empty()), "{place:?}");
-        assert!(told.insert(place), "{place:?} is told twice");
+        assert!(places.insert(place), "{place:?} is reported twice");
     });
 }

@@ -10,7 +10,7 @@ use vcutc_backend_api::motion::ReachableProgram;
 pub(crate) struct Step {
     /// What the robot does.
     event: Event,
-    /// The motion by which a module that begins behind the op gets to where the op ends.
+    /// The motion by which a module that begins after the op gets to where the op ends.
     restart: Option<Event>,
 }
 

@@ -1,5 +1,5 @@
-//! A small reader of KRL, written from the manuals and not from the writer: it runs the modules of a bundle and tells
-//! what the robot would do.
+//! A small reader of KRL, written from the manuals and not from the writer: it runs the modules of a bundle
+//! and reports what the robot would do.
 //!
 //! It is strict where a controller is: unknown names, a `LIN` from nowhere, a declaration in a `.src`, a missing data
 //! list or a wrong number stop it.
@@ -103,10 +103,10 @@ impl Robot<'_> {
         let mut folds: Vec<String> = Vec::new();
         let mut place = Place::Marks;
         for (number, line) in (1..).zip(&lines) {
-            let told = |problem: String| format!("{name}.src:{number}: {problem}: {line}");
+            let located = |problem: String| format!("{name}.src:{number}: {problem}: {line}");
             if let Some(mark) = line.strip_prefix('&') {
                 if place != Place::Marks || mark.is_empty() {
-                    return Err(told("a mark after the first lines".into()));
+                    return Err(located("a mark after the first lines".into()));
                 }
                 continue;
             }
@@ -114,19 +114,19 @@ impl Robot<'_> {
             if let Some(fold) = line.strip_prefix(";FOLD ") {
                 folds.push(fold.to_owned());
             } else if let Some(end) = line.strip_prefix(";ENDFOLD") {
-                let open = folds.pop().ok_or_else(|| told("no fold is open".into()))?;
+                let open = folds.pop().ok_or_else(|| located("no fold is open".into()))?;
                 if end.trim() != format!("({open})") {
-                    return Err(told(format!("the fold {open} is open")));
+                    return Err(located(format!("the fold {open} is open")));
                 }
             }
             let code = line.split(';').next().unwrap_or_default().trim();
             if code.is_empty() {
                 if place == Place::Marks {
-                    return Err(told("text before DEF".into()));
+                    return Err(located("text before DEF".into()));
                 }
                 continue;
             }
-            place = self.statement(name, &data, place, code).map_err(told)?;
+            place = self.statement(name, &data, place, code).map_err(located)?;
         }
         self.depth -= 1;
         match (place, folds.is_empty()) {
