@@ -241,7 +241,8 @@ pub enum GivenValue {
     Default,
 }
 
-/// What the variants of a choice are called in the language, in one place for those who read it and those who speak of it.
+/// What the variants of a choice are called in the language, in one place for the code that reads it and the
+/// code that writes about it.
 #[macro_export]
 macro_rules! words {
     ($($choice:ident { $($variant:ident = $word:literal),+ $(,)? })+) => {

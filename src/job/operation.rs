@@ -209,8 +209,8 @@ pub struct Laid {
     pub after: Surface,
 }
 
-/// Whether the job compiles with these changes of its text, as far as those see who come after planning: the machine of the
-/// job, and its target.
+/// Whether the job compiles with these changes of its text, as far as the stages after planning can say: the
+/// machine of the job, and its target.
 pub type WorksThere<'w> = dyn FnMut(&[(Span, String)]) -> bool + 'w;
 
 /// Why an operation has no plan.

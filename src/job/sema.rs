@@ -2,8 +2,8 @@
 //!
 //! Files are loaded (`files`), their definitions gathered (`gather`), `let`s worked out in whatever order they
 //! need each other (`lets`), and then every block is read against the table of its fields. Every check reports what
-//! it finds and hands back a token instead of a value (`report::Reported`); whoever needs the value passes the token
-//! on. So one run shows all faults, and none of their consequences.
+//! it finds and hands back a token instead of a value (`report::Reported`); code that needs the value passes
+//! the token on. So one run shows all faults, and none of their consequences.
 
 mod arguments;
 mod blade;
@@ -123,7 +123,7 @@ pub enum Part {
     Library,
 }
 
-/// Most diagnostics of one run. Nobody reads more, and a file gone wrong may have a million.
+/// Most diagnostics of one run. More are not read, and a broken file may have a million.
 const MOST_SHOWN: usize = 500;
 
 /// Keeps the first diagnostics, and says that there are more.

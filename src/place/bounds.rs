@@ -113,7 +113,8 @@ impl Asked<'_> {
 }
 
 impl Asked<'_> {
-    /// Where to look on when nothing was found and nobody asked for bounds: all around an arm, wherever the work is now.
+    /// Where to look on when nothing was found and no bounds were given: all around an arm, wherever the work
+    /// is now.
     pub(super) fn farther(&self, machine: &Machine, found: &Placement) -> Option<Bounds> {
         let is_asked = [self.x, self.y, self.z, self.yaw].iter().any(Option::is_some);
         let is_found = found.best.is_some() || found.now.room.is_ok();
@@ -152,7 +153,7 @@ fn read(option: &'static str, given: Option<&str>, kind: Kind) -> Result<Option<
     })
 }
 
-/// A range, both ends included, in the kind's steps. A unit behind the second number holds for both.
+/// A range, both ends included, in the kind's steps. A unit after the second number holds for both.
 fn range(text: &str, kind: Kind) -> Result<(i32, i32), String> {
     let (first, second) = text.split_once("..").unwrap_or((text, text));
     let ((first, own), (second, unit)) = (split(first), split(second));
@@ -180,7 +181,7 @@ fn range(text: &str, kind: Kind) -> Result<(i32, i32), String> {
     Ok((low as i32, high as i32))
 }
 
-/// A number and what stands behind it.
+/// A number and what stands after it.
 fn split(text: &str) -> (&str, &str) {
     let text = text.trim();
     let end = text
@@ -230,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_range_is_refused_with_one_that_is() {
+    fn what_is_not_a_range_is_refused_with_one_that_is() {
         for text in [
             "", "..", "a..b", "1..2..3", "1..2 deg", "2..1", "0.2..0.8", "0..1e9", "0..200 m", "NaN..1",
         ] {

@@ -1,9 +1,9 @@
 //! `vcutc place`: the base frame that leaves the machine the most room, from a job's text.
 //!
-//! The job is planned and proven as for a compilation, for the cuts do not depend on where the work stands. Then
-//! [`mod@search`] looks for places by the critical poses, as far as the axes follow the critical motions there
-//! ([`vcutc_motion::critical`]), and the best of them are put to the whole proof, one by one, until one passes. The job
-//! itself is not changed: what people get is the frame to paste.
+//! The job is planned and proven as for a compilation, because the cuts do not depend on where the work
+//! stands. Then [`mod@search`] looks for places by the critical poses, as far as the axes follow the critical
+//! motions there ([`vcutc_motion::critical`]), and the best of them are put to the whole proof, one by one,
+//! until one passes. The job itself is not changed: what people get is the frame to paste.
 
 mod bounds;
 mod map;

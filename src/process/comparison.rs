@@ -97,8 +97,8 @@ impl PlanTime {
         })
     }
 
-    /// The same of a program that takes so long at the depth that is planned. What its machine needs besides, for moves of all axes and
-    /// for speeding up, is taken not to depend on the depth.
+    /// The same of a program that takes so long at the depth that is planned. What else its machine needs,
+    /// for moves of all axes and for speeding up, is taken not to depend on the depth.
     #[must_use]
     pub fn taking(mut self, time: Duration) -> Self {
         self.still.start += (time - self.at(self.depth, 1.0)).to_s();

@@ -106,7 +106,7 @@ pub fn diagnose(job: &CheckedJob, plan: &PlannedJob, proven: &Proven) -> Vec<Dia
 }
 
 /// As [`diagnose`] while that is wanted: no more changes are tried afterwards, which may then be missing ([`Wanted::answer`]).
-/// Of the values that prove, one is offered with which those who come after planning agree.
+/// Of the values that prove, one is offered that the stages after planning accept.
 #[must_use]
 pub fn diagnose_while(
     job: &CheckedJob,
@@ -212,14 +212,14 @@ fn time_alone(job: &CheckedJob, planned: &dyn PlannedOperation) -> Option<Durati
 }
 
 /// The plan and proof of a job that has nothing wrong with its cuts, along the route that any machine follows best, as the
-/// compiler takes it when the machine follows no other. None for who no longer wants it.
+/// compiler takes it when the machine follows no other. None if the answer is not wanted any more.
 #[must_use]
 pub fn sound(job: &CheckedJob, wanted: &Wanted) -> Option<(PlannedJob, Proven)> {
     planned_and_proven(job, wanted, RouteSet::RowsByPoint)
         .filter(|(plan, proven)| scallop_excess(plan, &proven.report).is_none())
 }
 
-/// The plan and proof of a job in which nothing is wrong. None for who no longer wants it.
+/// The plan and proof of a job in which nothing is wrong. None if the answer is not wanted any more.
 fn planned_and_proven(job: &CheckedJob, wanted: &Wanted, routes: RouteSet) -> Option<(PlannedJob, Proven)> {
     let plan = || plan_while(job, SearchSpace::along(routes), wanted);
     let plan = wanted.answer(plan).ok()?.ok()?;
@@ -231,6 +231,6 @@ fn planned_and_proven(job: &CheckedJob, wanted: &Wanted, routes: RouteSet) -> Op
 #[must_use]
 pub fn scallop_excess(plan: &PlannedJob, report: &Report) -> Option<(OperationId, Sourced<Length>)> {
     let tightest = plan.scallop_limit()?;
-    // The search for the highest point works in floating point; a micrometre over the limit is no excess.
+    // The search for the highest point works in floating point; a micrometre over the limit is not an excess.
     (report.scallop.height > tightest.1.value + Length::mm(1e-3)).then_some(tightest)
 }

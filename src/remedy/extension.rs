@@ -7,8 +7,8 @@ use vcutc_motion::solve::Unreached;
 use vcutc_motion::sweep::Cure;
 use vcutc_motion::trouble::Trouble;
 
-/// The job with the room that the turns of its machine need, and `run_out` besides. None where something else is in the way, or
-/// the job states that room itself.
+/// The job with the room that the turns of its machine need, and `run_out` as well. None where something else
+/// is in the way, or the job states that room itself.
 #[must_use]
 pub fn farther_out(job: &CheckedJob, plan: &PlannedJob, why: &Unreached) -> Option<CheckedJob> {
     let unreachable = why.unreachable()?;

@@ -53,7 +53,7 @@ pub struct Made {
     pub words: String,
 }
 
-/// Compiles a changed job; none where it has errors, or is no longer wanted.
+/// Compiles a changed job; none where it has errors, or is not wanted any more.
 pub type Compile<'c> = dyn Fn(&CheckedJob) -> Option<Made> + 'c;
 
 /// What would make a job faster that its machine made slow: at most three changes, the one that saves most first. Those that were

@@ -101,7 +101,7 @@ impl PartialEq for OnMachine {
     }
 }
 
-/// Plans are compared as a machine carries them out, for it does not follow the best one as that is.
+/// Plans are compared as a machine carries them out, because it does not follow the best one exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Followed {
     pub by: OnMachine,

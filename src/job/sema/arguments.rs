@@ -53,8 +53,8 @@ pub(crate) fn calls<'a>(
         );
         return Err(reports.push(diagnostic.help(help)));
     };
-    if let Some(told) = decimal_comma::between(arguments.iter().map(|argument| &argument.value)) {
-        return Err(reports.push(told));
+    if let Some(diagnostic) = decimal_comma::between(arguments.iter().map(|argument| &argument.value)) {
+        return Err(reports.push(diagnostic));
     }
     if let Some(&(name, example)) = known.iter().find(|(name, _)| *name == function.node) {
         return Ok(Arguments {
@@ -163,7 +163,9 @@ impl<'a> Arguments<'a> {
         parameters: &[Parameter<'_>],
         reader: &mut Reader<'_>,
     ) -> Checked<Vec<f64>> {
-        let mut fault = self.nameless(parameters).map(|told| reader.reports.push(told));
+        let mut fault = self
+            .nameless(parameters)
+            .map(|diagnostic| reader.reports.push(diagnostic));
         let named = if fault.is_some() { &[][..] } else { &self.given[..] };
         for (at, argument) in named.iter().enumerate() {
             if let Some(diagnostic) = self.misnamed(at, argument, parameters) {

@@ -8,10 +8,10 @@ use vcutc_syntax::ast::Expr;
 pub(super) fn between<'v>(values: impl IntoIterator<Item = &'v Spanned<Expr>>) -> Option<Diagnostic> {
     let mut values = values.into_iter();
     let mut before = values.next()?;
-    values.find_map(|value| told(core::mem::replace(&mut before, value), value))
+    values.find_map(|value| diagnose(core::mem::replace(&mut before, value), value))
 }
 
-fn told(before: &Spanned<Expr>, after: &Spanned<Expr>) -> Option<Diagnostic> {
+fn diagnose(before: &Spanned<Expr>, after: &Spanned<Expr>) -> Option<Diagnostic> {
     let Expr::Number { value, unit: None } = before.node else {
         return None;
     };

@@ -291,7 +291,7 @@ impl<'a> Fields<'a> {
 
     /// What was reported already that may be why a field is missing.
     pub fn quiet_about(&self, name: &str) -> Option<Reported> {
-        // Who writes `clearence` does not lack a `clearance` besides.
+        // A job with `clearence` does not lack a `clearance` as well.
         self.damage.or_else(|| self.misspelt.get(name).copied())
     }
 

@@ -49,7 +49,7 @@ pub(crate) fn load(root: &str, session: &mut Session<'_>) -> Result<Files, LoadE
     Ok(loading.files)
 }
 
-/// Text of a file that has been loaded; reports when it is none.
+/// Text of a file that has been loaded; reports when it is not text.
 ///
 /// The file is added to the source map either way, so that the diagnostic can show where it stops being text.
 pub(crate) fn text_of(

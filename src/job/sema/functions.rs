@@ -40,8 +40,8 @@ fn clamped(value: Height, low: Height, high: Height) -> Option<Height> {
     (low.value.high <= high.value.low).then(|| value.greater(low).lesser(high))
 }
 
-/// What a function takes and gives, for those who help to write a call. The functions find out by themselves; a test holds the
-/// two against each other.
+/// What a function takes and gives, for completion and signature help. The functions find out by themselves;
+/// a test compares the two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Signature {
     /// An angle, and gives a pure number.

@@ -63,7 +63,8 @@ pub trait Kind: Debug + Sync {
 pub struct Operations(pub &'static [&'static dyn Kind]);
 
 impl Operations {
-    /// The kind whose head begins with these words; the first one of its first word where the second is none of theirs.
+    /// The kind whose head begins with these words; the first one of its first word where the second does not
+    /// match any.
     #[must_use]
     pub fn find(self, first: &str, second: Option<&str>) -> Option<&'static dyn Kind> {
         let mut kinds = self.0.iter().copied().filter(|kind| kind.words()[0] == first);

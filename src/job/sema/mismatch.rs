@@ -12,13 +12,13 @@ use vcutc_syntax::ast::Expr;
 
 /// A value where another dimension is wanted.
 pub(crate) struct Mismatch<'a> {
-    /// Who wants it, as it goes into a sentence: `` `rake` ``.
+    /// What takes it, as it goes into a sentence: `` `rake` ``.
     pub(crate) taker: &'a str,
     pub(crate) wanted: Dimension,
     pub(crate) expr: &'a Spanned<Expr>,
     /// Its value.
     pub(crate) found: Quantity,
-    /// A value that works, such as `60 deg`, for those who gave no number to build on.
+    /// A value that works, such as `60 deg`, for use where no number was given.
     pub(crate) typical: Option<&'a str>,
 }
 

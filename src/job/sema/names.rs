@@ -1,7 +1,7 @@
 //! Names: what the files define, gathered before anything is evaluated, so that order does not matter.
 //!
-//! `let`s, blades, regions and machines share one space of names over all files: whoever reads `dagger` anywhere in a job
-//! knows that it means one thing.
+//! `let`s, blades, regions and machines share one space of names over all files: a reader of `dagger`
+//! anywhere in a job knows that it means one thing.
 
 use super::report::{Reported, Reports};
 use super::units;
@@ -138,7 +138,7 @@ impl<'a> Names<'a> {
 
     /// Names of a kind that are near a wanted one.
     fn near(&self, what: &str, name: &str, is_wanted: fn(Thing) -> bool, reports: &Reports) -> Vec<&'a str> {
-        // Comparing every name with every other one would take for ever where both are many.
+        // Comparing every name with every other one would take too long where both are many.
         if reports.are_many() || self.table.len() > MOST_COMPARED {
             return Vec::new();
         }

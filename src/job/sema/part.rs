@@ -236,7 +236,8 @@ impl Part {
         }
     }
 
-    /// What cuts leave that end at this contour, seen with their spine taken off, from left to right; none where that is none.
+    /// What cuts leave that end at this contour, seen with their spine taken off, from left to right; none
+    /// where that does not exist.
     #[must_use]
     pub fn left_by(&self, contour: &[Point2], stock: Stock) -> Option<Machined> {
         let machined = Machined::new(contour.to_vec()).ok()?;

@@ -119,7 +119,7 @@ pub(crate) fn check(
     session: &mut Session<'_>,
 ) -> Checked<Part> {
     let trace = trace(&block.entries, place, stock, scope, session)?;
-    // A piece that could not be read is no gap in the profile.
+    // A piece that could not be read is not a gap in the profile.
     match session.damage_at(place.whole) {
         Some(reported) => Err(reported),
         None => {

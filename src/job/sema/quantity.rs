@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn absurd_sizes_are_told_apart() {
+    fn absurd_sizes_are_distinguished() {
         assert!(Quantity::length(1e9).is_sensible());
         assert!(!Quantity::length(1.1e9).is_sensible());
         assert!(Quantity::new(1e12, Dimension::new(2, 0, 0, 0)).is_sensible());

@@ -58,7 +58,8 @@ impl<'s> Reader<'s> {
         Self { scope, reports }
     }
 
-    /// The value of an expression within a range, in mm, rad, s, kg. `taker` names who takes it: `` `rake` ``.
+    /// The value of an expression within a range, in mm, rad, s, kg. `taker` names what takes it: `` `rake`
+    /// ``.
     pub fn within(
         &mut self,
         expr: &Spanned<Expr>,

@@ -177,7 +177,7 @@ fn is_same(one: &[Edge], other: &[Edge]) -> bool {
 }
 
 impl Drawn {
-    /// An island that is none, if there is one: the region is then not the outline less its islands.
+    /// An invalid island, if there is one: the region is then not the outline less its islands.
     ///
     /// An island as large as the outline is the outline again, or lies around it. What else lies outside of the outline or in
     /// another island is an outline of the region, as which it goes round to the left. Islands that are drawn twice count once.

@@ -1,7 +1,7 @@
 //! Where the checks put what they find, and the token that proves that a fault has been reported.
 //!
 //! A check that cannot go on returns [`Reported`], which only [`Reports::push`] makes. So nothing fails silently, and
-//! whoever builds on the failed part stays quiet instead of complaining about a consequence.
+//! code that builds on the failed part stays quiet instead of reporting a consequence.
 
 use vcutc_diagnostics::Diagnostic;
 

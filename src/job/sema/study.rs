@@ -1,4 +1,4 @@
-//! A job with everything that was learnt on the way to its meaning, for those who answer questions about its text.
+//! A job with everything that was learnt on the way to its meaning, for answers about its text.
 //!
 //! [`check`](super::check) keeps the meaning and forgets the rest; editors ask for the trees of all files, for what each name
 //! stands for, and for the value of an expression in the middle of a job that is not yet right.
@@ -212,8 +212,8 @@ impl Value {
         self.0.text()
     }
 
-    /// In every unit that matters to who reads the expression: the unit that it begins with, the one that people use, and the
-    /// one that the compiler computes with.
+    /// In every unit that matters to a reader of the expression: the unit that it begins with, the one that
+    /// people use, and the one that the compiler computes with.
     #[must_use]
     pub fn texts(self, expr: &Spanned<Expr>) -> Vec<String> {
         let written = walk(expr).find_map(|part| self.in_unit_of(&part.node));

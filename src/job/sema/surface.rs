@@ -77,7 +77,7 @@ pub(crate) fn check(
     }
 }
 
-/// A surface with what its triangles do not tell.
+/// A surface with what its triangles do not show.
 struct Drawn {
     surface: Surface,
     /// The profile that it is at every y, if it is one: finer than the triangles.

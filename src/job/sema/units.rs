@@ -166,7 +166,8 @@ pub(crate) fn meant(name: &str) -> Vec<String> {
     firsts.iter().map(|first| format!("{first}/{second}")).collect()
 }
 
-/// Words that mean one unit to some people and another to others: who reads them as one of the two is wrong half of the time.
+/// Words that mean one unit to some people and another to others: reading them as one of the two would be
+/// wrong half of the time.
 const AMBIGUOUS: &[(&str, [&str; 2])] = &[
     // Degrees in German, and gon in French.
     ("grad", ["deg", "rad"]),

@@ -1,4 +1,4 @@
-//! What blocks share, with what one of them says besides.
+//! What blocks share, with what else one of them says.
 
 use vcutc_syntax::ast::{Block, Entry, HeadPart, Relation};
 

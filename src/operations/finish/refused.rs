@@ -145,7 +145,7 @@ impl Refused<'_> {
         let head = asked.setup.head_span;
         let refusal = match &self.why {
             Why::OnProfile(refusal) => refusal,
-            Why::OnSurface(refusal) => return self.told_on_surface(refusal),
+            Why::OnSurface(refusal) => return self.diagnose_on_surface(refusal),
         };
         match refusal {
             Refusal::Nothing => nothing(head),

@@ -264,7 +264,7 @@ fn floors(asked: &ClearPocket, top: f64) -> Result<Vec<f64>, Why> {
         .collect())
 }
 
-/// A pocket that is less deep is none, in mm: far below what a machine repeats.
+/// A pocket that is less deep does not count, in mm: far below what a machine repeats.
 const THINNEST: f64 = 0.01;
 
 /// Most levels across a region.

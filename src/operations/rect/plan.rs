@@ -103,7 +103,7 @@ pub enum Rounding {
     Grid,
 }
 
-/// Who cuts, and how fast.
+/// What cuts, and how fast.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blades {
     pub knife: Knife,

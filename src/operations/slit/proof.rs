@@ -292,7 +292,7 @@ impl Judge<'_> {
         if let Some(fault) = fault {
             let at = at.map_or(self.asked.region.region.bounds().low, |left| left.at);
             let tip = Point2::new(at.x, self.asked.floor.value.to_mm());
-            // It is no single slit that leaves something: the first one stands for all.
+            // It is not a single slit that leaves something: the first one stands for all.
             self.note_of_cut((NonZeroU32::MIN, NonZeroU32::MIN), tip, at.y, fault);
         }
         left

@@ -12,7 +12,7 @@ use vcutc_region::piece::Piece;
 use vcutc_region::place::Place;
 use vcutc_region::slits::Misfit;
 
-/// Walls that are lower are none, in mm: far below what a machine repeats.
+/// Walls that are lower do not count, in mm: far below what a machine repeats.
 pub(crate) const LOWEST: f64 = 0.01;
 
 /// What prevents a plan.

@@ -4,8 +4,8 @@
 //! Each way to cut an operation is planned, written down as a program and timed as that; where what it leaves differs, it
 //! is replayed on what the operations before left, too. Ways whose chips all come free and that leave no more than they may
 //! come first, then the least time, then the least material left, then the order in which the language names them. What was
-//! compared is kept as a [`Decision`]. Operations are decided one after the other, for each depends on the surface that
-//! those before left.
+//! compared is kept as a [`Decision`]. Operations are decided one after the other, because each depends on
+//! the surface that those before left.
 //!
 //! An operation of more than [`MOST_CUTS_COMPARED`] cuts is not compared with itself in other guises: it is cut `mixed`,
 //! `boustrophedon` and by `point`.
@@ -54,7 +54,7 @@ use vcutc_simulation::surface::Surface;
 pub const MOST_CUTS_COMPARED: usize = 20_000;
 
 /// A lattice whose time by the mean-value model is longer than this many times that of the best plan is not planned.
-const FAR_BEHIND: f64 = 1.5;
+const MUCH_SLOWER: f64 = 1.5;
 
 /// Plans an operation on what those before it left of the stock.
 ///
@@ -135,7 +135,7 @@ pub(crate) fn without_plan_limits(asked: &RoughVcut) -> Option<RoughVcut> {
 pub(crate) fn broken_limits(vcut: &PlannedVcut, asked: &RoughVcut, time: Duration) -> Option<Diagnostic> {
     let mut limited = vcut.clone();
     limited.asked.limits = asked.limits;
-    limits::told(&limited, time)
+    limits::diagnostic(&limited, time)
 }
 
 /// Whether the routes of a set are all that is needed to choose this plan's again.
@@ -146,7 +146,7 @@ pub(crate) fn is_within(vcut: &PlannedVcut, routes: RouteSet) -> bool {
 /// Why an operation has no plan.
 #[derive(Clone, Debug)]
 enum Unplanned {
-    /// What there is to tell is known.
+    /// What to report is known.
     Refused(Vec<Refused>),
     Parameters(Refusal),
 }
@@ -305,8 +305,8 @@ fn within_limits(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unplan
 }
 
 /// A plan that keeps the limits on time and cuts where the best one that was searched for within them does not: the best one
-/// of all if that keeps them, for the search goes on from one sound plan to the next, and limits take some of them away; else
-/// any. Of the plans that break them, the one that comes nearest is what there is to tell of.
+/// of all if that keeps them, because the search goes on from one sound plan to the next, and limits take
+/// some of them away; else any. Of the plans that break them, the one that comes nearest is reported.
 fn kept_by_any(
     bench: &Bench<'_>,
     asked: &RoughVcut,
@@ -357,7 +357,7 @@ fn best_lattice(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unplann
         (_, Objective::Scallop | Objective::BladeLoad) if is_searched(asked) => finest::finest(bench, asked),
         (_, Objective::Cuts) if is_searched(asked) => fewest(bench, asked),
         (Auto::Auto, Objective::Time) => compare_lattices(bench, asked),
-        // The fewest cuts are none of the route's: all lattices are searched at once.
+        // The fewest cuts do not depend on the route: all lattices are searched at once.
         (Auto::Given(_), _) | (Auto::Auto, Objective::Scallop | Objective::Cuts | Objective::BladeLoad) => {
             best_on(bench, asked, &parameters::open_lattices(asked))
         }
@@ -428,7 +428,7 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unp
     let mut refused = None;
     let mut by_model: Vec<(Duration, Lattice)> = Vec::new();
     for lattice in parameters::open_lattices(asked) {
-        // A lattice on which the operation cannot be had is no fault of the job while there is another.
+        // A lattice on which the operation is not possible is not a fault of the job while there is another.
         if let Some(found) = trial::freest(bench, asked, lattice) {
             by_model.push((found.estimate(&bench.job, asked), lattice));
         }
@@ -445,7 +445,7 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unp
     for &(time, lattice) in &by_model {
         let what = lattice.word();
         let best = contest.best.as_ref().map(|(_, best)| best);
-        if best.is_some_and(|best| is_far_behind(time, best)) {
+        if best.is_some_and(|best| is_much_slower(time, best)) {
             contest.rule_out(what, Standing::ByModel(time));
             continue;
         }
@@ -461,9 +461,9 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unp
                 Ok(laid) => {
                     contest.enter(what, bench.judged(laid, asked));
                 }
-                Err(told) => {
+                Err(refusal) => {
                     contest.rule_out(what, Standing::Impossible);
-                    refused.get_or_insert(told);
+                    refused.get_or_insert(refusal);
                 }
             },
         }
@@ -483,7 +483,7 @@ fn compare_lattices(bench: &Bench<'_>, asked: &RoughVcut) -> Result<LaidOut, Unp
             Ok(laid)
         }
         (None, None) => {
-            // All lattices together: what is told of one alone would not be the job's.
+            // All lattices together: what is reported of one alone would not be about the job.
             let together = parameters::resolve(&bench.job, &trial::of_model(asked));
             Err(match (together, refused) {
                 (Err(refusal), _) => refusal.into(),
@@ -524,11 +524,11 @@ fn is_fitted_open(bench: &Bench<'_>, asked: &RoughVcut) -> bool {
         && Skipping::of(&bench.job, asked) != Skipping::Never
 }
 
-/// Whether a time by the model is far behind a plan: behind its own time, and behind what the model says of it, for on small
-/// parts the model is far from what is planned.
-fn is_far_behind(model: Duration, best: &Contender) -> bool {
+/// Whether a time by the model is much longer than that of a plan: than its own time, and than what the model
+/// says of it, because on small parts the model is far from what is planned.
+fn is_much_slower(model: Duration, best: &Contender) -> bool {
     let time = best.standing.time();
-    time.is_some_and(|time| model > time.max(best.laid.vcut.estimate) * FAR_BEHIND)
+    time.is_some_and(|time| model > time.max(best.laid.vcut.estimate) * MUCH_SLOWER)
 }
 
 /// The operation with the best residual strategy, or with the one that it asks for, along the best route.

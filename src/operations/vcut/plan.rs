@@ -132,7 +132,7 @@ pub enum Way {
     Over,
 }
 
-/// What is told of parameters that were compared as plans.
+/// What is reported of parameters that were compared as plans.
 pub const PARAMETERS: &str = "parameters";
 
 /// Most older corners that all flanks of an operation together may pass under while they are measured, which bounds the

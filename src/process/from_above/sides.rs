@@ -6,7 +6,7 @@ use vcutc_region::piece::Piece;
 use vcutc_region::place::Place;
 use vcutc_region::region::{Region, Side};
 
-/// Places this close to a line lie on it, in mm; shorter stretches are none.
+/// Places this close to a line lie on it, in mm; shorter stretches do not count.
 const ON_IT: f64 = 1e-6;
 
 /// What of the stock's sides has core right within it that is not of the region.

@@ -17,7 +17,7 @@ pub(crate) struct Section {
 }
 
 impl Section {
-    /// Its polyline; none where its strokes are no outline at this tolerance.
+    /// Its polyline; none where its strokes do not form an outline at this tolerance.
     pub(crate) fn points(&self, tolerance: Length) -> Option<Vec<Point2>> {
         let whole = outline(&self.strokes, self.map, tolerance, self.joined).ok()?;
         match self.side {

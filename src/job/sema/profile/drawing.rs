@@ -15,7 +15,7 @@ use crate::sema::part::{Part, Section};
 use crate::sema::read::{Reader, words_of};
 use crate::sema::report::Checked;
 use crate::sema::session::Session;
-pub(crate) use faults::{Told, View, joining};
+pub(crate) use faults::{NamedDrawing, View, joining};
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{FileId, Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -26,7 +26,7 @@ use vcutc_geometry::import::drawing::{
 use vcutc_geometry::import::{self, DataError, NoText};
 use vcutc_syntax::ast::Entry;
 
-/// A format of drawings, and the fields behind such a file.
+/// A format of drawings, and the fields after such a file.
 #[derive(Debug)]
 pub(crate) struct Format {
     pub(crate) spec: BlockSpec,
@@ -160,7 +160,7 @@ pub(super) fn read(
     let side = reader.choice(&fields, "side", SIDES);
     let (file, options, side) = (file?, options?, side?.map(|side| side.value));
     let drawing = format.file.read(file, options.layer.as_ref(), path, session)?;
-    let told = Told {
+    let named = NamedDrawing {
         path,
         file,
         fields: &fields,
@@ -169,9 +169,9 @@ pub(super) fn read(
         view: View::Profile,
         sources: &*session.sources,
     };
-    let outline = profile_of(&told, &options, side);
+    let outline = profile_of(&named, &options, side);
     let repeated = outline.as_ref().map(|(_, outline)| outline.repeated.as_slice());
-    let remarks = told.remarks(repeated.unwrap_or_default());
+    let remarks = named.remarks(repeated.unwrap_or_default());
     session.reports.append(remarks);
     match outline {
         Ok((map, outline)) => {
@@ -233,14 +233,14 @@ impl Options {
     }
 
     /// The map from a drawing to the workpiece. The drawing must have the layer, and something on it.
-    pub(crate) fn map(&self, told: &Told<'_>) -> Result<Affine, Box<Diagnostic>> {
-        told.must_have_layer()?;
-        if told.drawing.strokes.is_empty() {
-            return Err(Box::new(told.nothing()));
+    pub(crate) fn map(&self, named: &NamedDrawing<'_>) -> Result<Affine, Box<Diagnostic>> {
+        named.must_have_layer()?;
+        if named.drawing.strokes.is_empty() {
+            return Err(Box::new(named.nothing()));
         }
-        let unit = match (self.unit, told.drawing.unit) {
+        let unit = match (self.unit, named.drawing.unit) {
             (Some(unit), _) | (None, Unit::Known(unit)) => unit,
-            (None, Unit::Unsaid(place)) => return Err(Box::new(told.no_unit(place))),
+            (None, Unit::Unsaid(place)) => return Err(Box::new(named.no_unit(place))),
         };
         let factor = unit * self.scale;
         Ok(Affine::shift(self.x.to_mm(), self.up.to_mm()).after(Affine::stretch(factor, factor)))
@@ -249,27 +249,27 @@ impl Options {
 
 /// The one chain that a drawing is, or the wanted side of it, with the map from the drawing to the workpiece.
 fn profile_of(
-    told: &Told<'_>,
+    named: &NamedDrawing<'_>,
     options: &Options,
     wanted: Option<Side>,
 ) -> Result<(Affine, Outline), Box<Diagnostic>> {
-    let map = options.map(told)?;
-    let strokes = &told.drawing.strokes;
+    let map = options.map(named)?;
+    let strokes = &named.drawing.strokes;
     // Lines drawn over each other are the cause of many faults that look like others.
     let twice =
-        || drawn_over(strokes, map, Part::TOLERANCE, options.tolerance).map(|found| told.drawn_over(found));
+        || drawn_over(strokes, map, Part::TOLERANCE, options.tolerance).map(|found| named.drawn_over(found));
     let whole = outline(strokes, map, Part::TOLERANCE, options.tolerance).map_err(|error| {
         let is_torn = matches!(error, OutlineError::Branch { .. } | OutlineError::Several { .. });
-        let otherwise = told.no_outline(error, options.tolerance);
+        let otherwise = named.no_outline(error, options.tolerance);
         is_torn.then(twice).flatten().unwrap_or(otherwise)
     })?;
     let outline = match wanted {
-        None if whole.is_closed => Err(Box::new(told.which_side(&whole))),
+        None if whole.is_closed => Err(Box::new(named.which_side(&whole))),
         None if turns_back(&whole) => twice().map_or(Ok(whole), Err),
         None => Ok(whole),
         Some(wanted) => side(&whole, wanted, Part::TOLERANCE).map_err(|error| {
             let is_crossed = matches!(error, SideError::Crossed { .. } | SideError::NoArea);
-            let otherwise = told.no_side(error, options.tolerance);
+            let otherwise = named.no_side(error, options.tolerance);
             is_crossed.then(twice).flatten().unwrap_or(otherwise)
         }),
     };

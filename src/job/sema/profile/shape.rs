@@ -312,9 +312,9 @@ fn worst_stretch(strip: &Strip, way: Way, excess: &dyn Fn(&Point2) -> f64) -> Op
     if most <= SAME {
         return None;
     }
-    let (before, behind) = strip.points.split_at(farthest);
+    let (before, after) = strip.points.split_at(farthest);
     let from_x = crossing(point, before.iter().rev(), excess);
-    let to_x = crossing(point, behind.iter().skip(1), excess);
+    let to_x = crossing(point, after.iter().skip(1), excess);
     Some(Leaving {
         way,
         from_x: from_x.min(to_x),

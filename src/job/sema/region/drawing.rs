@@ -9,7 +9,7 @@ use crate::sema::eval::Scope;
 use crate::sema::fields::{FieldSpec, Fields, value};
 use crate::sema::profile::data::place_of;
 use crate::sema::profile::drawing::{
-    DXF_FILE, DXF_UNIT, Format, Options, SVG_FILE, SVG_UNIT, Told, View, fields, spec,
+    DXF_FILE, DXF_UNIT, Format, NamedDrawing, Options, SVG_FILE, SVG_UNIT, View, fields, spec,
 };
 use crate::sema::read::Reader;
 use crate::sema::report::Checked;
@@ -104,7 +104,7 @@ impl<'a> Named<'a> {
             Some(layer) => Some(format.file.read(file, Some(layer), path, session)?),
             None => None,
         };
-        let told = Told {
+        let named = NamedDrawing {
             path,
             file,
             fields: &fields,
@@ -113,18 +113,18 @@ impl<'a> Named<'a> {
             view: View::Plan,
             sources: &*session.sources,
         };
-        let found = loops_of(&told, &options);
+        let found = loops_of(&named, &options);
         let repeated = found.as_ref().map(|(_, loops)| loops.repeated.as_slice());
-        let mut remarks = told.remarks(repeated.unwrap_or_default());
+        let mut remarks = named.remarks(repeated.unwrap_or_default());
         let outcome = match (found, marks.as_ref()) {
             (Ok((map, loops)), Some(drawing)) => {
-                let marks = Told {
+                let marks = NamedDrawing {
                     drawing,
                     layer: open.as_ref(),
-                    ..told
+                    ..named
                 };
                 remarks.extend(marks.remarks(&[]));
-                let marked = marked_sides(&told, &marks, (&loops, map), &options);
+                let marked = marked_sides(&named, &marks, (&loops, map), &options);
                 marked.map(|marked| (loops, marked))
             }
             (Ok((_, loops)), None) => Ok((loops, BTreeSet::new())),
@@ -135,7 +135,7 @@ impl<'a> Named<'a> {
             Ok((loops, marked)) => {
                 let places = loops.rings.iter().map(|ring| {
                     let place =
-                        |piece: &vcutc_geometry::import::drawing::LoopPiece| told.stroke(piece.stroke);
+                        |piece: &vcutc_geometry::import::drawing::LoopPiece| named.stroke(piece.stroke);
                     ring.iter().map(place).collect()
                 });
                 Ok((edges(&loops, &marked), places.collect()))
@@ -146,9 +146,9 @@ impl<'a> Named<'a> {
 }
 
 /// The loops of a drawing, with the map from it to the workpiece.
-fn loops_of(told: &Told<'_>, options: &Options) -> Result<(Affine, Loops), Box<Diagnostic>> {
-    let map = options.map(told)?;
-    let strokes = &told.drawing.strokes;
+fn loops_of(named: &NamedDrawing<'_>, options: &Options) -> Result<(Affine, Loops), Box<Diagnostic>> {
+    let map = options.map(named)?;
+    let strokes = &named.drawing.strokes;
     let tolerance = options.tolerance;
     match loops(strokes, map, tolerance) {
         Ok(found) => Ok((map, found)),
@@ -162,12 +162,12 @@ fn loops_of(told: &Told<'_>, options: &Options) -> Result<(Affine, Loops), Box<D
                 .then(|| drawn_over(strokes, map, ROUND, tolerance))
                 .flatten();
             Err(match (twice, error) {
-                (Some(overlap), _) => told.drawn_over(overlap),
+                (Some(overlap), _) => named.drawn_over(overlap),
                 (None, LoopsError::Strokes(error @ OutlineError::Branch { .. })) => {
-                    let branches = told.no_outline(error, tolerance);
+                    let branches = named.no_outline(error, tolerance);
                     Box::new(branches.help("draw loops that touch in a point as one closed polyline each"))
                 }
-                (None, LoopsError::Strokes(error)) => told.no_outline(error, tolerance),
+                (None, LoopsError::Strokes(error)) => named.no_outline(error, tolerance),
                 (
                     None,
                     LoopsError::Open {
@@ -177,7 +177,7 @@ fn loops_of(told: &Told<'_>, options: &Options) -> Result<(Affine, Loops), Box<D
                     },
                 ) => {
                     let closes = |wider| loops(strokes, map, wider).is_ok();
-                    Box::new(faults::open_chains(told, closed, &chains, nearest, &closes))
+                    Box::new(faults::open_chains(named, closed, &chains, nearest, &closes))
                 }
             })
         }
@@ -186,8 +186,8 @@ fn loops_of(told: &Told<'_>, options: &Options) -> Result<(Affine, Loops), Box<D
 
 /// The sides that another layer marks as open.
 fn marked_sides(
-    told: &Told<'_>,
-    marks: &Told<'_>,
+    named: &NamedDrawing<'_>,
+    marks: &NamedDrawing<'_>,
     (loops, map): (&Loops, Affine),
     options: &Options,
 ) -> Result<BTreeSet<SideName>, Box<Diagnostic>> {
@@ -195,7 +195,13 @@ fn marked_sides(
     let Drawing { strokes, .. } = marks.drawing;
     match open_sides(loops, strokes, map, options.tolerance) {
         Ok(sides) => Ok(sides.into_iter().collect()),
-        Err(error) => Err(faults::no_open_side(told, marks, error, loops, options.tolerance)),
+        Err(error) => Err(faults::no_open_side(
+            named,
+            marks,
+            error,
+            loops,
+            options.tolerance,
+        )),
     }
 }
 

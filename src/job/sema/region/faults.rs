@@ -218,7 +218,7 @@ pub(super) fn dense(span: Span) -> Diagnostic {
     .help("delete sides that are drawn several times")
 }
 
-/// An island that is none.
+/// An invalid island.
 pub(super) fn island_elsewhere(span: Span) -> Diagnostic {
     Diagnostic::new(
         Code::RegionTangled,

@@ -1,4 +1,4 @@
-//! Surfaces of files that were read before: for who reads the same job again and again.
+//! Surfaces of files that were read before, for repeated checks of the same job.
 //!
 //! To read a file of a million triangles and to look at all of them takes seconds, and between two runs the file hardly ever changes.
 //! A surface is kept with all that it was made from: the hash of the file's bytes, how they are read, where they lie and the stock. Only

@@ -1,6 +1,6 @@
 //! `step "wing.stp"`: the B-spline surfaces of a STEP file.
 //!
-//! The file states its own unit. One that the job states besides must be the same.
+//! The file states its own unit. If the job states one as well, it must be the same.
 
 use super::file::{Content, Loaded, Misread, Named, broken, partly_read, without_unit};
 use super::nurbs;

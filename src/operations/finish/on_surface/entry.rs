@@ -13,7 +13,7 @@ use vcutc_surface::gouge::{Entry, Moves, Placed};
 /// Nothing of a body is longer: beyond the largest stock.
 const LONGEST: Length = Length::mm(1e4);
 
-/// The disc of a blade with its body, for surfaces; none of a blade that is none.
+/// The disc of a blade with its body, for surfaces; none for other blades.
 #[must_use]
 pub fn solid(blade: &Blade) -> Option<Disc> {
     let Shape::Disc(edge) = blade.shape else {
@@ -55,7 +55,8 @@ const SHORT: f64 = 0.1;
 /// How often a move is halved at most.
 const HALVINGS: u32 = 10;
 
-/// The bound on a move; on both halves of it where it is not small enough, for a bound falls with the square of the length.
+/// The bound on a move; on both halves of it where it is not small enough, because a bound falls with the
+/// square of the length.
 fn bounded(
     moves: &Moves<'_, '_>,
     disc: &Disc,

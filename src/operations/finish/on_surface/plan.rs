@@ -163,7 +163,7 @@ struct Planner<'p, 'd, 's> {
     trials: Cell<u32>,
 }
 
-/// How often all tracks are laid anew for a plan at most, which ends a search in vain.
+/// How often all tracks are laid again for a plan at most, which ends a search without success.
 const MOST_TRIALS: u32 = 40;
 
 /// How all tracks of a plan are held, and how many there are.

@@ -75,7 +75,7 @@ impl PlannedOperation for PlannedOnSurface {
         self.plan.tracks.len()
     }
 
-    /// Where each track is highest, for there it touches the part's shadow, which pictures of sections show.
+    /// Where each track is highest: there it touches the part's shadow, which pictures of sections show.
     fn tips(&self) -> Vec<PlannedTip> {
         let rise = |y: f64| self.spine.as_ref().map_or(0.0, |spine| spine.rise(y));
         let tips = self.plan.tracks.iter().map(|track| {

@@ -124,7 +124,7 @@ mod tests {
         assert_eq!(descend(&[10.0, 5.0, 0.0]), [[0.0, 20.0]]);
         assert_eq!(descend(&[0.0, 10.0, 0.0]), [[10.0, 20.0], [10.0, 0.0]]);
         assert_eq!(descend(&[8.0, 0.0, 9.0]), [[20.0, 10.0], [0.0, 10.0]]);
-        // Ripples are no crests.
+        // Ripples are not crests.
         assert_eq!(descend(&[10.0, 6.0, 6.5, 0.0]), [[0.0, 30.0]]);
         assert_eq!(descend(&[5.0, 5.0]), [[0.0, 10.0]]);
         assert_eq!(

@@ -25,7 +25,8 @@ pub(crate) enum Tilt {
 ///
 /// # Errors
 ///
-/// What keeps the upright disc from cutting, for that is what a user can mend. Other tilts are tried only where it is the hub.
+/// What keeps the upright disc from cutting, because that is what a user can fix. Other tilts are tried only
+/// where it is the hub.
 pub(crate) fn least_tilted<P, R>(
     side: Auto<Angle>,
     plan: impl Fn(Tilt) -> Result<P, R>,

@@ -102,7 +102,7 @@ impl Refused<'_> {
         let word = format!("{} deg", show(lead.to_deg()));
         let (title, edits) = match self.asked.lead.value {
             Auto::Auto => {
-                // All leads up to the limit were tried in vain.
+                // All leads up to the limit were tried without success.
                 asked.relief.value = asked.limits.lead.value;
                 asked.limits.lead.value = lead;
                 // The limits are required, so there is a place for one more.

@@ -16,7 +16,7 @@ fn mm(value: f64) -> String {
 }
 
 impl Refused<'_> {
-    pub(super) fn told_on_surface(&self, refusal: &Refusal) -> Diagnostic {
+    pub(super) fn diagnose_on_surface(&self, refusal: &Refusal) -> Diagnostic {
         let asked = self.asked;
         let head = asked.setup.head_span;
         match refusal {

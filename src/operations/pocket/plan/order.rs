@@ -25,7 +25,7 @@ const NEIGHBOURS: f64 = 1.5;
 /// Nearer to a wall than it should be a way may come by rounding, in mm.
 const ROUNDING: f64 = 1e-6;
 
-/// Shorter pieces are no places to come down to, in mm: as rounded they may be none.
+/// The tool does not come down to shorter pieces, in mm: rounding may remove them.
 const SHORTEST: f64 = 0.1;
 
 /// The passes as runs, extra ones after all others.

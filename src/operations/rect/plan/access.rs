@@ -137,7 +137,7 @@ impl Access<'_> {
 
     /// Whether nothing stands under a stage of the body.
     fn has_room(&self, shaft: Shaft, centre: Point2, terrain: &Terrain) -> bool {
-        // Rounding of the centre is no reason to refuse a strip as wide as the body lets it be.
+        // Rounding of the centre must not refuse a strip as wide as the body lets it be.
         let room = (shaft.radius + self.wheel.clearance).to_mm() - self.ground.spacing();
         let underside = centre.z + self.wheel.underside(shaft).to_mm();
         terrain

@@ -3,7 +3,8 @@
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use vcutc_process::posture::Feed;
 
-/// Turns in the air go on by at most this much at once, in rad: half a revolution could go either way, and a blade may lean besides.
+/// Turns in the air go on by at most this much at once, in rad: half a revolution could go either way, and a
+/// blade may lean as well.
 const LARGEST_TURN: f64 = 2.0 * PI / 3.0;
 
 /// How far the middle of a slit's turning may be from where the blade cuts along y, in rad, beyond the right angle that some way to hold the

@@ -117,7 +117,7 @@ fn a_missing_root_is_the_callers_affair() {
 }
 
 #[test]
-fn a_file_that_is_no_text_is_shown_where_it_stops_being_one() {
+fn a_file_that_is_not_text_is_shown_where_it_stops_being_text() {
     let files = Files::default()
         .with("job.vcut", job("use \"shop.vcut\"", "4 mm"))
         .with("shop.vcut", b"// caf\xe9\n".to_vec());
@@ -242,7 +242,7 @@ fn the_command_line_chooses_among_all_machines_of_the_job() {
 }
 
 #[test]
-fn a_machine_of_the_command_line_that_is_none_is_told_of() {
+fn an_unknown_machine_of_the_command_line_is_reported() {
     let files = Files::default().with("job.vcut", job(&cell_named("left"), "4 mm"));
     let (diagnostics, checked) = files.check_on("lefd");
     assert!(checked.is_none());
@@ -297,7 +297,7 @@ fn a_missing_field_is_added_in_the_manner_of_its_block() {
 }
 
 #[test]
-fn a_misspelt_field_is_not_missing_besides() {
+fn a_misspelt_field_is_not_missing_as_well() {
     let text = job("", "4 mm").replacen("rake", "raek", 1);
     let (diagnostics, _) = Files::default().with("job.vcut", text.as_str()).check(&[]);
     assert_eq!(codes(&diagnostics), [Code::UnknownField]);
@@ -398,7 +398,7 @@ fn any_tree() -> impl Strategy<Value = Tree> {
     })
 }
 
-/// Words of which tests make jobs that nobody would write.
+/// Words of which tests make jobs that no person would write.
 const WORDS: &[&str] = &[
     "job",
     "use",

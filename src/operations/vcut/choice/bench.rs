@@ -69,7 +69,7 @@ pub(super) struct Bench<'j> {
     pub(super) effort: SearchEffort,
     /// What the machine makes of a program; none where plans are compared without it.
     pub(super) followed: Option<OnMachine>,
-    /// Plans that nobody wants any more are not made.
+    /// Plans that are not wanted any more are not made.
     pub(super) wanted: Wanted,
 }
 
@@ -144,8 +144,8 @@ impl<'j> Bench<'j> {
         })
     }
 
-    /// What may stay besides, where redundant Vs are skipped: up to the limit on the scallop, and little of what is to go. None where
-    /// an operation leaves more than it may as it is.
+    /// What else may stay, where redundant Vs are skipped: up to the limit on the scallop, and little of what
+    /// is to go. None where an operation leaves more than it may as it is.
     fn allowed(&self, laid: &LaidOut) -> Option<Allowed> {
         let asked = &laid.vcut.asked;
         let [found, left] =

@@ -1,10 +1,11 @@
 //! The least scallop, and the least edge in use, of what is planned within the limits on time, cuts and parameters.
 //!
 //! What leaves less takes longer. So the question is turned round, as the epsilon-constraint method does [Haimes 1971]: under a
-//! limit on the scallop, is there a plan that keeps all other limits? Plans of least time are searched for as ever
-//! ([`trial`]), so whatever makes them fast makes room for less scallop. The limit is narrowed for as long as there is one, then
-//! the way between the last that is kept and the first that is not is halved: at first any plan will do, at last the fastest is
-//! searched for. What was found is then changed for as long as it leaves less. The formulas' choice is compared with it.
+//! limit on the scallop, is there a plan that keeps all other limits? Plans of least time are searched for as
+//! usual ([`trial`]), so whatever makes them fast makes room for less scallop. The limit is narrowed for as
+//! long as there is one, then the way between the last that is kept and the first that is not is halved: at
+//! first any plan will do, at last the fastest is searched for. What was found is then changed for as long as
+//! it leaves less. The formulas' choice is compared with it.
 
 use super::assumed::{limited, under};
 use super::bench::{Bench, Figures};

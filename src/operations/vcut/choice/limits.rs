@@ -22,7 +22,7 @@ pub(super) const MOST_TIGHTENED: u32 = 4;
 /// How much tighter than in proportion: whole cuts and layers make a plan jump.
 const SPARE: f64 = 0.995;
 
-/// The operation without limits on time and cuts, for those who hold plans to them.
+/// The operation without limits on time and cuts, for callers that compare plans with them.
 pub(super) fn of_plans(asked: &RoughVcut) -> RoughVcut {
     let mut asked = asked.clone();
     asked.limits.time = None;
@@ -92,7 +92,7 @@ pub(super) fn complaint(vcut: &PlannedVcut, excess: Excess) -> Refused {
         .map(|margin| wider(asked, &[excess], margin))
         .collect();
     Refused {
-        told: found(vcut, excess),
+        diagnostic: found(vcut, excess),
         ladders: vec![ladder],
         resort: Offer::openings(asked),
         otherwise: Some("widen the limit, or leave more of the parameters `auto`".to_owned()),
@@ -169,8 +169,9 @@ fn place(asked: &RoughVcut, excess: Excess) -> Span {
     span.unwrap_or(asked.setup.head_span)
 }
 
-/// A plan that breaks limits, told by who made it without them: it keeps the nearest wider ones, so they need not be tried.
-pub(super) fn told(vcut: &PlannedVcut, time: Duration) -> Option<Diagnostic> {
+/// The diagnostic of a plan that breaks limits and was made without them. It keeps the nearest wider ones, so
+/// they need not be tried.
+pub(super) fn diagnostic(vcut: &PlannedVcut, time: Duration) -> Option<Diagnostic> {
     let broken: Vec<Excess> = excesses(&vcut.asked, time, vcut.cuts.len())
         .into_iter()
         .flatten()

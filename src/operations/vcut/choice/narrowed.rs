@@ -10,7 +10,7 @@ use vcutc_diagnostics::number::show;
 use vcutc_job::search::{Followed, Lack, Narrowed};
 use vcutc_job::{Auto, Bounds, Machine, Sourced};
 
-/// What the swing of an operation is held within besides the job's limits.
+/// What the swing of an operation is held within in addition to the job's limits.
 pub(super) fn narrowed(asked: &RoughVcut, swing: Option<Narrowed>) -> Option<Narrowed> {
     let limits = asked.limits.swing;
     swing.filter(|swing| {

@@ -1,5 +1,6 @@
-//! What is told of an operation that has no plan. Of the changes that may mend it those are offered whose plan has nothing
-//! wrong: they are planned, written down and replayed before anybody is told, and tried on the machine of the job.
+//! What is reported of an operation that has no plan. Of the changes that may fix it, only those are offered
+//! whose plan is sound: they are planned, written down, replayed and tried on the machine of the job before
+//! they are reported.
 
 use super::assumed::{as_time, is_searched, limited};
 use super::bench::{Bench, Figures};
@@ -16,7 +17,8 @@ use vcutc_job::operation::WorksThere;
 /// Longest times that are offered where nothing else holds the layer, as shares of the least time.
 const LONGER: [f64; 3] = [1.5, 2.5, 4.0];
 
-/// Puts into words why there is no plan, with what works of all that may: here, and for those who come after planning.
+/// Puts into words why there is no plan, with what works of all that may: here, and for the stages after
+/// planning.
 pub(super) fn diagnostics(
     (bench, asked): (&Bench<'_>, &RoughVcut),
     unplanned: Unplanned,
@@ -68,7 +70,7 @@ fn with_what_works(
     mut attempt: impl FnMut(&Offer, &mut Effort) -> Attempt,
 ) -> Diagnostic {
     let Refused {
-        told: mut diagnostic,
+        mut diagnostic,
         ladders,
         resort,
         otherwise,

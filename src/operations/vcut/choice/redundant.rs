@@ -30,7 +30,8 @@ impl Skipping {
 }
 
 /// Whether nothing is in the way of what stands higher for a while: neither an operation after this one that cuts with a straight blade,
-/// nor a machine whose control turns the blade axis by axis, for then it sweeps farther beside its tip than the plan knows.
+/// nor a machine whose control turns the blade axis by axis, because then it sweeps farther beside its tip
+/// than the plan knows.
 fn is_free_to_leave_more(job: &CheckedJob, asked: &RoughVcut) -> bool {
     let kind = job.machine.as_ref().map(|machine| machine.model.kind());
     if kind == Some(MachineKind::FiveAxis) {

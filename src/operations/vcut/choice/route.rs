@@ -162,7 +162,7 @@ fn remembering(mut vcut: PlannedVcut, decision: Decision) -> PlannedVcut {
 #[derive(Clone, Copy)]
 enum Open {
     Nothing,
-    /// The field that the decision is told for.
+    /// The field that the decision is reported for.
     Something(&'static str),
 }
 

@@ -53,8 +53,9 @@ fn surface_after(plan: &PlannedJob) -> Vec<Point2> {
     replay(plan, &program).surface.corners().collect()
 }
 
-/// Holds every cut of a route against what the planner relied on: the surface that all layers above its own leave. Where the
-/// cut is made, as far as its flanks go, the surface must not stand higher, and the flanks must not need more.
+/// Compares every cut of a route with what the planner relied on: the surface that all layers above its own
+/// leave. Where the cut is made, as far as its flanks go, the surface must not stand higher, and the flanks
+/// must not need more.
 fn relies_on_nothing_to_come(plan: &PlannedJob) -> Result<(), TestCaseError> {
     let vcut = vcut(plan);
     let vee = |index: usize| Vee::even(vcut.cuts[index].tip, vcut.parameters.flanks.slope);
@@ -477,7 +478,7 @@ proptest! {
 }
 
 #[test]
-fn a_limit_that_only_the_bound_breaks_is_no_conflict() {
+fn a_limit_that_only_the_bound_breaks_is_not_a_conflict() {
     // No layer of at least 6 mm keeps 4 mm by the lattice's bound at 35 deg.
     let mut job = open_job(35.0, 5.0);
     operation(&mut job).limits.layer.least = Some(Sourced {
@@ -508,11 +509,15 @@ fn plans_are_held_to_the_limits_on_time_and_cuts() {
     let (same, _) = planned_and_proven(&job).unwrap();
     assert_eq!(vcut(&same).cuts, vcut(&plan).cuts);
     limited(&mut job, time.to_s() / 2.0, cuts as f64);
-    let (none, told) = plan_job(&job);
+    let (none, diagnostics) = plan_job(&job);
     assert!(none.is_none());
-    let codes: Vec<Code> = told.iter().map(|one| one.code).collect();
+    let codes: Vec<Code> = diagnostics.iter().map(|one| one.code).collect();
     assert_eq!(codes, [Code::LimitsConflict]);
-    assert!(told[0].message.contains("takes"), "{}", told[0].message);
+    assert!(
+        diagnostics[0].message.contains("takes"),
+        "{}",
+        diagnostics[0].message
+    );
 }
 
 #[test]

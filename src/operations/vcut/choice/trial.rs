@@ -1,10 +1,11 @@
 //! Parameters by what is left in truth.
 //!
-//! The formulas hold a lattice's scallop bound [Cui 12] against the limit. That is always sound, and often far from what a
-//! planned program leaves, for its residual strategy puts tips onto the part. So the search for parameters is repeated with
-//! laxer limits on scallop ([`climb`]), over all swings, layers and steps ([`spread`]) in the order of what is forecast of them
-//! ([`forecast`]), and beside the best ones ([`around`]); each outcome is planned, written down and replayed. Only what leaves no
-//! more than the job's own limit, with every chip free, is sound.
+//! The formulas compare a lattice's scallop bound [Cui 12] with the limit. That is always sound, and often
+//! far from what a planned program leaves, because its residual strategy puts tips onto the part. So the
+//! search for parameters is repeated with laxer limits on scallop ([`climb`]), over all swings, layers and
+//! steps ([`spread`]) in the order of what is forecast of them ([`forecast`]), and beside the best ones
+//! ([`around`]); each outcome is planned, written down and replayed. Only what leaves no more than the job's
+//! own limit, with every chip free, is sound.
 //!
 //! Soundness does not grow or shrink steadily with a parameter, so this is a search, not a proof of least time: the best of a
 //! bounded number of plans.
@@ -44,7 +45,7 @@ const PLANS: [(usize, usize); 3] = [(500, 48), (2_000, 24), (MOST_CUTS_COMPARED,
 const BEYOND: f64 = 1.5;
 
 /// One beside the best that by the model takes this many times as long as that is not planned.
-const BEHIND: f64 = 1.3;
+const SLOWER: f64 = 1.3;
 
 /// Lattices are given up after so many plans of the spread, if the best of them takes this many times as long as the best plan on another lattice.
 const GIVEN_UP: (usize, f64) = (8, 1.5);
@@ -340,7 +341,7 @@ impl<'t> Trials<'t> {
             Goal::Best => false,
             Goal::Any => !self.sound.is_empty(),
         };
-        is_found || self.is_far_behind() || self.effort.is_spent() || self.bench.wanted.is_needless()
+        is_found || self.is_much_slower() || self.effort.is_spent() || self.bench.wanted.is_needless()
     }
 
     /// Whether tips are fitted to the part: then no formula holds the scallop, and what forecasts say of cuts is counted.
@@ -354,7 +355,7 @@ impl<'t> Trials<'t> {
     }
 
     /// Whether the best plan so far takes far longer than the best one on other lattices.
-    fn is_far_behind(&self) -> bool {
+    fn is_much_slower(&self) -> bool {
         let (plans, as_long) = GIVEN_UP;
         let (Some(rival), Some(best), Some(from)) = (self.rival, self.sound.first(), self.spread_from) else {
             return false;
@@ -559,7 +560,7 @@ impl<'t> Trials<'t> {
         standing
     }
 
-    /// Puts a sound plan in its place; behind its equals.
+    /// Puts a sound plan in its place; after its equals.
     fn keep(&mut self, sound: Sound) {
         let merit = |sound: &Sound| sound.figures.merit(self.asked.objective.value);
         let rank = self.sound.partition_point(|other| merit(other) <= merit(&sound));
@@ -596,18 +597,19 @@ impl<'t> Trials<'t> {
     }
 
     fn weigh_if_promising(&mut self, found: VcutParameters) {
-        if !self.is_behind(self.model(&found)) {
+        if !self.is_slower(self.model(&found)) {
             self.weigh(found);
         }
     }
 
-    /// Whether a time by the model is far behind that of the best one, or beyond the limit where any plan will do.
-    fn is_behind(&self, model: Duration) -> bool {
+    /// Whether a time by the model is much longer than that of the best one, or beyond the limit where any
+    /// plan will do.
+    fn is_slower(&self, model: Duration) -> bool {
         let limit = self.asked.limits.time;
         match (self.goal, self.asked.objective.value) {
             (Goal::Any, _) => limit.is_some_and(|limit| model > limit.value * BEYOND),
             (Goal::Best, Objective::Time) => {
-                self.sound.first().is_some_and(|best| model > best.model * BEHIND)
+                self.sound.first().is_some_and(|best| model > best.model * SLOWER)
             }
             (Goal::Best, Objective::Cuts | Objective::Scallop | Objective::BladeLoad) => false,
         }

@@ -92,7 +92,7 @@ const STEPS: u32 = 16;
 /// Less than this below the part is rounding, in mm. The proof allows a thousand times as much.
 const ROUNDING: f64 = 1e-9;
 
-/// Tells how narrow flanks must be.
+/// Determines how narrow flanks must be.
 pub(super) struct Avoidance<'p> {
     parameters: &'p VcutParameters,
     /// The part with its allowance, up to the stock's top.
@@ -107,7 +107,7 @@ pub(super) struct Avoidance<'p> {
 
 impl<'p> Avoidance<'p> {
     /// Of an operation that narrows flanks; none of one that does not. Nor where the lattice as a whole needs more than the blade
-    /// has: that is the user's to mend.
+    /// has: the user has to fix that.
     pub(super) fn of(
         asked: &RoughVcut,
         parameters: &'p VcutParameters,

@@ -7,9 +7,9 @@
 //!
 //! After a layer the surface is a saw-tooth whose flanks have slope `c = cot(alpha)`. A new flank runs parallel to one
 //! side of the teeth and meets the other: going up from a tip `h` below the old ones, it passes under every old tip whose
-//! flank height at that place is below `h`, and comes out on the descending side of the tooth behind the first tip that
-//! it passes above. If that tip lies `u` away, the flanks meet at height `(h + c u) / 2`. So everything depends on the
-//! offsets `u` of the older tips, which is what distinguishes the lattices.
+//! flank height at that place is below `h`, and comes out on the descending side of the tooth beyond the
+//! first tip that it passes above. If that tip lies `u` away, the flanks meet at height `(h + c u) / 2`. So
+//! everything depends on the offsets `u` of the older tips, which is what distinguishes the lattices.
 
 use crate::asked::Lattice;
 use vcutc_backend_api::units::{Angle, Length};

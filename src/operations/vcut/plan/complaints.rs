@@ -57,7 +57,7 @@ pub(super) fn nothing_to_cut(
         )
     };
     Refused {
-        told: diagnostic.note(note),
+        diagnostic: diagnostic.note(note),
         ladders: vec![raised_tips(asked), thinner_layers(asked, depth)],
         resort: Offer::openings(asked),
         otherwise: Some(format!(
@@ -142,7 +142,7 @@ pub(super) fn too_many_cuts(asked: &RoughVcut, parameters: &VcutParameters, coun
         diagnostic = diagnostic.and(span, label);
     }
     Refused {
-        told: diagnostic,
+        diagnostic,
         ladders,
         resort: Offer::openings(asked),
         otherwise: Some(otherwise.to_owned()),

@@ -52,7 +52,7 @@ pub enum Standing {
     OnMachine,
     /// The machine does not follow it.
     NotFollowed,
-    /// It was left out, for the machine did not follow the best plan of its kind.
+    /// It was left out, because the machine did not follow the best plan of its kind.
     LeftOut,
 }
 

@@ -224,7 +224,7 @@ impl<'f> Fitting<'f> {
     }
 
     /// The farthest tip after one, or after the left side, so that no more stays between them than may. The highest point between them is
-    /// tested first, for that takes less time; it nearly always decides.
+    /// tested first, because that takes less time; it nearly always decides.
     fn farthest_next(&mut self, last: Option<Point2>, step: f64) -> Option<Point2> {
         self.farthest_by(last, step, Self::is_peak_low)
             .filter(|&next| self.is_low(last, Some(next)))

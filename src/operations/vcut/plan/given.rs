@@ -131,7 +131,7 @@ impl Planner<'_> {
     }
 }
 
-/// Tips whose V would enter the part, told at the one that goes deepest.
+/// Tips whose V would enter the part, reported at the one that goes deepest.
 pub(super) fn in_the_part(job: &CheckedJob, tips: &Tips, layout: &Layout<'_>) -> Option<Diagnostic> {
     let depth = |tip: &Tip| {
         let tip = to_grid(tip);

@@ -7,7 +7,7 @@
 //!   layer is better.
 //! * `solver` answers over all lattices, by the searches below.
 //! * `ground` says what a shape comes to by which functions.
-//! * `line` proves the least in a few microseconds where one coordinate tells it; else
+//! * `line` proves the least in a few microseconds where one coordinate decides it; else
 //! * `descent` goes down to where it is best around a shape, by slopes and curvatures, `certain` proves that, and
 //!   `search` that there is nothing better elsewhere, by branch and bound in the coordinates of `chart`. `polish` helps out
 //!   where a descent comes to no rest.

@@ -265,7 +265,7 @@ pub enum Refusal {
     Contradiction(Vec<Refused>),
     /// No parameters keep the limits of this problem.
     Conflict(Box<Problem>),
-    /// Nothing keeps the objective from falling for ever.
+    /// Nothing bounds the objective from below.
     Unbounded,
     /// Some do, but none on the grid.
     OffGrid,
@@ -319,29 +319,31 @@ pub fn resolve_on(
     asked: &RoughVcut,
     lattices: Vec<Lattice>,
 ) -> Result<VcutParameters, Refusal> {
-    let contradiction =
-        |told: Vec<Diagnostic>| Refusal::Contradiction(told.into_iter().map(Refused::from).collect());
+    let contradiction = |diagnostics: Vec<Diagnostic>| {
+        Refusal::Contradiction(diagnostics.into_iter().map(Refused::from).collect())
+    };
     let resolution = consider(asked, lattices).map_err(contradiction)?;
     let chosen = decide(job, asked, &resolution)?;
     let edge = edge_overhang(asked, chosen.swing);
-    let mut told = Vec::new();
-    complete(asked, resolution.standoff, edge, chosen, &mut told).ok_or_else(|| contradiction(told))
+    let mut diagnostics = Vec::new();
+    complete(asked, resolution.standoff, edge, chosen, &mut diagnostics)
+        .ok_or_else(|| contradiction(diagnostics))
 }
 
 /// What is known before.
 ///
 /// # Errors
-/// What there is to tell where the operation contradicts itself.
+/// What to report where the operation contradicts itself.
 fn consider(asked: &RoughVcut, lattices: Vec<Lattice>) -> Result<Resolution, Vec<Diagnostic>> {
-    let mut told = Vec::new();
-    complaints::check_rake(asked, &mut told);
-    complaints::check_standing(asked, &mut told);
-    complaints::check_given(asked, &mut told);
-    let standoff = resolve_standoff(asked, &mut told);
-    if told.is_empty() {
+    let mut diagnostics = Vec::new();
+    complaints::check_rake(asked, &mut diagnostics);
+    complaints::check_standing(asked, &mut diagnostics);
+    complaints::check_given(asked, &mut diagnostics);
+    let standoff = resolve_standoff(asked, &mut diagnostics);
+    if diagnostics.is_empty() {
         Ok(Resolution { lattices, standoff })
     } else {
-        Err(told)
+        Err(diagnostics)
     }
 }
 
@@ -384,8 +386,8 @@ fn least_drop(asked: &RoughVcut, standoff: Length) -> Length {
     standoff / asked.swing.value.or(widest).sin()
 }
 
-/// Swing and layer as they are given where what they conflict with is told better by the proof: which chip is not
-/// cut free, how much the contour really leaves, and how long it takes.
+/// Swing and layer as they are given, where the proof reports better what they conflict with: which chip is
+/// not cut free, how much the contour really leaves, and how long it takes.
 fn as_given(asked: &RoughVcut, resolution: &Resolution, why: &Refusal) -> Option<Chosen> {
     let (Auto::Given(swing), Auto::Given(layer)) = (asked.swing.value, asked.layer.value) else {
         return None;
@@ -471,7 +473,7 @@ fn complete(
     };
     let extension = resolve_extension(asked, edge, lean.overhang(teeth), diagnostics)?;
     let beyond = Beyond::of(asked, extension);
-    // Who gives a shorter extension than the teeth ask for, as [Cui 5] does, accepts that the blade brushes them.
+    // A job with a shorter extension than the teeth need, as in [Cui 5], accepts that the blade brushes them.
     let clear_height = (lean.clear_height(extension) - beyond.falls).max(teeth);
     Some(VcutParameters {
         lattice,

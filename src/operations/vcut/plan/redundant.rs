@@ -22,7 +22,7 @@ use vcutc_simulation::contour::farthest;
 use vcutc_simulation::report::area_under;
 use vcutc_simulation::surface::{Surface, Vee};
 
-/// What may stay besides.
+/// What else may stay.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Allowed {
     /// Nowhere on the part more than this.

@@ -1,7 +1,7 @@
-//! What keeps an operation from being planned, and changes of the job that may mend it.
+//! What keeps an operation from being planned, and changes of the job that may fix it.
 //!
-//! Nothing is promised of these changes: each is the best guess of a formula. `choice` plans them before any of them is
-//! told, and of every ladder the first one that works is offered.
+//! Nothing is promised of these changes: each is the best guess of a formula. `choice` plans them before any
+//! of them is reported, and of every ladder the first one that works is offered.
 
 use crate::asked::RoughVcut;
 use vcutc_diagnostics::Diagnostic;
@@ -11,9 +11,9 @@ use vcutc_job::{Auto, Sourced};
 /// Why an operation is not planned.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refused {
-    /// What there is to tell.
-    pub told: Diagnostic,
-    /// Changes that may mend it, a ladder for each thing that can be changed.
+    /// What is reported.
+    pub diagnostic: Diagnostic,
+    /// Changes that may fix it, a ladder for each thing that can be changed.
     pub ladders: Vec<Ladder>,
     /// Changes that are tried where none of them works.
     pub resort: Ladder,
@@ -36,9 +36,9 @@ pub struct Offer {
 }
 
 impl From<Diagnostic> for Refused {
-    fn from(told: Diagnostic) -> Self {
+    fn from(diagnostic: Diagnostic) -> Self {
         Self {
-            told,
+            diagnostic,
             ladders: Vec::new(),
             resort: Vec::new(),
             otherwise: None,

@@ -1,7 +1,7 @@
 //! What an operation is to take away: all that lies above the part, its allowance and its standoff.
 //!
-//! The job itself keeps the blade off the part by these two, both along the part's normal. So what lies below them is no
-//! fault of a plan, and what lies above them and stays is what the plan did not take.
+//! The job itself keeps the blade off the part by these two, both along the part's normal. So what lies below
+//! them is not a fault of a plan, and what lies above them and stays is what the plan did not take.
 
 use crate::asked::RoughVcut;
 use vcutc_backend_api::units::{Area, Length};

@@ -70,8 +70,8 @@ pub struct LayerPlanner<'p> {
     smallest_gain: f64,
     /// Smallest gain in depth for which a tip is raised or moved onto the part.
     least_gain: f64,
-    /// Whether flanks that do not come out are to be mended by raising their tips. Not where the lattice as a whole needs
-    /// more than the blade has: that is the user's to mend.
+    /// Whether flanks that do not come out are to be fixed by raising their tips. Not where the lattice as a
+    /// whole needs more than the blade has: the user has to fix that.
     relieves: bool,
     /// Columns that are done with, by parity.
     closed: [Vec<bool>; 2],

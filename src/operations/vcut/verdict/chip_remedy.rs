@@ -11,7 +11,7 @@ use vcutc_geometry::grid;
 use vcutc_job::Auto;
 use vcutc_job::operation::WorksThere;
 
-/// A change that mends a job.
+/// A change that fixes a job.
 pub(super) enum Remedy {
     /// Another step for the layer asked for.
     Step(Length),

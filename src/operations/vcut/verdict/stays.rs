@@ -54,7 +54,7 @@ pub(crate) fn much_stays(
         return None;
     }
     let span = asked.limits.scallop.and_then(|limit| limit.span);
-    let told = Diagnostic::new(
+    let diagnostic = Diagnostic::new(
         Code::MuchStays,
         format!(
             "{} % of the material to cut away stays: {:.0} of {:.0} mm2",
@@ -67,7 +67,7 @@ pub(crate) fn much_stays(
     )
     .note("the material to cut away is all that lies above the part, its allowance and the standoff");
     Some(if balance.report.cuts() > MOST_CUTS {
-        told
+        diagnostic
     } else {
         let share_with = |change: &Change<'_>| {
             let (plan, report) = compile(&|operation| changed(operation, &change))?;
@@ -78,7 +78,7 @@ pub(crate) fn much_stays(
             .limits
             .scallop
             .map_or(balance.report.scallop.height, |limit| limit.value);
-        with_what_leaves_less(told, asked, now, &share_with)
+        with_what_leaves_less(diagnostic, asked, now, &share_with)
     })
 }
 
@@ -95,42 +95,42 @@ fn cause(asked: &RoughVcut) -> String {
     }
 }
 
-/// In percent, as far as it tells two plans apart.
+/// In percent, as far as it distinguishes two plans.
 fn percent(share: f64) -> String {
     format!("{:.0}", share * 100.0)
 }
 
 /// With a tighter limit that leaves less, or with all that is given left open.
 fn with_what_leaves_less(
-    told: Diagnostic,
+    diagnostic: Diagnostic,
     asked: &RoughVcut,
     now: Length,
     share_with: &ShareWith<'_>,
 ) -> Diagnostic {
     if asked.tips.is_some() {
-        return told;
+        return diagnostic;
     }
     if let Some((limit, then)) = tighter_limit(asked, now, share_with) {
         let value = format!("{} mm", show(limit.to_mm()));
         let with = format!("with `scallop <= {value}`, {} % stays", percent(then));
         let given = asked.limits.scallop.and_then(|limit| limit.span);
         return match (given, place_of_new_limit(asked)) {
-            (Some(span), _) => told.fix(with, span, value),
-            (None, Some((at, before, after))) => told.fix(
+            (Some(span), _) => diagnostic.fix(with, span, value),
+            (None, Some((at, before, after))) => diagnostic.fix(
                 format!("{} % stays with a limit", percent(then)),
                 at,
                 format!("{before}{value}{after}"),
             ),
-            (None, None) => told.help(with),
+            (None, None) => diagnostic.help(with),
         };
     }
     let opened = Offer::openings(asked).pop();
     match opened.and_then(|offer| Some((share_with(&|asked| asked.clone_from(&offer.changed))?, offer))) {
-        Some((then, offer)) => told.fix_all(
+        Some((then, offer)) => diagnostic.fix_all(
             format!("{}; {} % stays then", offer.title, percent(then)),
             &offer.edits,
         ),
-        None => told,
+        None => diagnostic,
     }
 }
 

@@ -44,7 +44,7 @@ impl View {
 
 /// A drawing and the piece of the job that names it.
 #[derive(Clone, Copy)]
-pub(crate) struct Told<'a> {
+pub(crate) struct NamedDrawing<'a> {
     pub(crate) path: &'a Spanned<String>,
     pub(crate) file: FileId,
     pub(crate) fields: &'a Fields<'a>,
@@ -54,7 +54,7 @@ pub(crate) struct Told<'a> {
     pub(crate) sources: &'a SourceMap,
 }
 
-impl Told<'_> {
+impl NamedDrawing<'_> {
     /// The wanted layer must be one of the drawing's.
     pub(crate) fn must_have_layer(&self) -> Result<(), Box<Diagnostic>> {
         let Some(wanted) = self.layer else {
@@ -199,7 +199,7 @@ impl Told<'_> {
             .offer(diagnostic, "use its upper side,", "side = upper")
     }
 
-    /// The strokes are no single chain.
+    /// The strokes are not a single chain.
     pub(crate) fn no_outline(&self, error: OutlineError, tolerance: Length) -> Box<Diagnostic> {
         let broken = |message: String, label: String| {
             Diagnostic::new(Code::BrokenOutline, message, self.place(), label)
@@ -227,8 +227,8 @@ impl Told<'_> {
                     format!("the outline in {} branches at {}", self.subject(), self.shown(at)),
                     format!("{} lines meet there", strokes.len().max(2)),
                 );
-                let diagnostic = strokes.iter().take(3).fold(diagnostic, |told, &stroke| {
-                    told.and(self.stroke(stroke), "one of them")
+                let diagnostic = strokes.iter().take(3).fold(diagnostic, |diagnostic, &stroke| {
+                    diagnostic.and(self.stroke(stroke), "one of them")
                 });
                 self.with_layers(diagnostic.help("delete the lines that are not part of the outline"))
             }
@@ -435,7 +435,7 @@ impl Told<'_> {
 
 /// A tolerance that joins over a gap, if one of the drawing's own kind would: rounded up to a micrometre.
 pub(crate) fn joining(gap: Gap) -> Option<Length> {
-    /// Wider gaps are no slips of whoever drew.
+    /// Wider gaps are not slips of the drawing.
     const WIDEST: f64 = 1.0;
     let size = gap.size().to_mm();
     (size <= WIDEST).then(|| Length::mm(libm::ceil(size * 1000.0) / 1000.0))

@@ -1,6 +1,6 @@
 //! What of a drawing is not taken as it stands: one warning, with a line for each kind.
 
-use super::faults::Told;
+use super::faults::NamedDrawing;
 use vcutc_diagnostics::position::position;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::import::drawing::{Place, Unread, Why};
@@ -8,8 +8,9 @@ use vcutc_geometry::import::drawing::{Place, Unread, Why};
 /// Most lines of one kind of remark.
 const MOST_LINES: usize = 8;
 
-impl Told<'_> {
-    /// The warning, if there is anything to tell. `repeated` are the strokes that are drawn twice, as far as that is known.
+impl NamedDrawing<'_> {
+    /// The warning, if there is anything to report. `repeated` are the strokes that are drawn twice, as far
+    /// as that is known.
     pub(crate) fn remarks(&self, repeated: &[usize]) -> Vec<Diagnostic> {
         let drawing = self.drawing;
         let mut notes = Vec::new();

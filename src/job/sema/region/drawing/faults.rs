@@ -1,7 +1,7 @@
 //! What is wrong with a drawing of a region, in words.
 
 use crate::sema::fields::Fields;
-use crate::sema::profile::drawing::{Told, joining};
+use crate::sema::profile::drawing::{NamedDrawing, joining};
 use crate::sema::quantity::mm;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::Spanned;
@@ -28,7 +28,7 @@ pub(super) fn open_without_layer(open: &Spanned<String>, fields: &Fields<'_>) ->
 
 /// Some lines do not close. `closes` says whether all do over wider gaps.
 pub(super) fn open_chains(
-    told: &Told<'_>,
+    named: &NamedDrawing<'_>,
     loops: usize,
     chains: &[Chain],
     nearest: Option<Gap>,
@@ -39,40 +39,40 @@ pub(super) fn open_chains(
         1 => "one loop".to_owned(),
         several => format!("{several} loops"),
     };
-    let subject = told.subject();
+    let subject = named.subject();
     let message = match (chains, nearest) {
         ([_], Some(gap)) => format!(
             "{subject} has {closed} and one open chain: it ends at {}, {} from its beginning",
-            told.shown(gap.from),
+            named.shown(gap.from),
             mm(gap.size().to_mm())
         ),
         (several, Some(gap)) => format!(
             "{subject} has {closed} and {} open chains: the nearest two ends are {} apart, at {}",
             several.len(),
             mm(gap.size().to_mm()),
-            told.shown(gap.from)
+            named.shown(gap.from)
         ),
         (several, None) => format!("{subject} has {closed} and {} open chains", several.len()),
     };
     let mut diagnostic = Diagnostic::new(
         Code::RegionTangled,
         message,
-        told.place(),
+        named.place(),
         "a region takes closed loops only",
     );
     if let Some(gap) = nearest {
         let [one, other] = gap.strokes;
         diagnostic = if one == other {
-            diagnostic.and(told.stroke(one), "does not close")
+            diagnostic.and(named.stroke(one), "does not close")
         } else {
             diagnostic
-                .and(told.stroke(one), "one side of the gap")
-                .and(told.stroke(other), "the other side of the gap")
+                .and(named.stroke(one), "one side of the gap")
+                .and(named.stroke(other), "the other side of the gap")
         };
     }
     if chains.len() > 1 {
         for chain in chains.iter().take(MOST_LISTED) {
-            diagnostic = diagnostic.note(told.chain(chain));
+            diagnostic = diagnostic.note(named.chain(chain));
         }
         let more = chains.len().saturating_sub(MOST_LISTED);
         if more > 0 {
@@ -87,13 +87,13 @@ pub(super) fn open_chains(
         )),
         None => diagnostic.help("close the loops in the drawing, or move other lines to another layer"),
     };
-    told.with_layers(diagnostic)
+    named.with_layers(diagnostic)
 }
 
 /// The layer of open sides marks none, or something else.
 pub(super) fn no_open_side(
-    told: &Told<'_>,
-    marks: &Told<'_>,
+    named: &NamedDrawing<'_>,
+    marks: &NamedDrawing<'_>,
     error: OpenError,
     loops: &Loops,
     tolerance: Length,
@@ -131,7 +131,10 @@ pub(super) fn no_open_side(
                         "marks whole sides",
                     )
                     .and(marks.stroke(stroke), "this line")
-                    .and(told.stroke(owner), format!("this side leads from {from} to {to}"))
+                    .and(
+                        named.stroke(owner),
+                        format!("this side leads from {from} to {to}"),
+                    )
                     .help("draw the line from end to end, or end the side where it stops being open")
                 }
                 None => fault(format!("{what} lies on no side"), "marks sides of the loops")

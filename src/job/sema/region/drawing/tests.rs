@@ -1,4 +1,4 @@
-//! Regions from drawings: what layers come to, and what is said where they are none.
+//! Regions from drawings: what layers come to, and what is said where they do not form a region.
 
 use crate::sema::kind::Operations;
 use crate::sema::scope::Scope;
@@ -71,7 +71,7 @@ fn region_of(entries: &str, drawing: &str) -> (Region, f64) {
 }
 
 /// What is said of a drawing: the one error, with what each of its places points at.
-fn told(entries: &str, drawing: &str) -> (Code, String) {
+fn reported(entries: &str, drawing: &str) -> (Code, String) {
     let outcome = checked(entries, drawing);
     assert!(outcome.region.is_none(), "a region all the same");
     let is_error = |diagnostic: &&Diagnostic| diagnostic.severity() == Severity::Error;
@@ -190,7 +190,7 @@ fn chains_that_are_open_say_where_and_by_how_much() {
         polyline("SEAT", &[(41.2, 25.64), (60.0, 26.0), (60.0, 10.0)], 0),
         polyline("SEAT", &[(60.0, 10.0), (41.2, 10.0), (41.2, 26.0)], 0)
     );
-    let (code, text) = told(SEAT, &dxf(&gap));
+    let (code, text) = reported(SEAT, &dxf(&gap));
     assert_eq!(code, Code::RegionTangled);
     assert_eq!(
         text,
@@ -202,7 +202,7 @@ fn chains_that_are_open_say_where_and_by_how_much() {
     );
     let wider = "dxf \"tray.dxf\" { layer = \"SEAT\", tolerance = 0.36 mm }";
     assert_eq!(region_of(wider, &dxf(&gap)).0.loops().len(), 3);
-    let (_, text) = told(
+    let (_, text) = reported(
         "dxf \"tray.dxf\"",
         &dxf(&format!(
             "{} {}",
@@ -231,7 +231,7 @@ fn lines_that_branch_are_named() {
         line("SEAT", (0.0, 0.0), (9.0, 0.0)),
         polyline("SEAT", &[(9.0, 5.0), (9.0, 0.0)], 0)
     );
-    let (code, text) = told(
+    let (code, text) = reported(
         SEAT,
         &dxf(&format!("{branch} {}", line("SEAT", (9.0, 0.0), (20.0, 0.0)))),
     );
@@ -251,7 +251,7 @@ fn lines_that_branch_are_named() {
 #[test]
 fn loops_that_cross_are_shown_in_the_drawing() {
     let crossing = format!("{} 0 CIRCLE 8 SEAT 10 80 20 20 40 5", tray());
-    let (code, text) = told(SEAT, &dxf(&crossing));
+    let (code, text) = reported(SEAT, &dxf(&crossing));
     assert_eq!(code, Code::RegionTangled);
     let lines: Vec<&str> = text.lines().collect();
     assert!(
@@ -268,7 +268,7 @@ fn loops_that_cross_are_shown_in_the_drawing() {
 fn lines_that_open_no_side_are_named() {
     let of = |mark: &str| {
         let entries = "dxf \"tray.dxf\" { layer = \"SEAT\", open = \"OPEN\" }";
-        told(entries, &dxf(&format!("{} {mark}", tray()))).1
+        reported(entries, &dxf(&format!("{} {mark}", tray()))).1
     };
     assert_eq!(
         of(&line("OPEN", (80.5, 0.0), (80.5, 40.0))),
@@ -290,7 +290,7 @@ fn lines_that_open_no_side_are_named() {
             .starts_with("a curve in layer `OPEN` of `tray.dxf` marks an open side")
     );
     assert!(of("").starts_with("there is no layer `OPEN` in `tray.dxf`"));
-    let alone = told("dxf \"tray.dxf\" { open = \"OPEN\" }", &dxf(&tray()));
+    let alone = reported("dxf \"tray.dxf\" { open = \"OPEN\" }", &dxf(&tray()));
     assert_eq!(
         alone.1,
         "`open` needs `layer`\n\
@@ -301,7 +301,7 @@ fn lines_that_open_no_side_are_named() {
 
 #[test]
 fn a_drawing_is_all_of_its_region() {
-    let beside = told(
+    let beside = reported(
         &format!("{SEAT} circle (10 mm, 10 mm) radius 2 mm"),
         &dxf(&tray()),
     );
@@ -312,7 +312,7 @@ fn a_drawing_is_all_of_its_region() {
          job.vcut `dxf \"tray.dxf\" { layer = \"SEAT\" }`: the drawing\n\
          help: draw this on the layer of the drawing, or as a region of its own"
     );
-    let within = told(
+    let within = reported(
         &format!("circle (10 mm, 10 mm) radius 9 mm island {{ {SEAT} }}"),
         &dxf(&tray()),
     );
@@ -326,10 +326,10 @@ fn a_drawing_is_all_of_its_region() {
 #[test]
 fn what_holds_of_drawings_of_profiles_holds_here() {
     let unsaid = dxf(&tray()).replace("$INSUNITS\n70\n4\n", "$INSUNITS\n70\n0\n");
-    let (code, text) = told(SEAT, &unsaid);
+    let (code, text) = reported(SEAT, &unsaid);
     assert_eq!(code, Code::UnknownScale);
     assert!(text.contains("fix: state it, for example `unit = mm`"), "{text}");
-    let layer = told("dxf \"tray.dxf\" { layer = \"SEET\" }", &dxf(&tray()));
+    let layer = reported("dxf \"tray.dxf\" { layer = \"SEET\" }", &dxf(&tray()));
     assert_eq!(layer.0, Code::UnknownLayer);
     assert!(layer.1.contains("fix: did you mean `SEAT`?"), "{}", layer.1);
     let noted = checked(
@@ -338,7 +338,7 @@ fn what_holds_of_drawings_of_profiles_holds_here() {
     );
     assert_eq!(codes(&noted), [Code::PartlyRead]);
     let partly = format!("{} {}", tray(), line("SEAT", (10.0, 0.0), (60.0, 0.0)));
-    assert_eq!(told(SEAT, &dxf(&partly)).0, Code::DrawnOver);
+    assert_eq!(reported(SEAT, &dxf(&partly)).0, Code::DrawnOver);
     let field = checked(
         "dxf \"tray.dxf\" { layer = \"SEAT\", side = upper }",
         &dxf(&tray()),

@@ -122,7 +122,7 @@ proptest! {
 }
 
 #[test]
-fn what_turns_back_is_no_way() {
+fn what_turns_back_is_not_a_way() {
     let lean = Lean {
         lead: Angle::deg(5.0),
         side: Angle::ZERO,

@@ -17,14 +17,14 @@ const PARTS: [fn(f64) -> f64; 4] = [hill, wall, gentle, hollow];
 fn a_chosen_limit_written_down_gives_the_same_cuts() {
     for part in PARTS {
         let job = open(part, Some(45.0));
-        let (Some(plan), told) = plan_job(&job) else {
+        let (Some(plan), diagnostics) = plan_job(&job) else {
             panic!("there is a plan")
         };
-        assert!(told.is_empty());
+        assert!(diagnostics.is_empty());
         let chosen = vcut(&plan).asked.limits;
         let limit = chosen.scallop.unwrap().value.to_mm();
         assert!(chosen.chosen.is_some());
-        // As a person writes it, with a digit behind the point.
+        // As a person writes it, with a digit after the point.
         let written: f64 = format!("{limit:.1}").parse().unwrap();
         let mut given = job.clone();
         operation(&mut given).limits.scallop = Some(Sourced {
@@ -75,8 +75,8 @@ fn a_chosen_limit_yields_to_those_of_the_job() {
         value: Duration::s(seconds),
         span: None,
     });
-    let (plan, told) = plan_job(&job);
-    assert!(told.is_empty(), "{told:?}");
+    let (plan, diagnostics) = plan_job(&job);
+    assert!(diagnostics.is_empty(), "{diagnostics:?}");
     let limits = vcut(plan.as_ref().unwrap()).asked.limits;
     assert!(
         limits.scallop.is_none_or(|limit| limit.value > tight),

@@ -60,7 +60,7 @@ impl Trials<'_> {
                     let found: Vec<VcutParameters> = moves
                         .iter()
                         .filter_map(|&moved| self.beside(&from, factor, moved))
-                        .filter(|found| !self.is_behind(self.model(found)))
+                        .filter(|found| !self.is_slower(self.model(found)))
                         .collect();
                     self.plan_ahead(&found);
                     found.into_iter().find(|found| {
@@ -92,7 +92,7 @@ impl Trials<'_> {
         for next in teeth.chunks(AHEAD) {
             let worth: Vec<&VcutParameters> = next
                 .iter()
-                .filter(|found| !self.is_behind(self.model(found)))
+                .filter(|found| !self.is_slower(self.model(found)))
                 .collect();
             self.plan_ahead(worth);
             for found in next {

@@ -161,7 +161,7 @@ impl Trials<'_> {
     fn is_worth_a_plan(&self, one: &Forecast) -> bool {
         let is_promising = match self.goal {
             Goal::Best => true,
-            Goal::Any => !self.is_behind(self.model(&one.parameters)),
+            Goal::Any => !self.is_slower(self.model(&one.parameters)),
         };
         let is_known = self
             .tried
@@ -430,7 +430,7 @@ impl Trials<'_> {
         let step = widest.max(swung.widest_step(layer, 0.0));
         swung
             .parameters(layer, step, 0.0)
-            .is_some_and(|found| !self.is_behind(self.model(&found)))
+            .is_some_and(|found| !self.is_slower(self.model(&found)))
     }
 
     /// Adds parameters that keep what the job asks of them.

@@ -34,9 +34,9 @@ pub(super) struct Shape<N> {
 pub(super) enum Tooth {
     /// One reach whatever the share.
     Any,
-    /// The flank comes out behind the tip of this number.
-    Behind(u32),
-    /// Behind one of this number or a later one.
+    /// The flank comes out beyond the tip of this number.
+    Beyond(u32),
+    /// Beyond the tip of this number or a later one.
     Later(u32),
 }
 
@@ -242,16 +242,16 @@ impl Model {
             )
             | (Formulas::Exact, Lattice::Free) => [Some(Tooth::Any), None],
             (Formulas::Exact, Lattice::Orthogonal | Lattice::Interlaced | Lattice::Fitted) => {
-                let first = self.behind(self.ranges.share[1]);
-                let later = (self.behind(self.ranges.share[0]) > first).then(|| Tooth::Later(first + 1));
-                [Some(Tooth::Behind(first)), later]
+                let first = self.beyond(self.ranges.share[1]);
+                let later = (self.beyond(self.ranges.share[0]) > first).then(|| Tooth::Later(first + 1));
+                [Some(Tooth::Beyond(first)), later]
             }
         };
         teeth.into_iter().flatten()
     }
 
-    /// The number of the tip behind which a flank comes out.
-    pub(super) fn behind(&self, share: f64) -> u32 {
+    /// The number of the tip beyond which a flank comes out.
+    pub(super) fn beyond(&self, share: f64) -> u32 {
         let number = match self.lattice {
             Lattice::Orthogonal => past_jump(0.5 / share),
             Lattice::Interlaced | Lattice::Fitted => past_jump(0.5 / share + 0.5),
@@ -267,8 +267,8 @@ impl Model {
         }
     }
 
-    /// The least share at which flanks come out behind the tip of that number, and in which distance of one layer's
-    /// steps that tip is.
+    /// The least share at which flanks come out beyond the tip of that number, and in which distance of one
+    /// layer's steps that tip is.
     fn jump(&self, number: u32) -> (f64, f64) {
         let number = f64::from(number);
         let steps = match self.lattice {
@@ -290,7 +290,7 @@ impl Model {
         };
         let [low, high] = match tooth {
             Tooth::Any => [least, most],
-            Tooth::Behind(number) => [self.jump(number).0.max(least), above(number)],
+            Tooth::Beyond(number) => [self.jump(number).0.max(least), above(number)],
             Tooth::Later(number) => [least, above(number)],
         };
         // At a jump but for rounding.
@@ -300,22 +300,22 @@ impl Model {
     /// A wider stretch of the saw-tooth as its first step and the rest.
     pub(super) fn divided(&self, tooth: Tooth) -> Option<[Tooth; 2]> {
         match tooth {
-            Tooth::Any | Tooth::Behind(_) => None,
+            Tooth::Any | Tooth::Beyond(_) => None,
             Tooth::Later(number) => {
-                let last = self.behind(self.ranges.share[0]);
+                let last = self.beyond(self.ranges.share[0]);
                 let rest = if number + 1 < last {
                     Tooth::Later(number + 1)
                 } else {
-                    Tooth::Behind(number + 1)
+                    Tooth::Beyond(number + 1)
                 };
-                Some([Tooth::Behind(number), rest])
+                Some([Tooth::Beyond(number), rest])
             }
         }
     }
 
     /// Reach for each millimetre of layer: [Cui II.B], or what is derived in `plan::blade_reach`.
     pub(super) fn reach_factor(&self, share: f64) -> f64 {
-        self.factor(share, Tooth::Behind(self.behind(share)))
+        self.factor(share, Tooth::Beyond(self.beyond(share)))
     }
 
     fn factor<N: Scalar>(&self, share: N, tooth: Tooth) -> N {
@@ -327,7 +327,7 @@ impl Model {
             (
                 Formulas::Exact,
                 Lattice::Orthogonal | Lattice::Interlaced | Lattice::Fitted,
-                Tooth::Behind(number),
+                Tooth::Beyond(number),
             ) => {
                 let (_, steps) = self.jump(number);
                 share.times(steps).plus(0.5).greater(N::constant(1.0))
@@ -426,7 +426,7 @@ impl Model {
                 asked(cap, cap.lesser(bounds.most))
             }
         };
-        // Where the scallop has no room at all, some layer that is one.
+        // Where the scallop has no room at all, some layer that is valid.
         let floor = N::constant(self.layer[0]);
         match (keeping, bounds.by_scallop.map(|most| most.greater(floor))) {
             (Keeping::Both, Some(by_scallop)) => {

@@ -116,7 +116,7 @@ impl Ground<'_> {
     /// What a shape comes to.
     pub(super) fn at(&self, [first, second]: [f64; 2]) -> Tried {
         let shape = self.chart.shape(first, second);
-        let tooth = Tooth::Behind(self.model.behind(shape.share));
+        let tooth = Tooth::Beyond(self.model.beyond(shape.share));
         let outcome = self.model.outcome(shape, tooth, Keeping::Both);
         let breach = outcome
             .slack

@@ -1,4 +1,4 @@
-//! The least time where one coordinate tells it: a proof of a few microseconds.
+//! The least time where one coordinate decides it: a proof of a few microseconds.
 //!
 //! Where reach and extension are the same whatever the overlap, the time falls with the layer and, on one layer, with the
 //! step. So of all shapes of one swing none takes less than the widest step on the thickest layer that the blade reaches
@@ -37,7 +37,7 @@ const NEAREST: f64 = 0.1;
 /// Most stretches that are tried on a side of it.
 const MOST_ASIDE: u32 = 40;
 
-/// The least of what is measured, where one coordinate tells it.
+/// The least of what is measured, where one coordinate decides it.
 pub(super) fn best(model: &Model, measure: Measure) -> Option<Found> {
     let line = Line::new(model, measure)?;
     let bottom = line.bottom();

@@ -180,7 +180,7 @@ pub enum Infeasible {
         /// there is one.
         nearest: Vec<Option<f64>>,
     },
-    /// Nothing keeps the objective from falling for ever: a scallop or an edge in use becomes the smaller the thinner the
-    /// layer, and no time, cuts, least layer or least step is asked for.
+    /// Nothing bounds the objective from below: a scallop or an edge in use becomes the smaller the thinner
+    /// the layer, and no time, cuts, least layer or least step is asked for.
     Unbounded,
 }

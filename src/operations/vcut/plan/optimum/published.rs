@@ -1,4 +1,4 @@
-//! The problem that the paper publishes with its optimum [Cui 2020, Table 1], for whoever holds a solver against it.
+//! The problem that the paper publishes with its optimum [Cui 2020, Table 1], to compare a solver with.
 
 use super::problem::{Extension, Problem, Range, Work};
 use crate::asked::{Formulas, Lattice, Objective};

@@ -8,7 +8,7 @@
 //! the difference between the best shape and the most promising box left is then the proven gap.
 //!
 //! Whether any shape keeps all bounds is the same question: what is made least is then the greatest share by which a bound
-//! is broken, and the search ends as soon as that is none.
+//! is broken, and the search ends as soon as none is broken.
 
 use super::certain::Blend;
 use super::chart::Chart;
@@ -38,7 +38,7 @@ const TRIES: [u32; 2] = [6, 3];
 /// A descent begins at a shape that is no worse than this many times the best.
 const WORTH: f64 = 1.5;
 
-/// A descent begins anew where a bound is broken by less than this share of the least so far.
+/// A descent begins again where a bound is broken by less than this share of the least so far.
 const NEARER: f64 = 0.5;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -220,7 +220,7 @@ impl<'m> Search<'m> {
     /// Begins with a shape that keeps the bounds, if there is one.
     fn begin_within_bounds(&mut self) -> Option<()> {
         let found = Search::new(self.model, Measure::Breach, Goal::Any).run()?;
-        let tooth = Tooth::Behind(self.model.behind(found.shape.share));
+        let tooth = Tooth::Beyond(self.model.beyond(found.shape.share));
         let number = match self
             .grounds
             .iter()
@@ -259,7 +259,7 @@ impl<'m> Search<'m> {
             return;
         }
         match tooth {
-            Tooth::Any | Tooth::Behind(_) => self.look_around(number),
+            Tooth::Any | Tooth::Beyond(_) => self.look_around(number),
             Tooth::Later(_) => {}
         }
         self.look(number, chart.sides);
@@ -312,7 +312,7 @@ impl<'m> Search<'m> {
         better
     }
 
-    /// Goes down from a place to where it is best around it, and tells off where nothing is better.
+    /// Goes down from a place to where it is best around it, and records where nothing is better.
     fn descend(&mut self, number: usize, start: [f64; 2]) {
         let ground = self.grounds[number];
         let rest = descent::descend(&ground, start);
@@ -494,7 +494,7 @@ impl<'m> Search<'m> {
             let high = match ground.tooth {
                 // The value in the middle is not that of one function all over the box.
                 Tooth::Later(_) => slack.value.high,
-                Tooth::Any | Tooth::Behind(_) => slack
+                Tooth::Any | Tooth::Beyond(_) => slack
                     .value
                     .high
                     .min(centre + 1e-13 * (1.0 + centre.abs()) + swing(&slack, sides)),

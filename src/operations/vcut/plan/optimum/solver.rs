@@ -122,11 +122,11 @@ fn halved(
 
 fn on_lattice(problem: &Problem, lattice: Lattice, measure: Measure, goal: Goal) -> Option<Optimum> {
     let model = Model::new(problem, lattice);
-    let told = match goal {
+    let decided = match goal {
         Goal::Best => line::best(&model, measure),
         Goal::Any | Goal::Quick => None,
     };
-    let found = told.or_else(|| search::best(&model, measure, goal))?;
+    let found = decided.or_else(|| search::best(&model, measure, goal))?;
     Some(optimum(problem, &model, lattice, &found))
 }
 

@@ -435,7 +435,7 @@ proptest! {
 }
 
 #[test]
-fn thinner_layers_for_ever_are_told() {
+fn thinner_layers_without_end_are_reported() {
     for objective in [Objective::Scallop, Objective::BladeLoad] {
         let mut problem = table_1(Formulas::Exact, Lattice::Orthogonal);
         problem.objective = objective;
@@ -521,7 +521,7 @@ fn relaxing_a_bound_pays() {
             .all(|s| s.then.time.to_s() <= optimum.time.to_s() * (1.0 + 1e-9)),
         "{bought:?}"
     );
-    // Who cuts another lattice is not told what a change of lattice would save.
+    // A job with another lattice gets no hint of what a change of lattice would save.
     let orthogonal = solved(Formulas::Exact, Lattice::Orthogonal);
     let bought = sensitivities(&problem, &orthogonal);
     assert!(!bought.is_empty());

@@ -201,7 +201,7 @@ pub(super) fn no_room_for_scallops(asked: &RoughVcut, drop: Length) -> Option<Re
         diagnostic
     };
     Some(Refused {
-        told: diagnostic,
+        diagnostic,
         ladders: vec![
             // Larger limits are kept by the plans that there are, so the first one mostly does.
             wider_scallops(asked, stays),
@@ -273,7 +273,7 @@ const WIDER_SWINGS: [f64; 5] = [1.25, 1.5, 2.0, 3.0, 5.0];
 const WIDEST_OFFERED: f64 = 80.0;
 
 /// An objective that grows less and less with the layer, without anything that keeps the layer from vanishing. Longest times
-/// hold it; which of these can be kept is for those who plan.
+/// hold it; planning decides which of these can be kept.
 pub(super) fn nothing_holds_the_layer(asked: &RoughVcut, times: &[Duration]) -> Refused {
     let what = match asked.objective.value {
         Objective::Scallop => "the scallop",
@@ -282,7 +282,7 @@ pub(super) fn nothing_holds_the_layer(asked: &RoughVcut, times: &[Duration]) -> 
         Objective::Cuts => "the number of cuts",
     };
     let objective = asked.objective.span.unwrap_or(asked.setup.head_span);
-    let told = Diagnostic::new(
+    let diagnostic = Diagnostic::new(
         Code::NoLeastLayer,
         format!("the thinner the layer, the less {what}: nothing here bounds the layer"),
         objective,
@@ -311,7 +311,7 @@ pub(super) fn nothing_holds_the_layer(asked: &RoughVcut, times: &[Duration]) -> 
         }
     };
     Refused {
-        told,
+        diagnostic,
         ladders: vec![times.iter().map(offer).collect()],
         resort: Offer::openings(asked),
         otherwise: None,

@@ -1,5 +1,5 @@
 //! What is said when no parameters keep all that a job asks for: which bounds conflict, where they stand, and the nearest
-//! values that keep them by the model, for those who plan them before they are offered.
+//! values that keep them by the model. The caller plans them before they are offered.
 
 use super::complaints::check_given;
 use crate::asked::RoughVcut;
@@ -113,7 +113,7 @@ pub(super) fn conflict(asked: &RoughVcut, problem: &Problem, bounds: &[Bound]) -
     let values = values(problem, bounds);
     let ladders = bounds.iter().zip(&values);
     Refused {
-        told: diagnostic,
+        diagnostic,
         ladders: ladders
             .filter_map(|(&bound, values)| values.as_ref().map(|values| ladder(asked, bound, values)))
             .collect(),
@@ -359,7 +359,7 @@ fn place(asked: &RoughVcut, bound: Bound) -> Option<Span> {
     set(&mut asked.clone(), bound, 0.0)
 }
 
-/// What a bound asks for, and who says it.
+/// What a bound asks for, and what states it.
 fn party(asked: &RoughVcut, bound: Bound) -> Party {
     let said = if place(asked, bound).is_some() {
         Said::Operation

@@ -9,7 +9,7 @@ use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::grid;
 use vcutc_job::{Auto, Bounds, PlanningJob};
 
-/// Swings to choose from where there is no limit: flatter and steeper Vs are no cuts.
+/// Swings to choose from where there is no limit: flatter and steeper Vs are not cuts.
 const OPEN_SWINGS: Range<Angle> = Range {
     least: Angle::deg(1.0),
     most: Angle::deg(89.0),
@@ -218,7 +218,7 @@ pub(super) fn choose(
     })
 }
 
-/// Whether a bound limits what was open; a given value is no news.
+/// Whether a bound limits what was open; of a given value that needs no message.
 const fn is_open(asked: &RoughVcut, bound: Bound) -> bool {
     const fn open<T>(value: &Auto<T>) -> bool {
         matches!(value, Auto::Auto)

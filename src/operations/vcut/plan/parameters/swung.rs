@@ -1,5 +1,5 @@
 //! Parameters that are tried: a lattice at a swing, and what layers and steps it can have. No limit but the blade's is asked
-//! after here; which of them a job allows is for those who try.
+//! after here; the caller tries which of them a job allows.
 
 use super::super::blade_reach;
 use super::grid_forms::{fits, largest_fitting, open_overlaps, tips_per_step, widest_step};

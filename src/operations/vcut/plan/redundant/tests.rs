@@ -124,7 +124,7 @@ proptest! {
         let Some(limit) = some.asked.limits.scallop else { return Ok(()) };
         let Some(mut needed) = left_over(every, &all, limit.value) else { return Ok(()) };
         if needed.is_empty() {
-            // All of the stock may stay: then it is cut as ever.
+            // All of the stock may stay: then it is cut as usual.
             needed = every.cuts.iter().map(|cut| cut.tip).collect();
         }
         let tips: Vec<Point2> = some.cuts.iter().map(|cut| cut.tip).collect();

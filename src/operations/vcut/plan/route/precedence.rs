@@ -2,9 +2,10 @@
 //!
 //! The planner decides a layer against the surface that all layers above leave. For a cut of it to come out as planned
 //! somewhere else in the order, that surface need not be there as a whole, only beneath the cut's own chip and in the Vs in
-//! which its flanks come out: what these leave lies nowhere above the flanks beyond, for it rises no steeper than they do.
-//! So a stretch waits for those whose tips show in the surface between the older tips that its outermost flanks meet, and
-//! for nothing else. Tips that no longer show have been cut under by one that does, and that one waits for them in turn.
+//! which its flanks come out: what these leave lies nowhere above the flanks beyond, because it does not rise
+//! more steeply than they do. So a stretch waits for those whose tips show in the surface between the older
+//! tips that its outermost flanks meet, and for nothing else. Tips that do not show any more have been cut
+//! under by one that does, and that one waits for them in turn.
 //!
 //! Where steeper flanks were cut before, by another operation or by narrowed Vs of this one, their walls may stand above a
 //! flank farther off; a stretch then waits for all tips that show. So does one that has steeper flanks itself: what it leaves

@@ -1,4 +1,4 @@
-//! What one coordinate tells, against the search over all shapes and against the planner's own formulas.
+//! What one coordinate decides, compared with the search over all shapes and with the planner's own formulas.
 
 use super::super::formulas::Model;
 use super::super::ground::Measure;
@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::number::{Interval, OnLine};
 
-/// Problems whose least one coordinate may tell: the paper's formulas with layer and step open.
+/// Problems whose least value one coordinate may decide: the paper's formulas with layer and step open.
 fn problem_of_the_paper() -> impl Strategy<Value = Problem> {
     let how = (
         prop::sample::select(vec![Lattice::Orthogonal, Lattice::Interlaced, Lattice::Free]),
@@ -52,13 +52,13 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(256))]
 
     #[test]
-    fn what_one_coordinate_tells_the_search_finds_too(problem in problem_of_the_paper()) {
+    fn what_one_coordinate_decides_the_search_finds_too(problem in problem_of_the_paper()) {
         let model = Model::new(&problem, problem.lattices[0]);
         for measure in [Measure::Time, Measure::Cuts] {
-            if let Some(told) = line::best(&model, measure) {
+            if let Some(decided) = line::best(&model, measure) {
                 let searched = search::best(&model, measure, Goal::Best).unwrap();
-                prop_assert!(told.value <= searched.value * (1.0 + 1e-12), "{told:?} {searched:?}");
-                prop_assert!(told.value >= searched.value * (1.0 - 1e-7), "{told:?} {searched:?}");
+                prop_assert!(decided.value <= searched.value * (1.0 + 1e-12), "{decided:?} {searched:?}");
+                prop_assert!(decided.value >= searched.value * (1.0 - 1e-7), "{decided:?} {searched:?}");
             }
         }
     }
@@ -122,7 +122,7 @@ proptest! {
     }
 }
 
-/// The published problem is told by one coordinate, to all digits.
+/// One coordinate decides the published problem, to all digits.
 #[test]
 fn the_papers_optimum_is_proven_to_twelve_digits() {
     for lattice in [Lattice::Orthogonal, Lattice::Free] {
