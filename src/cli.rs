@@ -151,7 +151,7 @@ pub fn run(linked: &Targets) -> ExitCode {
     exit.into()
 }
 
-/// A refusal of clap with `help:` where it says `tip:`, so that advice looks the same whoever gives it.
+/// A refusal of clap with `help:` where it says `tip:`, so that all advice looks the same.
 fn in_our_form(error: &clap::Error) -> String {
     let text = error.render();
     let is_plain = !io::stderr().is_terminal() || std::env::var_os("NO_COLOR").is_some();
@@ -172,7 +172,7 @@ fn in_our_form(error: &clap::Error) -> String {
 
 /// Prints what clap has to say: help and version on standard output, refusals on standard error.
 fn refuse(error: &clap::Error) -> ExitCode {
-    // Who would be told is gone when the terminal itself is.
+    // The failure cannot be shown when the terminal itself is gone.
     let _ = if error.use_stderr() {
         io::stderr().write_all(in_our_form(error).as_bytes())
     } else {

@@ -1,4 +1,4 @@
-//! How much may be planned for answers that are no plans: for remedies, and for steps on the way to a plan.
+//! How much may be planned for answers that are not plans: for remedies, and for steps on the way to a plan.
 
 /// What a plan costs whatever its size, in cuts.
 const EACH: usize = 20;

@@ -1,12 +1,14 @@
 //! Whether an answer is still wanted: work that has become needless ends early.
 //!
-//! While somebody types, what was asked a moment ago is of no use any more, and it may take many seconds to find out. Who asks
-//! holds an [`Interest`] for as long as it wants to know; the stages that take the time carry a [`Wanted`] and look at it
-//! before each step of their long loops. Interest that is lost does not come back. So an answer that is still wanted when it is
-//! complete was cut short nowhere: to the last bit it is that of a question in which nobody could lose interest. One that is
-//! no longer wanted by then may have been cut short anywhere, and [`Wanted::answer`] gives it to nobody.
+//! While somebody types, what was asked a moment ago is not needed any more, and the answer may take many
+//! seconds. The caller holds an [`Interest`] for as long as the answer is wanted; the stages that take the
+//! time carry a [`Wanted`] and look at it before each step of their long loops. Interest that is lost does
+//! not come back. So an answer that is still wanted when it is complete was not cut short: it is, to the last
+//! bit, the answer to a question in which interest cannot be lost. An answer that is not wanted any more may
+//! have been cut short anywhere, and [`Wanted::answer`] does not give it out.
 //!
-//! The compiler reads no clock. Who gives a search a limited time drops the interest when that time is over.
+//! The compiler does not read a clock. A caller that limits the time of a search drops the interest when that
+//! time is over.
 
 mod effort;
 
@@ -24,15 +26,15 @@ pub struct Wanted(Vec<Arc<AtomicBool>>);
 #[must_use]
 pub struct Interest(Arc<AtomicBool>);
 
-/// Nobody wants to know any more.
+/// The answer is not wanted any more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Needless;
 
 impl Wanted {
-    /// For who does not lose interest.
+    /// For a caller that does not lose interest.
     pub const ALWAYS: Self = Self(Vec::new());
 
-    /// For who does not want to know.
+    /// For a caller that does not want the answer.
     #[must_use]
     pub fn never() -> Self {
         Self(vec![Arc::new(AtomicBool::new(true))])
@@ -59,7 +61,7 @@ impl Wanted {
     /// Goes on where somebody wants to know.
     ///
     /// # Errors
-    /// When nobody does.
+    /// When it is not wanted.
     pub fn go_on(&self) -> Result<(), Needless> {
         if self.is_needless() { Err(Needless) } else { Ok(()) }
     }
@@ -87,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_answer_that_is_no_longer_wanted_is_given_to_nobody() {
+    fn an_answer_that_is_not_wanted_any_more_is_not_given() {
         assert_eq!(Wanted::ALWAYS.answer(|| 1), Ok(1));
         let (wanted, interest) = Wanted::while_held();
         let same = wanted.clone();

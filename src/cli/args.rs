@@ -64,7 +64,7 @@ impl Arguments {
     /// (`args_conflicts_with_subcommands`) would also refuse `vcutc --quiet check JOB`.
     pub(super) fn of_process() -> Result<Self, clap::Error> {
         let arguments = Self::try_parse().map_err(suggest_command)?;
-        // Behind a job every word is taken for another one.
+        // After a job every word is taken for another one.
         let jobs = arguments.compile.jobs.iter().skip(1);
         let has_command = jobs.filter(|word| Self::is_command(word)).count() > 0;
         match arguments.compile.first_given() {
@@ -107,7 +107,8 @@ impl Arguments {
 /// Options whose value is a list of numbers with commas.
 const LISTS: [&str; 5] = ["--joints", "--pose", "--quaternion", "--tool", "--base"];
 
-/// The numbers behind an option that takes them with commas, where they were given with blanks: the option, and all of them.
+/// The numbers after an option that takes them with commas, where they were given with blanks: the option,
+/// and all of them.
 fn list_with_blanks(words: &[String]) -> Option<(&str, String)> {
     let is_number = |word: &&String| word.trim_end_matches(',').parse::<f64>().is_ok();
     let at = words.iter().position(|word| LISTS.contains(&word.as_str()))?;

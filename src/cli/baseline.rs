@@ -1,5 +1,5 @@
 //! The figures that a repository holds its programs to: the file that `vcut.toml` names, read before a build and held
-//! against each program before it takes its place, or written anew by `--accept`.
+//! against each program before it takes its place, or rewritten by `--accept`.
 
 use super::Exit;
 use super::args::BuildArgs;

@@ -271,7 +271,7 @@ fn refuse(first: &Unit, second: &Unit, path: &str, list: Option<&SourceMap>, con
     console.failure(&Failure::new(message).help(help))
 }
 
-/// Lets a program take its place, and tells what came of it.
+/// Puts a program in its place, and reports the result.
 fn settle(unit: &Unit, done: Done, fate: Fate, list: Option<&Asking<'_>>, console: &Console) -> (End, Exit) {
     let Done {
         sources,
@@ -286,7 +286,7 @@ fn settle(unit: &Unit, done: Done, fate: Fate, list: Option<&Asking<'_>>, consol
             if let Some(list) = list {
                 console.diagnostics(&complaints, list.sources);
             }
-            tell(
+            report_program(
                 unit,
                 &complaints,
                 &Made::default(),
@@ -321,7 +321,7 @@ fn settle(unit: &Unit, done: Done, fate: Fate, list: Option<&Asking<'_>>, consol
         console.differences(&unit.job, found);
     }
     let end = end(&diagnostics, &made, console);
-    tell(unit, &diagnostics, &made, (fate, figures.as_ref()), console);
+    report_program(unit, &diagnostics, &made, (fate, figures.as_ref()), console);
     let exit = match end {
         End::Written | End::Unchanged => Exit::Success,
         End::Different | End::Failed => Exit::JobHasErrors,
@@ -343,7 +343,7 @@ fn against_baseline(unit: &Unit, figures: Option<&Figures>, list: Option<&Asking
     }
 }
 
-fn tell(
+fn report_program(
     unit: &Unit,
     diagnostics: &[Diagnostic],
     made: &Made,
@@ -404,12 +404,12 @@ impl Total {
             (self.different, "different"),
             (self.failed, "failed"),
         ];
-        let told: Vec<String> = counts
+        let parts: Vec<String> = counts
             .iter()
             .filter(|(count, _)| *count > 0)
             .map(|(count, word)| format!("{count} {word}"))
             .collect();
         let programs = counted(self.programs, "program");
-        format!("{programs}: {} ({:.1} s)\n", told.join(", "), self.seconds)
+        format!("{programs}: {} ({:.1} s)\n", parts.join(", "), self.seconds)
     }
 }

@@ -179,7 +179,7 @@ fn inner_destination(output: Option<&str>) -> Destination {
     }
 }
 
-/// Takes one job through the pipeline and tells what came of it.
+/// Takes one job through the pipeline and reports the result.
 fn judge(
     job: &str,
     air_cut: Option<Length>,
@@ -213,7 +213,7 @@ pub(super) struct Carried<'a> {
     pub(super) amend: &'a mut dyn FnMut(&mut Outcome) -> Result<Amended, Failure>,
 }
 
-/// What is made of an outcome besides the product.
+/// What is made of an outcome in addition to the product.
 #[derive(Default)]
 pub(super) struct Amended {
     /// Files that have been written.
@@ -222,7 +222,7 @@ pub(super) struct Amended {
     pub(super) remarks: Vec<String>,
 }
 
-/// Takes a job through the pipeline, makes the product and tells what came of it.
+/// Takes a job through the pipeline, makes the product and reports the result.
 pub(super) fn carried_out(
     request: Request<'_>,
     product: &Product,
@@ -253,13 +253,13 @@ pub(super) fn carried_out(
 
     match made {
         Ok(made) => {
-            // A line of JSON that is a summary ends what there is to tell; people want to have the summary at once.
+            // A summary as a line of JSON ends the report; people want to have the summary at once.
             if console.speaks_json() {
-                hints::tell(&outcome, &made, &timings, console);
-                return tell(job, &outcome, &made, &timings, product, console);
+                hints::report(&outcome, &made, &timings, console);
+                return report_outcome(job, &outcome, &made, &timings, product, console);
             }
-            let exit = tell(job, &outcome, &made, &timings, product, console);
-            hints::tell(&outcome, &made, &timings, console);
+            let exit = report_outcome(job, &outcome, &made, &timings, product, console);
+            hints::report(&outcome, &made, &timings, console);
             exit
         }
         Err(failure) => {
@@ -283,8 +283,8 @@ impl Product {
     }
 }
 
-/// Tells what came of a job.
-pub(super) fn tell(
+/// Reports the result of a job.
+pub(super) fn report_outcome(
     job: &str,
     outcome: &Outcome,
     made: &Made,
@@ -303,7 +303,7 @@ pub(super) fn tell(
     if let Some(found) = &made.differences {
         console.differences(job, found);
     }
-    // Who compares wants to know what differs, not what was planned.
+    // A comparison reports what differs, not what was planned.
     let compiled = outcome.compiled.as_ref().filter(|_| made.differences.is_none());
     console.summary(&Summary {
         job,

@@ -36,7 +36,7 @@ pub(super) struct Console {
     help_budget: HelpBudget,
 }
 
-/// How much is printed besides diagnostics.
+/// How much is printed in addition to diagnostics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Detail {
     DiagnosticsOnly,
@@ -137,7 +137,7 @@ impl Console {
     }
 
     /// Whether `--verbose` was given.
-    pub(super) fn tells_everything(&self) -> bool {
+    pub(super) fn shows_everything(&self) -> bool {
         self.detail == Detail::Everything
     }
 
@@ -240,8 +240,8 @@ impl Console {
         }
     }
 
-    /// Whether there is anything to tell but diagnostics.
-    pub(super) fn tells_more(&self) -> bool {
+    /// Whether anything but diagnostics is reported.
+    pub(super) fn shows_more(&self) -> bool {
         match self.detail {
             Detail::DiagnosticsOnly => false,
             Detail::Summary | Detail::Everything => true,
@@ -285,7 +285,7 @@ impl Console {
         self.failure(failure);
         match self.format {
             MessageFormat::Json => {
-                let body = summary.body(Some(&failure.message), self.tells_everything());
+                let body = summary.body(Some(&failure.message), self.shows_everything());
                 self.json_line("summary", body);
             }
             MessageFormat::Human | MessageFormat::Github => {}
@@ -295,10 +295,10 @@ impl Console {
     /// Prints what came of a job.
     pub(super) fn summary(&self, summary: &Summary<'_>) {
         match self.format {
-            MessageFormat::Json => self.json_line("summary", summary.body(None, self.tells_everything())),
+            MessageFormat::Json => self.json_line("summary", summary.body(None, self.shows_everything())),
             MessageFormat::Human | MessageFormat::Github if self.detail == Detail::DiagnosticsOnly => {}
             MessageFormat::Human | MessageFormat::Github => {
-                self.stderr(&summary.text(self.tells_everything()));
+                self.stderr(&summary.text(self.shows_everything()));
             }
         }
     }
@@ -335,7 +335,7 @@ impl Console {
     /// console calls on an old Windows console).
     fn stderr(&self, text: &str) {
         let mut stderr = AutoStream::always(io::stderr().lock());
-        // Nobody is left to tell when standard error itself is gone.
+        // There is no place to report it when standard error itself is gone.
         if let Err(error) = stderr.write_all(text.as_bytes())
             && error.kind() == io::ErrorKind::BrokenPipe
         {

@@ -131,8 +131,8 @@ fn carried_on(args: &ConvertArgs, conversion: Conversion, targets: &Targets, con
     compile::carried_out(request, &product, carried, console)
 }
 
-/// The job as a file, or on standard output, where it is asked for. One with errors is written too, for that is where they are
-/// mended, and what they point at.
+/// The job as a file, or on standard output, where it is asked for. One with errors is written too, because
+/// the errors are fixed in it and point at it.
 fn job_written(
     args: &ConvertArgs,
     path: &Path,
@@ -270,9 +270,9 @@ fn seen_from(path: &str, folder: Option<&Path>) -> Result<String, Failure> {
     let Some(folder) = folder else {
         return Ok(path.to_owned());
     };
-    let told = |error| Failure::new(format!("cannot read {path}: {error}"));
-    let whole = std::fs::canonicalize(path).map_err(told)?;
-    let from = real(folder).map_err(told)?;
+    let unreadable = |error| Failure::new(format!("cannot read {path}: {error}"));
+    let whole = std::fs::canonicalize(path).map_err(unreadable)?;
+    let from = real(folder).map_err(unreadable)?;
     let shared = from
         .components()
         .zip(whole.components())

@@ -50,7 +50,8 @@ pub(super) struct External {
     path: PathBuf,
     time: Duration,
     described: OnceLock<Result<Described, Fault>>,
-    /// The reading that failed last: the trait's readers tell statements, and have no other way to say that there are none.
+    /// The reading that failed last: the trait's readers report statements, and have no other way to say that
+    /// there are none.
     unread: Mutex<Option<Fault>>,
 }
 
@@ -262,7 +263,7 @@ impl Backend for External {
     fn capabilities(&self) -> Capabilities {
         match self.described() {
             Ok(described) => described.capabilities,
-            // Nothing is lacking then but the program itself, which `ready` and `check` tell.
+            // Nothing is lacking then but the program itself, which `ready` and `check` report.
             Err(_) => Capability::ALL
                 .into_iter()
                 .fold(Capabilities::NONE, Capabilities::with),
@@ -366,10 +367,10 @@ impl Reader for External {
             options: values(sources.options),
             profile: Cow::Borrowed(sources.options.profile()),
         };
-        let told = self
+        let statements = self
             .ask(Ask::Read(read), LARGEST_REPLY)
-            .and_then(|told: ReadBack| {
-                match told
+            .and_then(|answer: ReadBack| {
+                match answer
                     .statements
                     .iter()
                     .find(|statement| !is_there(statement.place, sources.files))
@@ -378,10 +379,10 @@ impl Reader for External {
                         "reads bytes {} to {} of file {}, which are not there",
                         place.start, place.end, place.file
                     ))),
-                    None => Ok(told.statements),
+                    None => Ok(answer.statements),
                 }
             });
-        match told {
+        match statements {
             Ok(statements) => statements.into_iter().for_each(visit),
             Err(fault) => {
                 visit(unread(self.name, &fault));
@@ -399,7 +400,7 @@ fn is_there(place: Place, files: &[ProgramFile]) -> bool {
     file.is_some_and(|file| file.text.get(place.start as usize..place.end as usize).is_some())
 }
 
-/// What a reader tells that could not read at all.
+/// What a reader that could not read at all reports.
 fn unread(name: &str, fault: &Fault) -> Statement {
     Statement {
         place: Place {

@@ -249,7 +249,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_missing_file_is_told_from_an_unreadable_one() {
+    fn a_missing_file_is_distinguished_from_an_unreadable_one() {
         let folder = tempfile::tempdir().unwrap();
         let missing = folder.path().join("none.vcut");
         assert_eq!(load_file(&missing), Err(LoadError::NotFound));

@@ -170,7 +170,7 @@ impl Run<'_> {
         }
     }
 
-    /// Tells what came of all files.
+    /// Reports the result for all files.
     fn finish(self, exit: Exit) -> Exit {
         let mut text = String::new();
         match self.fate {
@@ -240,7 +240,7 @@ fn formatted(name: &str, bytes: Vec<u8>, console: &Console) -> Result<String, Ex
     })
 }
 
-/// Holds a text against its layout, and adds what differs to what has been found.
+/// Compares a text with its layout, and adds what differs to what has been found.
 fn hold(name: &str, earlier: &[u8], formatted: &str, found: &mut Differences) -> Layout {
     let sides = Sides {
         earlier: Some(earlier),
@@ -267,7 +267,7 @@ fn entries(folder: &Path) -> io::Result<Vec<String>> {
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
         let kind = entry.file_type()?;
-        // A name that is no text is no name of a job file: those are written in jobs.
+        // A name that is not text is not the name of a job file: those are written in jobs.
         let Ok(name) = entry.file_name().into_string() else {
             continue;
         };

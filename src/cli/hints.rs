@@ -9,10 +9,15 @@ use vcutc_cancellation::Wanted;
 use vcutc_driver::Outcome;
 use vcutc_driver::hints::{Hint, hints};
 
-/// Tells what would make a job faster that its machine made slow.
-pub(super) fn tell(outcome: &Outcome, made: &Made, timings: &[(&'static str, Duration)], console: &Console) {
-    // Who compares wants to know what differs.
-    if !console.tells_more() || made.differences.is_some() || !made.diagnostics.is_empty() {
+/// Reports what would make a job faster that its machine made slow.
+pub(super) fn report(
+    outcome: &Outcome,
+    made: &Made,
+    timings: &[(&'static str, Duration)],
+    console: &Console,
+) {
+    // A comparison reports what differs.
+    if !console.shows_more() || made.differences.is_some() || !made.diagnostics.is_empty() {
         return;
     }
     let compiling: Duration = timings.iter().map(|(_, time)| *time).sum();

@@ -52,7 +52,7 @@ pub(super) fn init(args: &InitArgs, targets: &Targets, console: &Console) -> Exi
     progress.finish();
     match job {
         Ok(text) => match one_file(&file, text.as_bytes()) {
-            Ok(_) => told(disk.job(), model.as_ref(), console),
+            Ok(_) => report_written(disk.job(), model.as_ref(), console),
             Err(reason) => console.failure(&Failure::new(reason)),
         },
         Err(Refusal::Name(diagnostics, sources)) => {
@@ -92,7 +92,7 @@ fn no_place(machine: &str) -> Failure {
 }
 
 /// Says what was written, and how to go on.
-fn told(path: &str, model: Option<&Model>, console: &Console) -> Exit {
+fn report_written(path: &str, model: Option<&Model>, console: &Console) -> Exit {
     let next = match model {
         None => format!("vcutc check {path}"),
         Some(model) => match (model.kind(), model.maker) {

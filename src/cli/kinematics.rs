@@ -100,7 +100,7 @@ pub(super) fn inverse(cell: &CellArgs, pose: &str, quaternion: Option<&str>, con
     if console.speaks_json() {
         console.document(&format!("{}\n", found.in_json()))
     } else {
-        let shown = if console.tells_everything() {
+        let shown = if console.shows_everything() {
             answer::Shown::All
         } else {
             answer::Shown::WithinLimits
@@ -116,9 +116,9 @@ impl Cell {
             Some(text) => numbers::frame(option, text, example).map(Pose::from),
             None => Ok(Pose::IDENTITY),
         };
-        let told = |failure: Failure| console.failure(&failure);
-        let blade_in_flange = frame("--tool", &arguments.tool, "0,0,310,0,0,0").map_err(told)?;
-        let work_in_root = frame("--base", &arguments.base, "1800,0,700,0,0,0").map_err(told)?;
+        let refuse = |failure: Failure| console.failure(&failure);
+        let blade_in_flange = frame("--tool", &arguments.tool, "0,0,310,0,0,0").map_err(refuse)?;
+        let work_in_root = frame("--base", &arguments.base, "1800,0,700,0,0,0").map_err(refuse)?;
         let what = match (&arguments.tool, model.kind()) {
             (Some(_), _) => "blade",
             (None, MachineKind::Robot) => "flange",
@@ -164,7 +164,7 @@ fn turns_of(axis: &Axis, value: f64) -> Vec<f64> {
     match axis.kind {
         AxisKind::Linear => vec![value],
         AxisKind::Rotary => {
-            // Limits may be far out or infinite; nobody needs the turns there.
+            // Limits may be far out or infinite; the turns there are not needed.
             let far = TAU * FARTHEST_TURN;
             let (min, max) = (axis.min.max(value - far), axis.max.min(value + far));
             let within = ((min - AT_LIMIT - value) / TAU).ceil();

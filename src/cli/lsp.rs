@@ -23,10 +23,11 @@ use vcutc_lsp::wire::{self, Broken, Fault, Incoming};
 use vcutc_lsp::{Done, Ending, Server, Task, Workspace};
 use vcutc_registry::OPERATIONS;
 
-/// How long no message, such as a change of a text, must have come before a job is planned. Questions are no reason to wait.
+/// How long no message, such as a change of a text, must have come before a job is planned. Requests do not
+/// delay it.
 const PAUSE: Duration = Duration::from_millis(250);
 
-/// How long help with a refused job is looked for: who types on ends it sooner.
+/// How long help with a refused job is looked for. Typing ends it sooner.
 const HELP_BUDGET: HelpBudget = HelpBudget::Of(Duration::from_secs(5));
 
 /// Something that the server has to look at.
@@ -55,7 +56,7 @@ pub(super) fn serve(targets: &Targets, console: &Console) -> ExitCode {
         waiting: VecDeque::new(),
         tasks,
         planner: Planner::Idle,
-        told: Instant::now(),
+        last_message: Instant::now(),
         console,
     };
     match conversation.hold(&events) {
@@ -90,11 +91,11 @@ fn planner(targets: Vec<&'static dyn Backend>, events: Sender<Event>) -> Sender<
         let mut memory = Memory::of_some_runs();
         for task in given {
             let mut waiting = Waiting::unseen(HELP_BUDGET);
-            let mut tell = |refused: Done| {
-                // Who has gone learns nothing more.
+            let mut report = |refused: Done| {
+                // A receiver that is gone gets nothing more.
                 let _ = events.send(Event::Refused(Box::new(refused)));
             };
-            let done = task.run_telling(&Disk, &targets, &mut memory, (&mut waiting, &mut tell));
+            let done = task.run_reporting(&Disk, &targets, &mut memory, (&mut waiting, &mut report));
             if events.send(Event::Planned(Box::new(done))).is_err() {
                 return;
             }
@@ -110,7 +111,7 @@ struct Conversation<'c> {
     tasks: Sender<Task>,
     planner: Planner,
     /// When the last message came.
-    told: Instant,
+    last_message: Instant,
     /// Standard error, which editors keep in a log.
     console: &'c Console,
 }
@@ -162,14 +163,14 @@ impl Conversation<'_> {
             self.console.failure(&failure);
         }
         if let Incoming::Notification { .. } = &message {
-            self.told = Instant::now();
+            self.last_message = Instant::now();
         }
         self.server.handle(message, &Disk)
     }
 
     /// Waits for the next event; if none comes for a moment, a job is planned meanwhile, before others the one that was changed last.
     fn wait(&mut self, events: &Receiver<Event>) -> Option<Event> {
-        match events.recv_timeout(PAUSE.saturating_sub(self.told.elapsed())) {
+        match events.recv_timeout(PAUSE.saturating_sub(self.last_message.elapsed())) {
             Ok(event) => return Some(event),
             Err(RecvTimeoutError::Disconnected) => return None,
             Err(RecvTimeoutError::Timeout) => {}

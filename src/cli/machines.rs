@@ -36,7 +36,7 @@ pub(super) fn load(name: &str, console: &Console) -> Result<Model, Exit> {
     description(name, console).map(|description| description.model)
 }
 
-/// A machine, and what its sheet says besides if it has one.
+/// A machine, and what else its sheet says if it has one.
 struct Description {
     model: Model,
     sheet: Option<Sheet>,

@@ -1,4 +1,4 @@
-//! Targets for people who name none, or one that there is not: those that drive the machine of their job.
+//! Targets for people who name none, or one that does not exist: those that drive the machine of their job.
 
 use super::Targets;
 use super::args::Overrides;

@@ -123,18 +123,18 @@ pub(super) fn one_file(path: &Path, bytes: &[u8]) -> Result<Vec<Placed>, String>
 
 /// Replaces the text of a file that is there, whole or not at all. It keeps its permissions, and a link to it stays a link.
 pub(super) fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    let told = |error: io::Error| os_words(&error);
-    let path = fs::canonicalize(path).map_err(told)?;
-    let permissions = fs::metadata(&path).map_err(told)?.permissions();
+    let in_words = |error: io::Error| os_words(&error);
+    let path = fs::canonicalize(path).map_err(in_words)?;
+    let permissions = fs::metadata(&path).map_err(in_words)?.permissions();
     if permissions.readonly() {
         return Err("it is write-protected: change its permissions first".to_owned());
     }
     let folder = path.parent().ok_or("it has no folder")?;
-    let mut file = passing_file(folder).map_err(told)?;
-    file.write_all(bytes).map_err(told)?;
-    file.as_file().set_permissions(permissions).map_err(told)?;
-    file.as_file().sync_all().map_err(told)?;
-    file.persist(&path).map_err(|error| told(error.error))?;
+    let mut file = passing_file(folder).map_err(in_words)?;
+    file.write_all(bytes).map_err(in_words)?;
+    file.as_file().set_permissions(permissions).map_err(in_words)?;
+    file.as_file().sync_all().map_err(in_words)?;
+    file.persist(&path).map_err(|error| in_words(error.error))?;
     Ok(())
 }
 
@@ -347,7 +347,7 @@ fn keep_earlier(path: &Path) -> io::Result<Option<TempPath>> {
     Ok(Some(copy))
 }
 
-/// Undoes renames after one has failed; returns what to tell.
+/// Undoes renames after one has failed; returns what to report.
 fn take_back(published: Vec<Published>, reason: String) -> String {
     let mut message = reason;
     for Published { path, earlier } in published.into_iter().rev() {

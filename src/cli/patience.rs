@@ -43,7 +43,7 @@ pub(super) fn help_budget(text: &str) -> Result<HelpBudget, String> {
         .map_err(|_| refuse())
 }
 
-/// Who waits at a terminal, or in an editor.
+/// The user who waits at a terminal or in an editor.
 pub(super) struct Waiting<'p, 'q> {
     budget: HelpBudget,
     progress: Option<&'p RefCell<&'q mut Progress>>,
@@ -120,7 +120,7 @@ impl Timer {
     }
 }
 
-/// Compiles a job for who waits for help only so long, and shows meanwhile what is done.
+/// Compiles a job for a user who waits for help only so long, and shows progress meanwhile.
 pub(super) fn compile(
     request: Request<'_>,
     memory: &mut Memory,

@@ -30,7 +30,7 @@ pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> E
     let placed = place::place(request, &asked, &mut |stage| progress.enter(stage));
     progress.finish();
     match placed {
-        Ok(placement) => tell(&placement, args.output.as_deref(), &disk, console),
+        Ok(placement) => report_placement(&placement, args.output.as_deref(), &disk, console),
         Err(Refusal::Unreadable(reason)) => console.failure(&Failure::new(format!(
             "cannot read the job {}: {reason}",
             args.job
@@ -43,7 +43,7 @@ pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> E
     }
 }
 
-fn tell(placement: &Placement, map: Option<&str>, disk: &Disk, console: &Console) -> Exit {
+fn report_placement(placement: &Placement, map: Option<&str>, disk: &Disk, console: &Console) -> Exit {
     let write = |path| {
         let path = Path::new(path);
         disk.spares(path)?;

@@ -57,14 +57,14 @@ impl Progress {
         self.leave();
         self.running = Some((stage, Instant::now()));
         if let Some(line) = &self.line {
-            line.tell(Event::Stage(stage));
+            line.send(Event::Stage(stage));
         }
     }
 
     /// The job is refused, and help is looked for.
     pub(super) fn refused(&self, headline: &str) {
         if let Some(line) = &self.line {
-            line.tell(Event::Refused(headline.to_owned()));
+            line.send(Event::Refused(headline.to_owned()));
         }
     }
 
@@ -109,7 +109,7 @@ impl ProgressLine {
         }
     }
 
-    fn tell(&self, event: Event) {
+    fn send(&self, event: Event) {
         if let Some(events) = &self.events {
             // Without a line there is nothing to show it on.
             let _ = events.send(event);
@@ -157,9 +157,9 @@ fn print(events: &Receiver<Event>) {
         stage: Stage::Reading,
         headline: None,
     };
-    let mut is_told = false;
+    let mut is_printed = false;
     loop {
-        let next = if is_told {
+        let next = if is_printed {
             events.recv().map_err(|_| RecvTimeoutError::Disconnected)
         } else {
             events.recv_timeout(LONG)
@@ -167,13 +167,13 @@ fn print(events: &Receiver<Event>) {
         match next {
             Ok(event) => {
                 shown.take(event);
-                is_told = false;
+                is_printed = false;
             }
             Err(RecvTimeoutError::Timeout) => {
                 let passed = start.elapsed().as_secs();
-                // Whoever stops reading has the answer to come all the same.
+                // The answer still comes when standard error is closed.
                 let _ = writeln!(io::stderr(), "{} ({passed} s so far)", shown.words());
-                is_told = true;
+                is_printed = true;
             }
             Err(RecvTimeoutError::Disconnected) => return,
         }
@@ -213,7 +213,7 @@ impl Shown {
     }
 }
 
-/// Waits until patience ends; none when the run ends before. Who learns that the job is refused does not wait as long.
+/// Waits until patience ends; none when the run ends before. The wait is shorter once the job is refused.
 fn wait_patiently(events: &Receiver<Event>, shown: &mut Shown) -> Option<()> {
     let start = Instant::now();
     let mut until = start + PATIENCE;

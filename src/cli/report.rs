@@ -169,7 +169,7 @@ fn exit(outcome: &Outcome) -> Exit {
     }
 }
 
-/// Writes the page, or tells why not.
+/// Writes the page, or reports why not.
 fn write(page: &str, to: &str, disk: &Disk, console: &Console) -> Result<Vec<Placed>, Exit> {
     if to == "-" {
         return match console.document(page) {

@@ -34,7 +34,7 @@ pub(super) struct Differences {
 /// What came of a program.
 #[derive(Default)]
 pub(super) struct Made {
-    /// What there is to tell besides.
+    /// Further diagnostics.
     pub(super) diagnostics: Vec<Diagnostic>,
     /// The files of a program that was written.
     pub(super) placed: Vec<Placed>,
@@ -212,7 +212,8 @@ fn earlier_bytes(path: &Path) -> Result<Option<Vec<u8>>, String> {
     }
 }
 
-/// The names in a folder; none for one that is not there. Those that are no text belong to nobody here.
+/// The names in a folder; none for one that is not there. Names that are not text do not belong to the
+/// compiler.
 pub(super) fn names_in(folder: &Path) -> Vec<String> {
     let Ok(entries) = fs::read_dir(folder) else {
         return Vec::new();

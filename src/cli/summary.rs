@@ -25,7 +25,7 @@ const MOST_FILES_LISTED: usize = 8;
 pub(super) struct Summary<'a> {
     /// The job's path as given.
     pub(super) job: &'a str,
-    /// What there was to tell.
+    /// What was reported.
     pub(super) diagnostics: &'a [Diagnostic],
     /// What was planned, a line each.
     pub(super) lines: &'a [String],
@@ -242,7 +242,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn many_files_are_told_in_one_line() {
+    fn many_files_are_reported_in_one_line() {
         let files: Vec<_> = (1..=20)
             .map(|n| Placed::Written(format!("p{n:03}.src")))
             .collect();

@@ -50,7 +50,7 @@ pub(super) fn describe(targets: &Targets, id: &str, console: &Console) -> Exit {
 }
 
 /// The backend that `--target` names, which can be asked. `asking` says what machine it is for; it is looked at only when there
-/// is no such target.
+/// is not such a target.
 pub(super) fn find<'d>(
     targets: &Targets,
     id: &str,
@@ -75,7 +75,7 @@ fn broken(id: &str, fault: &Fault) -> Failure {
     ))
 }
 
-/// What needs saying of a program that nobody here has read back.
+/// What has to be said of a program that has not been read back.
 pub(super) fn not_read_back(backend: &dyn Backend) -> Option<String> {
     let has_no_reader = backend.reader().is_none();
     has_no_reader.then(|| format!("not read back: target {} has no reader", backend.id()))

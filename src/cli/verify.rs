@@ -16,7 +16,7 @@ use vcutc_diff::family;
 use vcutc_driver::{self as driver, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
 use vcutc_readback::{Fresh, Reference, Verdict, Written};
 
-/// Compares and tells.
+/// Compares, and reports the result.
 ///
 /// Of the targets those that are linked in are asked whether they know the files. One that is a program of its own has to be named:
 /// it would be run to find out.
@@ -77,7 +77,7 @@ pub(super) fn verify(args: &VerifyArgs, linked: &Targets, targets: &Targets, con
     exit
 }
 
-/// Holds the files against the outcome's program. A job with errors has none; its errors are the verdict.
+/// Compares the files with the outcome's program. A job with errors has none; its errors are the verdict.
 fn compared(
     outcome: &mut Outcome,
     backend: &dyn Backend,

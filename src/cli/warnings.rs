@@ -14,7 +14,7 @@ pub(super) enum Warnings {
 }
 
 impl Warnings {
-    /// Whether what there is to tell keeps a run from writing anything.
+    /// Whether the diagnostics keep a run from writing anything.
     pub(super) fn refuse(&self, diagnostics: &[Diagnostic]) -> bool {
         has_errors(diagnostics)
             || match self {

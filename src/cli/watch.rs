@@ -1,9 +1,9 @@
 //! `vcutc watch JOB`: the job is compiled again whenever one of its files changes.
 //!
 //! Its files are those that the compiler asked for, found or not. After a change it waits until they stay as they are for a
-//! moment: editors save in several steps. A change while the job is being compiled ends that run: nobody wants to know any more.
-//! Programs are written as `vcutc JOB --target` does; with `--serve` the report is shown in a browser, which loads it anew by
-//! itself.
+//! moment: editors save in several steps. A change while the job is being compiled ends that run: its result
+//! is not needed any more. Programs are written as `vcutc JOB --target` does; with `--serve` the report is
+//! shown in a browser, which loads it again by itself.
 
 mod again;
 mod request;
@@ -115,9 +115,9 @@ impl Watch<'_> {
             } = self.once(signals, answered, &mut memory, console);
             match &came {
                 Came::Needless => {}
-                Came::Told | Came::Unwritten(_) => {
+                Came::Reported | Came::Unwritten(_) => {
                     answered = Instant::now();
-                    self.tell(&stamps, time, console);
+                    self.report_done(&stamps, time, console);
                 }
             }
             if attended == Attended::Interrupted || console.is_unheard() {
@@ -168,8 +168,8 @@ impl Watch<'_> {
         let mut pause = FIRST_RETRY;
         loop {
             let most = match &came {
-                Came::Told => None,
-                // What overtook it may have been taken back: it is owed an answer all the same.
+                Came::Reported => None,
+                // What overtook it may have been taken back: it still needs an answer.
                 Came::Needless => Some(Duration::ZERO),
                 Came::Unwritten(_) => Some(pause),
             };
@@ -186,8 +186,8 @@ impl Watch<'_> {
             came = self
                 .watched
                 .write_again(unwritten, console, &|seen| self.show(seen));
-            if let Came::Told = &came {
-                self.tell(stamps, start.elapsed(), console);
+            if let Came::Reported = &came {
+                self.report_done(stamps, start.elapsed(), console);
             }
         }
     }
@@ -217,7 +217,7 @@ impl Watch<'_> {
         });
     }
 
-    fn tell(&self, stamps: &Stamps, time: Duration, console: &Console) {
+    fn report_done(&self, stamps: &Stamps, time: Duration, console: &Console) {
         let address = self.server.as_ref().map(Server::address);
         let files = counted(stamps.count(), "file");
         let milliseconds = time.as_secs_f64() * 1e3;

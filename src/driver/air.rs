@@ -93,7 +93,7 @@ fn air_cut(
         least,
     };
     let program = lifted.reached()?;
-    let mut air = told(job, &compiled, program);
+    let mut air = compiled_air_cut(job, &compiled, program);
     // Torques above limits are reported for the cuts: an air cut goes the same ways, higher up.
     dynamics::add_torques_in_air(job, &mut air);
     Ok(air)
@@ -205,8 +205,8 @@ fn too_low(job: &CheckedJob, lift: Length, least: Length) -> Diagnostic {
     .help(format!("use `--air-cut {}mm`, or more", show(least.to_mm())))
 }
 
-/// What there is to tell of an air cut.
-fn told(job: &CheckedJob, cutting: &Compiled, program: Finished) -> Compiled {
+/// The air cut of a compiled job.
+fn compiled_air_cut(job: &CheckedJob, cutting: &Compiled, program: Finished) -> Compiled {
     let paced = paced(job, &program);
     let mut report = cutting.report.clone();
     report.times = times(program.verified(), &paced.times);

@@ -4,7 +4,7 @@
 //! faster than [`TIP_SPEED`] and [`TURNING_RATE`], and the generator off. Where the program that cuts switches the generator on,
 //! this one switches it off, so that it is off even where somebody left it running; waits for the generator are left out. That
 //! the blade stays above the stock is then a rule of the program's form (`Rule::AirCut`), and that the machine carries it out is
-//! proven anew, as for any other program. Nothing is cut, so nothing is said of chips and contour.
+//! proven again, as for any other program. Nothing is cut, so nothing is said of chips and contour.
 
 use vcutc_backend_api::ir::{AIR_ENDING, Action, FeedId, Op, Program, Purpose, RateId, Switch};
 use vcutc_backend_api::units::{AngularSpeed, Length, Speed};
@@ -128,7 +128,8 @@ fn capped<T: Copy + PartialEq>(
     places.collect()
 }
 
-/// A program that is no program of this compiler may refer to entries that do not exist, and still does afterwards.
+/// A program that is not from this compiler may refer to entries that do not exist, and still does
+/// afterwards.
 fn number_of(places: &[usize], id: usize) -> u16 {
     let place = places.get(id).copied().unwrap_or(usize::MAX);
     u16::try_from(place).unwrap_or(u16::MAX)

@@ -1,8 +1,8 @@
 //! A program that its machine follows only because all axes move at once in the place of many of its travels.
 //!
-//! Such a move is proven to stay out of the stock, but it is no line and takes longer than the travel, and the arm changes its
-//! posture each time. A few are what a large part may need; where they are many, another place of the work is mostly better, and
-//! whoever writes the job has to know.
+//! Such a move is proven to stay out of the stock, but it is not a line and takes longer than the travel, and
+//! the arm changes its posture each time. A few are what a large part may need; where they are many, another
+//! place of the work is mostly better, and the author of the job has to know.
 
 use vcutc_backend_api::ir::Action;
 use vcutc_diagnostics::{Code, Diagnostic};
@@ -12,7 +12,7 @@ use vcutc_motion::solve::Reached;
 /// So few are reported in the summary only.
 const FEW: usize = 10;
 
-/// What there is to tell where more than a quarter of the travels, and more than [`FEW`], are made with all axes.
+/// What to report where more than a quarter of the travels, and more than [`FEW`], are made with all axes.
 pub(super) fn many(job: &CheckedJob, reached: &Reached) -> Option<Diagnostic> {
     let machine = job.machine.as_ref()?;
     let changes = reached.report.changes.len();

@@ -395,7 +395,7 @@ fn without_machine() -> Vec<Checked> {
     all.map(|check| not_made(check, Reason::NoMachine)).to_vec()
 }
 
-/// Reach holds the rates of motions against those that are known.
+/// Reach compares the rates of motions with those that are known.
 fn kept_rate(axis: &Axis, index: usize, report: &ReachReport) -> Outcome {
     let measured = report.demand.rate.get(index);
     match (axis.rate, measured) {
@@ -436,7 +436,7 @@ fn branch(mechanism: &Mechanism) -> Option<Checked> {
     }
 }
 
-/// A parallelogram limits the angle between its arms besides the axes; sheets do not state it.
+/// A parallelogram limits the angle between its arms as well as the axes; sheets do not state it.
 fn elbow(mechanism: &Mechanism) -> Option<Checked> {
     match mechanism {
         Mechanism::OrthoParallel(arm) => match arm.coupling {

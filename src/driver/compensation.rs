@@ -95,7 +95,7 @@ fn compensated<'j>(
         Err(_) if run.wanted.is_needless() => Ended::Cancelled,
         Err(unreached) => Ended::Refused(Refused::Unreached(Box::new(NotCarriedOut {
             plan,
-            told: made.warnings,
+            warnings: made.warnings,
             unreached,
             cut_short: None,
         }))),

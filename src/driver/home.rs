@@ -66,8 +66,8 @@ fn untried(fix: &Fix) -> String {
     format!("{}; it was not tried", fix.title)
 }
 
-/// What there is to tell before anything is tried.
-fn at_once(told: &[Diagnostic]) -> Vec<Diagnostic> {
+/// What to report before anything is tried.
+fn at_once(diagnostics: &[Diagnostic]) -> Vec<Diagnostic> {
     let without_fixes = |one: &Diagnostic| {
         let mut one = one.clone();
         if one.code == Code::HomeOutsideLimits {
@@ -77,5 +77,5 @@ fn at_once(told: &[Diagnostic]) -> Vec<Diagnostic> {
         }
         one
     };
-    told.iter().map(without_fixes).collect()
+    diagnostics.iter().map(without_fixes).collect()
 }

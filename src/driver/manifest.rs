@@ -1,7 +1,7 @@
 //! The list of a repository's programs, `vcut.toml`, read with every fault at its place.
 //!
 //! It says which jobs are compiled for which targets into which folders, so that one command does, or checks, all of them.
-//! Nothing is looked up here: which files a pattern names is for who holds the files, which targets exist for who has them.
+//! Nothing is looked up here: the caller decides which files a pattern names and which targets exist.
 
 pub mod pattern;
 
@@ -291,7 +291,7 @@ fn output(section: &Table<'_>, faults: &mut Vec<Diagnostic>) -> Option<String> {
     }
 }
 
-/// The first word in braces that is none of ours.
+/// The first word in braces that is not known.
 fn unknown_blank(output: &str) -> Option<&str> {
     let mut rest = output;
     while let Some(open) = rest.find('{') {

@@ -6,8 +6,8 @@
 //!
 //! A stale answer cannot be used. Questions are compared by value; only what is left out of them on purpose could mislead,
 //! and that is little: of a job the places and the options of targets, which the planner does not read and which the plan is
-//! given anew, and of a program the places that its operations come from. A motion that was kept is besides compared with its
-//! program once more before anybody gets the two ([`again`]).
+//! given again, and of a program the places that its operations come from. A motion that was kept is also
+//! compared with its program once more before the two are given out ([`again`]).
 //!
 //! How much is kept is bounded by a number of cuts and ops in all. A memory without room keeps nothing, and costs nothing.
 
@@ -61,19 +61,19 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// A memory that keeps nothing: for who compiles once.
+    /// A memory that keeps nothing, for a single compilation.
     #[must_use]
     pub const fn none() -> Self {
         Self::with_room(0, None)
     }
 
-    /// A memory for who compiles again and again.
+    /// A memory for repeated compilations.
     #[must_use]
     pub fn of_some_runs() -> Self {
         Self::with_room(ROOM, Some(Surfaces::default()))
     }
 
-    /// The surfaces of files that were read before, for who checks a job; none without room.
+    /// The surfaces of files that were read before, for checks of a job; none without room.
     #[must_use]
     pub const fn surfaces(&self) -> Option<&Surfaces> {
         self.surfaces.as_ref()
@@ -111,7 +111,7 @@ impl Memory {
         if let Some(plan) = self.plans.find(&open) {
             return Ok(of(job, plan.clone()));
         }
-        // Refusals know their places, and are few: they are found anew.
+        // Refusals know their places, and are few: they are found again.
         let plan = plan::plan_while(job, space, wanted)?;
         if !wanted.is_needless() && is_of(job, &plan) {
             self.plans.keep(open, plan.clone(), size(&plan));

@@ -61,7 +61,7 @@ impl Numbers {
     }
 }
 
-/// A figure as it is read: less than nothing is none.
+/// A figure as it is read. A value below zero is refused.
 fn not_negative<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let value = f64::deserialize(deserializer)?;
     if value >= 0.0 {

@@ -1,6 +1,6 @@
-//! A job that is refused: what there is to tell at once, and then what helps.
+//! A job that is refused: what is reported at once, and then what helps.
 //!
-//! A refusal is known as soon as a plan, a proof or the machine has failed, and whoever waits learns of it then
+//! A refusal is known as soon as a plan, a proof or the machine has failed, and is reported then
 //! ([`Patience::refused`]). Changes that help are looked for afterwards, for as long as they are wanted: each costs a plan, and
 //! mostly a proof of the whole program. What is offered for a job with a machine has been compiled as the text that comes of it
 //! ([`super::trials`]).
@@ -19,11 +19,11 @@ use vcutc_process::verdict::{self, Proven};
 
 /// Who waits for an outcome, and for how long.
 pub trait Patience {
-    /// The job is refused, and this is what there is to tell but for changes that help. They are looked for afterwards, while
-    /// that is wanted.
+    /// The job is refused. These are the diagnostics without the changes that help, which are looked for
+    /// afterwards, while that is wanted.
     fn refused(&mut self, diagnostics: &[Diagnostic], sources: &SourceMap) -> Wanted;
 
-    /// What to say of a search for help that ended because it was not wanted any longer.
+    /// What to say of a search for help that ended because it was not wanted any more.
     fn cut_short(&self) -> Option<String>;
 
     /// The job is compiled, and its machine made it slow. Changes that save time are looked for afterwards, while that is wanted.
@@ -83,8 +83,8 @@ pub(super) enum Refused<'j> {
 /// A plan that the machine does not carry out.
 pub(super) struct NotCarriedOut {
     pub(super) plan: PlannedJob,
-    /// What there is to tell besides.
-    pub(super) told: Vec<Diagnostic>,
+    /// Further diagnostics.
+    pub(super) warnings: Vec<Diagnostic>,
     pub(super) unreached: Unreached,
     /// What to say of other plans that were tried.
     pub(super) cut_short: Option<String>,
@@ -93,13 +93,13 @@ pub(super) struct NotCarriedOut {
 /// A program that a target does not take.
 pub(super) struct NotTaken {
     pub(super) plan: PlannedJob,
-    /// What there is to tell besides.
+    /// Further diagnostics.
     pub(super) told: Vec<Diagnostic>,
     pub(super) objections: Vec<Objection>,
 }
 
 impl Refused<'_> {
-    /// What there is to tell, before anything is tried.
+    /// What is reported before anything is tried.
     pub(super) fn at_once(&self, job: &CheckedJob) -> Vec<Diagnostic> {
         match self {
             Self::Unplanned(complaints) => complaints.at_once(),
@@ -113,7 +113,7 @@ impl Refused<'_> {
             }),
             Self::ByTarget(refused) => {
                 let objections = refused.objections.iter();
-                let objections = objections.map(|objection| objection.told.clone());
+                let objections = objections.map(|objection| objection.diagnostic.clone());
                 refused.told.iter().cloned().chain(objections).collect()
             }
         }
@@ -166,14 +166,14 @@ impl NotCarriedOut {
         if let Some(words) = &mut words {
             words.notes.extend(self.cut_short.clone());
         }
-        self.told.iter().cloned().chain(words).collect()
+        self.warnings.iter().cloned().chain(words).collect()
     }
 }
 
 /// Leaves out offers that do not work when the job is compiled as it then reads. A diagnostic that loses all of them gets what it
 /// said at once.
 pub(super) fn tried(
-    told: Vec<Diagnostic>,
+    diagnostics: Vec<Diagnostic>,
     at_once: &[Diagnostic],
     works: &mut WorksThere<'_>,
 ) -> Vec<Diagnostic> {
@@ -196,5 +196,5 @@ pub(super) fn tried(
         }
         diagnostic
     };
-    told.into_iter().map(one).collect()
+    diagnostics.into_iter().map(one).collect()
 }

@@ -31,7 +31,7 @@ pub(super) enum Ended<'j> {
     /// It cannot be planned, is not sound, or its machine does not carry it out, along whatever route.
     Refused(Refused<'j>),
     Compiled(Made),
-    /// The answer is no longer wanted.
+    /// The answer is not wanted any more.
     Cancelled,
 }
 
@@ -153,7 +153,7 @@ impl<'j> Search<'j, '_, '_> {
         let is_usual = self.fallback.is_usual();
         let before_it = self.fallback.space();
         let goes_on = self.fallback.narrow(&this.plan, &this.unreached);
-        // What little is left depends on the swing: with another one the limit is chosen anew.
+        // What little is left depends on the swing: with another one the limit is chosen again.
         let space = self.fallback.space();
         if (space.swing, space.machine) != (before_it.swing, before_it.machine) {
             self.settled = None;
@@ -269,7 +269,7 @@ impl<'j> Search<'j, '_, '_> {
                 slowed: Some(slowed),
             }) if !self.keeps_limits(&plan, &program, &slowed) => Err(Box::new(NotCarriedOut {
                 plan,
-                told: warnings,
+                warnings,
                 unreached: Unreached::Unreachable(Box::new(slowed.unreachable)),
                 cut_short: None,
             })),
@@ -286,7 +286,7 @@ impl<'j> Search<'j, '_, '_> {
             }
             Err(unreached) => Err(Box::new(NotCarriedOut {
                 plan,
-                told: warnings,
+                warnings,
                 unreached,
                 cut_short: None,
             })),

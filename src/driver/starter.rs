@@ -81,7 +81,7 @@ impl Setup {
 /// The text of a first job. With a machine it has been compiled, home, frames and all.
 ///
 /// # Errors
-/// When the name is none for a job, or the machine cannot cut what the job cuts.
+/// When the name is not valid for a job, or the machine cannot cut what the job cuts.
 pub fn job(asked: &Asked<'_>) -> Result<String, Refusal> {
     let Some(model) = asked.model else {
         let text = text::without_machine(asked.name);

@@ -36,8 +36,8 @@ pub fn summary(
     let mut lines = vec![headline(plan, report, basis, reach)];
     lines.push(row("per layer", &cuts_per_layer(report)));
     for planned in &plan.operations {
-        let told = planned.summary(report).into_iter();
-        lines.extend(told.map(|(name, text)| row(name, &text)));
+        let rows = planned.summary(report).into_iter();
+        lines.extend(rows.map(|(name, text)| row(name, &text)));
     }
     lines.push(row("time", &times::in_all(&report.times.all)));
     lines.push(row("basis", &times::basis(basis)));
@@ -371,7 +371,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_model_is_held_against_the_planned_time() {
+    fn the_model_is_compared_with_the_planned_time() {
         let shown = |estimate: f64, planned: f64| {
             against(Duration::s(estimate), Duration::s(planned), |_| {
                 ": why".to_owned()

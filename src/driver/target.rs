@@ -52,14 +52,17 @@ fn unknown_target(block: &TargetOptions, known: &[&str]) -> Diagnostic {
 
 /// What a target of the job's machine does not take.
 pub(super) struct Objection {
-    pub(super) told: Diagnostic,
+    pub(super) diagnostic: Diagnostic,
     /// The speeds that decide it, and by which factor they are off.
     off: Option<speeds::Off>,
 }
 
 impl From<Diagnostic> for Objection {
-    fn from(told: Diagnostic) -> Self {
-        Self { told, off: None }
+    fn from(diagnostic: Diagnostic) -> Self {
+        Self {
+            diagnostic,
+            off: None,
+        }
     }
 }
 
@@ -73,7 +76,7 @@ pub(super) fn objections(job: &CheckedJob, compiled: &Compiled, request: Request
     let is_asked = |backend: &&&dyn Backend| {
         backend.origin() == Origin::Linked
             && block(job.machine.as_ref(), backend.id()).is_some()
-            // Who writes for a target hears from that one.
+            // A run for one target reports the objections of that target.
             && request.options.target.is_empty()
     };
     let program = reached.program.program();
@@ -81,8 +84,8 @@ pub(super) fn objections(job: &CheckedJob, compiled: &Compiled, request: Request
     for &backend in request.targets.iter().filter(is_asked) {
         let options = match options(job, backend) {
             Ok(options) => options,
-            Err(told) => {
-                all.extend(told.into_iter().map(Objection::from));
+            Err(diagnostics) => {
+                all.extend(diagnostics.into_iter().map(Objection::from));
                 continue;
             }
         };
@@ -94,7 +97,7 @@ pub(super) fn objections(job: &CheckedJob, compiled: &Compiled, request: Request
         }
         issues.retain(is_of_program);
         all.extend(issues.iter().map(|issue| Objection {
-            told: objection(job, backend, program, issue, &[]),
+            diagnostic: objection(job, backend, program, issue, &[]),
             off: speeds::Off::of(job, program, issue),
         }));
     }
@@ -275,7 +278,8 @@ fn unknown_option(given: &GivenOption, backend: &dyn Backend) -> Diagnostic {
     }
 }
 
-/// What the program needs and the target does not have at all; of a machine that it does not drive, that alone is told.
+/// What the program needs and the target does not have at all; of a machine that it does not drive, that
+/// alone is reported.
 pub(super) fn missing(backend: &dyn Backend, program: &VerifiedProgram) -> Vec<BackendIssue> {
     let cell = program.program().cell.as_ref();
     if cell.is_some_and(|cell| backend.mismatch(cell.kind, cell.maker).is_some()) {
@@ -549,7 +553,8 @@ fn unfit_profile(target: &str, key: &str, why: &str, profile: Span) -> Diagnosti
     )
 }
 
-/// What is said of an option that the machine's block does not give; of what is no option of the target, only why.
+/// What is said of an option that the machine's block does not give; of what is not an option of the target,
+/// only why.
 fn unfit_default(backend: &dyn Backend, key: &str, why: &str, machine: Span) -> Diagnostic {
     let message = format!("option `{key}` does not fit: {why}");
     let Some(spec) = backend.options().iter().find(|spec| spec.key == key) else {

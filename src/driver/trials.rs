@@ -42,14 +42,14 @@ impl<'t> Trials<'t> {
     pub(super) fn of(
         request: Request<'t>,
         sources: &'t SourceMap,
-        told: &[Diagnostic],
+        diagnostics: &[Diagnostic],
         machine: Machine,
         wanted: &Wanted,
     ) -> Self {
         Self {
             request,
             sources,
-            errors: told.iter().map(named).collect(),
+            errors: diagnostics.iter().map(named).collect(),
             budget: Budget::new(Size::TEXTS, wanted),
             known: Vec::new(),
             machine,
@@ -90,9 +90,16 @@ impl<'t> Trials<'t> {
             below: self.request.loader,
         };
         let choices = self.request.choices();
-        let (mut sources, mut told) = (SourceMap::default(), Vec::new());
-        let (_, job) = sema::check(self.request.path, &loader, choices, &mut sources, &mut told).ok()?;
-        let job = job.filter(|_| !has_errors(&told))?;
+        let (mut sources, mut diagnostics) = (SourceMap::default(), Vec::new());
+        let (_, job) = sema::check(
+            self.request.path,
+            &loader,
+            choices,
+            &mut sources,
+            &mut diagnostics,
+        )
+        .ok()?;
+        let job = job.filter(|_| !has_errors(&diagnostics))?;
         let mut run = Run {
             memory: &mut Memory::none(),
             wanted: &self.budget.wanted,
@@ -106,7 +113,7 @@ impl<'t> Trials<'t> {
                 let objections = target::objections(&job, &made.compiled, self.request);
                 let left = objections
                     .iter()
-                    .map(|objection| named(&objection.told))
+                    .map(|objection| named(&objection.diagnostic))
                     .collect();
                 (Some(*made.plan), left)
             }

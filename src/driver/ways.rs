@@ -61,8 +61,8 @@ pub(super) struct Decided {
     pub(super) made: Option<Made>,
 }
 
-/// Makes the choices that a job leaves open, one after the other; none where it leaves none open, or the answer is no longer
-/// wanted.
+/// Makes the choices that a job leaves open, one after the other; none where it leaves none open, or the
+/// answer is not wanted.
 pub(super) fn decided(
     job: &CheckedJob,
     sources: &SourceMap,

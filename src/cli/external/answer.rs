@@ -8,7 +8,7 @@ use vcutc_backend_api::ir::OpId;
 use vcutc_backend_api::protocol::{Emitted, Problem, Said};
 use vcutc_backend_api::readback::ProgramFile;
 
-/// Most problems of a reply that are told.
+/// Most problems of a reply that are reported.
 const MOST_PROBLEMS: usize = 20;
 
 /// Most files of a program.

@@ -9,7 +9,7 @@ const MOST_LINES: usize = 5;
 /// Most letters of a line that comes from a program.
 const MOST_LETTERS: usize = 200;
 
-/// A fault; `what` stands behind "the program".
+/// A fault; `what` stands after "the program".
 pub(super) fn fault(what: impl Into<String>) -> Fault {
     Fault {
         op: None,

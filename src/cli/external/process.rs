@@ -1,7 +1,8 @@
 //! One question to one process: bounded in time and in the size of the reply, whatever the program does.
 //!
 //! The three pipes are served by a thread each, so that a program which writes before it has read everything, or never reads,
-//! stops nobody. The threads are not waited for: a child of the program that keeps a pipe open must not keep the compiler.
+//! does not block the compiler. The threads are not waited for: a child of the program that keeps a pipe open
+//! must not keep the compiler.
 
 use super::fault::{fault, last_lines};
 use std::io::{self, ErrorKind, Read, Write};
@@ -52,7 +53,7 @@ pub(super) fn ask(program: &Path, question: Vec<u8>, limits: Limits) -> Result<V
     let mut child = start(program)?;
     let (sender, receiver) = channel();
     if let Some(mut stdin) = child.stdin.take() {
-        // Who does not read the question to its end may answer all the same.
+        // A program that does not read the question to its end may still answer.
         thread::spawn(move || stdin.write_all(&question));
     }
     if let Some(stdout) = child.stdout.take() {

@@ -190,7 +190,7 @@ fn stance(model: &Model, branch: Branch, joints: &Joints) -> Vec<String> {
     words
 }
 
-/// What tells the turns of a way to stand apart, in the terms of the controller.
+/// What distinguishes the turns of a way to stand, in the terms of the controller.
 fn turns(model: &Model, branch: Branch, joints: &Joints) -> Option<String> {
     let Mechanism::OrthoParallel(_) = &model.mechanism else {
         return None;

@@ -4,7 +4,7 @@
 use super::stamps::{Asked, Recorder};
 use crate::cli::Targets;
 use crate::cli::args::WatchArgs;
-use crate::cli::compile::{Product, make, nothing, program_of, tell, unreadable};
+use crate::cli::compile::{Product, make, nothing, program_of, report_outcome, unreadable};
 use crate::cli::console::{Console, Failure};
 use crate::cli::files::Disk;
 use crate::cli::meant::{Driven, pointless_output};
@@ -24,7 +24,7 @@ pub(super) struct Watched<'a> {
     product: Product,
 }
 
-/// What a run needs besides.
+/// What else a run needs.
 pub(super) struct Means<'m> {
     /// Which files it asks for.
     pub(super) asked: &'m Asked,
@@ -46,7 +46,7 @@ pub(super) enum Seen<'s> {
 /// How a run ended.
 pub(super) enum Came {
     /// All is done and reported.
-    Told,
+    Reported,
     /// It was overtaken, and nothing is reported.
     Needless,
     /// All is reported, but the program is not written.
@@ -113,7 +113,7 @@ impl<'a> Watched<'a> {
                 let failure = unreadable(self.job(), &reason);
                 see(&Seen::Unreadable(&failure));
                 console.fruitless(&failure, &self.summary(None, &[]));
-                return Came::Told;
+                return Came::Reported;
             }
             Ok(Ok(outcome)) => outcome,
         };
@@ -122,8 +122,8 @@ impl<'a> Watched<'a> {
         let timings = progress.finish();
         match made {
             Ok(made) => {
-                tell(self.job(), &outcome, &made, &timings, &self.product, console);
-                Came::Told
+                report_outcome(self.job(), &outcome, &made, &timings, &self.product, console);
+                Came::Reported
             }
             Err(failure) => {
                 see(&Seen::Outcome(&outcome, Some(&failure)));
@@ -158,7 +158,7 @@ impl<'a> Watched<'a> {
             Ok(made) => {
                 see(&Seen::Outcome(outcome, None));
                 console.clear_screen();
-                tell(
+                report_outcome(
                     self.job(),
                     outcome,
                     &made,
@@ -166,7 +166,7 @@ impl<'a> Watched<'a> {
                     &self.product,
                     console,
                 );
-                Came::Told
+                Came::Reported
             }
             Err(failure) => {
                 if failure != unwritten.failure {

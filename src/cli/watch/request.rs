@@ -11,7 +11,7 @@ pub(super) const LONGEST_HEAD: usize = 8 << 10;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Asked {
     Page,
-    /// To learn when the page is no longer of this version.
+    /// To learn when the page is not of this version any more.
     Changes {
         version: String,
     },
@@ -36,7 +36,7 @@ pub(super) enum Extent {
 /// Why a request is not answered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Refused {
-    /// It is no request of HTTP.
+    /// It is not an HTTP request.
     Malformed,
     /// It does not name this server.
     Stranger,

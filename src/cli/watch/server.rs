@@ -1,4 +1,5 @@
-//! The report in a browser: a server for this machine alone, with a page that is loaded anew when the job has changed.
+//! The report in a browser: a server for this machine alone, with a page that is loaded again when the job
+//! has changed.
 //!
 //! It listens on 127.0.0.1, answers `GET` and `HEAD` of two addresses, and reads no file: all it can give away is the page. Requests
 //! are bounded in length and time, and so is how many are answered at once. A page asks `/changes` with its version and learns
@@ -18,7 +19,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 const MOST_AT_ONCE: usize = 24;
 /// How long a request may take to arrive, and a piece of an answer to be taken.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// How much of what nobody asked for is read.
+/// How much input is read that was not asked for.
 #[derive(Clone, Copy)]
 struct Drained {
     /// Most pieces of a KiB.
@@ -92,7 +93,7 @@ impl Server {
         &self.address
     }
 
-    /// Shows the page that `make` makes for its version, and tells all pages that wait for it.
+    /// Shows the page that `make` makes for its version, and notifies all pages that wait for it.
     pub(super) fn show(&self, make: impl FnOnce(String) -> String) {
         let count = self.shared.shown().count + 1;
         let page = Arc::new(make(self.shared.version(count)));

@@ -12,9 +12,10 @@ use vcutc_cancellation::Interest;
 const SETTLED: Duration = Duration::from_millis(10);
 /// The same while one of them is missing: some editors take a file away before they put the new one in its place.
 const SETTLED_WITHOUT_FILE: Duration = Duration::from_millis(400);
-/// Files that never stay as they are are read all the same after so long.
+/// Files that keep changing are still read after so long.
 const LONGEST_UNREST: Duration = Duration::from_secs(2);
-/// After so long without an answer a run is no longer given up for a change: files that change all the time are answered, too.
+/// After so long without an answer a change does not end a run any more: files that change all the time get
+/// an answer, too.
 const LONGEST_SILENCE: Duration = Duration::from_secs(30);
 
 /// Something that does not come from files.
@@ -32,7 +33,7 @@ pub(super) struct Signals {
     is_busy: Arc<AtomicBool>,
 }
 
-/// Tells the end of a run when it is dropped, so that no run ends unheard.
+/// Reports the end of a run when it is dropped, so that no run ends unnoticed.
 pub(super) struct Bell {
     sender: Sender<Event>,
     is_busy: Arc<AtomicBool>,
@@ -66,10 +67,10 @@ impl Signals {
         let is_busy = Arc::new(AtomicBool::new(false));
         let busy = Arc::clone(&is_busy);
         let was_asked = AtomicBool::new(false);
-        let told = sender.clone();
+        let interrupts = sender.clone();
         let on_signal = move || {
             let is_second = was_asked.swap(true, Ordering::SeqCst);
-            let is_waiting = told.send(Event::Interrupted).is_ok();
+            let is_waiting = interrupts.send(Event::Interrupted).is_ok();
             if !is_waiting || (is_second && busy.load(Ordering::SeqCst)) {
                 std::process::exit(130);
             }
@@ -165,7 +166,7 @@ impl Signals {
 impl Drop for Bell {
     fn drop(&mut self) {
         self.is_busy.store(false, Ordering::SeqCst);
-        // Without ears there is nobody to tell.
+        // Without a receiver there is nothing to report to.
         let _ = self.sender.send(Event::Ended);
     }
 }

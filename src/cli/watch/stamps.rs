@@ -1,9 +1,10 @@
 //! Which files a run asked for, and whether they are still as they were.
 //!
 //! Stamps are looked at again and again, instead of asking the system to report changes: that also works on shares of a
-//! network, where systems tell nothing; it does not matter whether an editor writes a file, renames another one over it or
-//! makes a new one; and a file that is not there yet has a stamp as well. A job has a handful of files, so that looking costs
-//! next to nothing; where it is slow it is done less often ([`Pause`]).
+//! network, where systems do not report changes; it does not matter whether an editor writes a file, renames
+//! another one over it or makes a new one; and a file that is not there yet has a stamp as well. A job has a
+//! handful of files, so that looking costs next to nothing; where it is slow it is done less often
+//! ([`Pause`]).
 
 use std::collections::BTreeMap;
 use std::fs::{self, Metadata};
@@ -11,7 +12,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 use vcutc_diagnostics::source::{Entry, LoadError, Loader};
 
-/// What tells one version of a file from another; none for a file that is not there.
+/// What distinguishes two versions of a file; none for a file that is not there.
 type Stamp = Option<Version>;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +48,7 @@ fn stamp(path: &str) -> Stamp {
     })
 }
 
-/// The files that a run has asked for so far, for who follows it from another thread.
+/// The files that a run has asked for so far, for an observer on another thread.
 #[derive(Default)]
 pub(super) struct Asked(Mutex<BTreeMap<String, Stamp>>);
 
@@ -124,7 +125,7 @@ impl Stamps {
 /// Shortest time between two looks at the files.
 const SHORTEST: Duration = Duration::from_millis(5);
 const LONGEST: Duration = Duration::from_secs(2);
-/// How many times as long as a look the pause behind it is.
+/// How many times as long as a look the pause after it is.
 const IDLE: u32 = 20;
 
 /// How long to wait before the next look: at most a twentieth of the time goes into looking.
@@ -150,7 +151,7 @@ impl Pause {
     }
 }
 
-/// The pause behind a look that took so long.
+/// The pause after a look that took so long.
 fn after(look: Duration) -> Duration {
     look.saturating_mul(IDLE).clamp(SHORTEST, LONGEST)
 }

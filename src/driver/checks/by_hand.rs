@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_checked_is_left_to_nobody() {
+    fn what_was_checked_is_not_left_to_be_checked() {
         let checks = Checks(vec![
             super::super::made(Check::Chips),
             super::super::made(Check::Part),

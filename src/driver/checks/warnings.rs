@@ -10,7 +10,8 @@ use vcutc_motion::solve::Reached;
 
 impl Checks {
     /// The warnings of a job on its machine: all that keeps it from counting as proven. What no job has checked, such as
-    /// collisions, is named among what is not checked, and is not warned of: nobody reads a warning that comes with every job.
+    /// collisions, is named among what is not checked, and is not warned of: a warning that comes with every
+    /// job is not read.
     #[must_use]
     pub fn warnings(&self, machine: &Machine, reached: &Reached) -> Vec<Diagnostic> {
         let not_made = self.iter().filter(|checked| checked.outcome != Outcome::Made);
@@ -33,14 +34,14 @@ impl Checks {
             1 => ("speed limit", "is", "it"),
             _ => ("speed limits", "are", "them"),
         };
-        let told = Diagnostic::new(
+        let diagnostic = Diagnostic::new(
             Code::RatesNotChecked,
             format!("the {rates} of {axes} {are} not known, so no motion was checked against {them}"),
             machine.model_span,
             format!("its description states no {rates} of {axes}"),
         );
         Some(
-            told.note("a motion that is too fast for an axis is slowed down or stopped by the controller, or leaves its line")
+            diagnostic.note("a motion that is too fast for an axis is slowed down or stopped by the controller, or leaves its line")
                 .help(remedy(machine, name)),
         )
     }
@@ -55,7 +56,7 @@ fn elbow_angle(machine: &Machine, reached: &Reached) -> Diagnostic {
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), angle| {
             (low.min(angle), high.max(angle))
         });
-    let told = Diagnostic::new(
+    let diagnostic = Diagnostic::new(
         Code::MotionNotChecked,
         "the angle between the arms, J3 - J2, was not checked",
         machine.model_span,
@@ -63,13 +64,13 @@ fn elbow_angle(machine: &Machine, reached: &Reached) -> Diagnostic {
     )
     .note("a controller that finds this angle out of its range stops with an error");
     if low <= high {
-        told.help(format!(
+        diagnostic.help(format!(
             "compare with the data sheet: at the ends of the motions of this program, J3 - J2 ranges from {:.1} to {:.1} deg",
             low.to_degrees(),
             high.to_degrees()
         ))
     } else {
-        told
+        diagnostic
     }
 }
 

@@ -17,7 +17,7 @@ impl Pattern {
     /// Reads a pattern.
     ///
     /// # Errors
-    /// Why it is none, as half a sentence.
+    /// Why it is not a pattern, as half a sentence.
     pub fn new(text: &str) -> Result<Self, &'static str> {
         if text.is_empty() {
             return Err("this one is empty");
@@ -121,7 +121,7 @@ fn all_match<W, G>(
     is_same: impl Fn(&W, &G) -> bool,
 ) -> bool {
     let (mut next, mut at) = (0, 0);
-    // Behind the last element that stands for any number, and how far that one has got.
+    // The place after the last element that stands for any number, and how far that one has got.
     let mut again: Option<(usize, usize)> = None;
     while let Some(element) = given.get(at) {
         match wanted.get(next) {
@@ -138,9 +138,9 @@ fn all_match<W, G>(
             Some(_) | None => {}
         }
         match again {
-            Some((behind, reached)) if given.get(reached).is_some_and(&may_pass) => {
-                again = Some((behind, reached + 1));
-                (next, at) = (behind, reached + 1);
+            Some((after, reached)) if given.get(reached).is_some_and(&may_pass) => {
+                again = Some((after, reached + 1));
+                (next, at) = (after, reached + 1);
             }
             Some(_) | None => return false,
         }

@@ -53,7 +53,7 @@ fn a_section_says_all_there_is_to_say() {
 }
 
 #[test]
-fn every_fault_is_told_at_its_place() {
+fn every_fault_is_reported_at_its_place() {
     let cases = [
         ("jobs = [", "job = [", "job"),
         ("[\"krl\", \"rapid\"]", "3", "3"),
@@ -107,7 +107,7 @@ fn hostile_lists_end_in_faults() {
 }
 
 #[test]
-fn a_baseline_is_read_and_its_faults_are_told() {
+fn a_baseline_is_read_and_its_faults_are_reported() {
     let list = |section: &str| format!("{SMALL}\n[baseline]\n{section}");
     let baseline = parse(&list(
         "file = \"numbers.json\"\nscallop = \"0.5%\"\ntime = \"2 %\"",

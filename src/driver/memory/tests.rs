@@ -148,7 +148,8 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(6))]
 
-    /// Wherever a run is given up, nobody gets what it came to, and the next one is not misled by what it left.
+    /// Wherever a run is given up, its result is not given out, and the next run is not misled by what it
+    /// left.
     #[test]
     fn what_is_given_up_leaves_nothing_wrong(
         start in prop::array::uniform12(0..4_usize),

@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn faults_are_told_at_their_places() {
+    fn faults_are_reported_at_their_places() {
         let text = write(vec![record("a.vcut"), record("b.vcut")]);
         for (old, new) in [("\"cuts\":112", "\"cuts\":-1"), ("]\n", "\n"), ("time_s", "t")] {
             let broken = text.replacen(old, new, 1);

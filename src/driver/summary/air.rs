@@ -22,10 +22,10 @@ pub struct AirFigures {
     pub machine: Mover,
 }
 
-/// Who moves the blade.
+/// What moves the blade.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mover {
-    /// Nobody: the job has no machine.
+    /// Nothing: the job has no machine.
     None,
     /// A machine that stands as it does in the program that cuts.
     StandsAlike,

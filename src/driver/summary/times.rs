@@ -171,7 +171,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_not_timed_as_the_rest_is_told() {
+    fn what_is_not_timed_as_the_rest_is_reported() {
         let basis = |untimed, unfollowed| {
             self::basis(Basis {
                 kept: Kept::Jerks,

@@ -81,8 +81,10 @@ fn rounded(value: f64, from: f64) -> f64 {
 
 /// An objection with the first speed that the target takes and the machine follows.
 pub(crate) fn with_help(objection: &Objection, works: &mut WorksThere<'_>) -> Diagnostic {
-    let told = objection.told.clone();
-    let Some(off) = &objection.off else { return told };
+    let diagnostic = objection.diagnostic.clone();
+    let Some(off) = &objection.off else {
+        return diagnostic;
+    };
     let candidates = off.speeds.iter().flat_map(|stated| {
         FARTHER.map(|farther| {
             let factor = if off.factor > 1.0 {
@@ -96,12 +98,12 @@ pub(crate) fn with_help(objection: &Objection, works: &mut WorksThere<'_>) -> Di
     for (stated, value) in candidates.filter(|(_, value)| *value > 0.0) {
         let text = format!("{} {}", show(value), stated.unit);
         if works(&[(stated.span, text.clone())]) {
-            let mut told = told;
-            told.help.clear();
-            return told.fix(format!("use `{} = {text}`", stated.field), stated.span, text);
+            let mut diagnostic = diagnostic;
+            diagnostic.help.clear();
+            return diagnostic.fix(format!("use `{} = {text}`", stated.field), stated.span, text);
         }
     }
-    told
+    diagnostic
 }
 
 #[cfg(test)]
