@@ -267,7 +267,7 @@ fn is_times(sign: char) -> bool {
     matches!(sign, 'x' | 'X' | '\u{d7}' | '*')
 }
 
-/// Three lengths; a unit behind the last holds for those before it without one.
+/// Three lengths; a unit after the last holds for those before it without one.
 fn three(
     option: &'static str,
     text: &str,

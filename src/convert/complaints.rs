@@ -240,7 +240,7 @@ pub(super) fn speed_unknown(place: Span) -> Box<Diagnostic> {
 
 const COORDINATES: &str = "coordinates are those of the job: x across the passes, y along them, z up, from the blank's lowest corner";
 
-/// A motion in the material that is no pass.
+/// A motion in the material that is not a pass.
 pub(super) fn no_pass(stretch: &Stretch<'_>) -> Diagnostic {
     let ([x0, y0, z0], [x1, y1, z1]) = (stretch.from, stretch.to);
     let headline = match stretch.kind {

@@ -1,4 +1,4 @@
-//! Speeds of a milling program. KRL takes metres a second; post processors write other units all the same.
+//! Speeds of a milling program. KRL takes metres a second; post processors still write other units.
 
 use super::Inference;
 use super::asked::{Asked, FeedUnit};

@@ -151,7 +151,7 @@ fn ends_early(place: Span) -> Diagnostic {
     .help("compare the file with that of the CAM system; if it is whole, write `END` after this line")
 }
 
-/// A routine that nobody calls.
+/// A routine that is never called.
 fn uncalled(place: Span) -> Diagnostic {
     Diagnostic::new(
         Code::LeftOut,

@@ -8,8 +8,8 @@
 //! 1. [`read`](self) follows the statements of the program to its motions ([`milling`]), by the syntax of the KRL crate; `motions`
 //!    says where they lead, `frames` in which tool and base.
 //! 2. `runs` puts together what leads along one axis, [`place`] finds out along which one and where the blank lies, [`raster`]
-//!    which runs are passes, [`plunges`] what goes into the blank without one; `left_out` tells what is none, `offers` tries the
-//!    options that would settle what is open.
+//!    which runs are passes, [`plunges`] what goes into the blank without one; `left_out` says what is not a
+//!    pass, `offers` tries the options that would settle what is open.
 //! 3. `feeds` and `part` take speeds, the part and the least edge from the passes where the user gives none.
 //! 4. [`mod@write`] writes the job, and knows for every tip the line of the program that it stands for.
 //!
@@ -192,12 +192,13 @@ pub fn convert(request: Request<'_>) -> Result<Conversion, Refused> {
     }
 }
 
-/// A text without the mark of UTF-8 at its head, and without the marks of DOS (Ctrl-Z) at its end: they are no statements.
+/// A text without the mark of UTF-8 at its head, and without the marks of DOS (Ctrl-Z) at its end: they are
+/// not statements.
 fn without_marks(text: &str) -> &str {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let trimmed = text.trim_end_matches(|c: char| c == END_OF_FILE || c.is_whitespace());
-    let behind = text.get(trimmed.len()..).unwrap_or_default();
-    if behind.contains(END_OF_FILE) {
+    let after = text.get(trimmed.len()..).unwrap_or_default();
+    if after.contains(END_OF_FILE) {
         trimmed
     } else {
         text
@@ -384,7 +385,7 @@ fn standing(milling: &Milling) -> Option<Inference> {
     })
 }
 
-/// How high the safe plane lies above the blank, and who says so.
+/// How high the safe plane lies above the blank, and what says so.
 #[derive(Clone, Copy)]
 enum Clearance {
     Said(Length),

@@ -1,5 +1,5 @@
 //! What a milling program says, as far as a conversion needs it: motions with places, speeds and attitudes, and the
-//! statements that are none of these.
+//! statements that are not motions.
 
 use vcutc_backend_api::arc::CircularArc;
 use vcutc_backend_api::geometry::Orientation;
@@ -23,7 +23,7 @@ pub struct Milling {
     pub external: Vec<(&'static str, f64)>,
     /// Where routines that are carried out break off without `END`.
     pub ends_early: Vec<Span>,
-    /// Routines with motions that nobody calls.
+    /// Routines with motions that are never called.
     pub uncalled: Vec<Span>,
 }
 
@@ -50,7 +50,7 @@ impl Milling {
 pub struct Move {
     pub place: Span,
     pub way: Way,
-    /// Where it ends: x, y, z in the program's base, in mm. None where nobody knows, as behind axis moves.
+    /// Where it ends: x, y, z in the program's base, in mm. None where it is not known, as after axis moves.
     pub to: Option<[f64; 3]>,
     /// How the tool is held at its end, if the program says so.
     pub attitude: Option<Orientation>,
@@ -65,7 +65,7 @@ pub enum Way {
     Straight,
     /// On a circular arc: `CIRC`, `SCIRC`.
     Arc {
-        /// The arc, stated as the motion's end is; none where nobody knows.
+        /// The arc, stated as the motion's end is; none where it is not known.
         course: Option<CircularArc>,
     },
     /// As all axes like it: `PTP`, `SPTP`.

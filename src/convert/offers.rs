@@ -1,5 +1,5 @@
-//! Options that would settle what a program leaves open. Each is tried before it is offered: what a message tells to write
-//! works.
+//! Options that would settle what a program leaves open. Each is tried before it is offered: what a message
+//! says to write works.
 
 use super::asked::Asked;
 use super::axes::{Axis, Direction, Sense};
@@ -12,7 +12,7 @@ use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::number::show;
 use vcutc_geometry::grid;
 
-/// A program that is no raster as it is read, and what may make it one.
+/// A program that is not a raster as it is read, and what may make it one.
 pub(super) struct Unsettled {
     /// What is wrong. The first is what the offers are for.
     pub(super) diagnostics: Vec<Diagnostic>,
@@ -50,7 +50,7 @@ impl From<Box<Diagnostic>> for Unsettled {
 }
 
 impl Unsettled {
-    /// With offers behind those that there are.
+    /// With offers after those that there are.
     pub(super) fn offering(mut self, offers: impl IntoIterator<Item = Offer>) -> Self {
         self.offers.extend(offers);
         self
@@ -91,10 +91,10 @@ fn working(offers: Vec<Offer>, milling: &Milling, asked: &Asked) -> Vec<Offer> {
     working
 }
 
-/// More ways to go on are none.
+/// With more ways to go on, none is offered.
 const MOST_OFFERS: usize = 4;
 
-/// Tolerances that are tried where a program is no raster, in mm.
+/// Tolerances that are tried where a program is not a raster, in mm.
 const COARSER: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
 
 /// The least tolerance by which the program is a raster, if it is noise that keeps it from being one.

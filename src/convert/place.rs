@@ -49,12 +49,12 @@ pub(super) fn axes(
         return Err(Unsettled::from(complaints::nothing_straight(milling)).offering(other_ways_up(asked)));
     }
     if longer < shorter * CLEARLY {
-        let told = complaints::both_ways(
+        let complaint = complaints::both_ways(
             milling,
             (one, first, longest(&ones)),
             (other, second, longest(&others)),
         );
-        return Err(Unsettled::from(told).offering([one, other].map(runs_along)));
+        return Err(Unsettled::from(complaint).offering([one, other].map(runs_along)));
     }
     let axes = Axes::new(along, up);
     if along != Axis::Y || up != Direction::along(Axis::Z) {
@@ -280,8 +280,8 @@ impl Field<'_> {
         let sides = sides(xs, axis);
         if sides.is_empty() {
             let when = format!("if the passes lie in the middle of the blank in {letter}");
-            let told = complaints::unclear_place(milling, axis, xs, ends);
-            return Unsettled::from(told).offering([offer(when, centred(xs, axis.1))]);
+            let complaint = complaints::unclear_place(milling, axis, xs, ends);
+            return Unsettled::from(complaint).offering([offer(when, centred(xs, axis.1))]);
         }
         let offers = sides.into_iter().map(|end| {
             let when = format!("if the file's zero lies {} in {letter}", end.words);
@@ -294,8 +294,8 @@ impl Field<'_> {
 /// Passes that are shorter than the blank is deep.
 fn too_short(milling: &Milling, passes: &[Run], [least, most]: [f64; 2], asked: &Asked) -> Unsettled {
     let [width, depth, height] = asked.stock;
-    let told = complaints::too_short(milling, longest(passes), most - least, depth);
-    Unsettled::from(told).offering([Offer {
+    let complaint = complaints::too_short(milling, longest(passes), most - least, depth);
+    Unsettled::from(complaint).offering([Offer {
         when: "if width and depth are the other way round".to_owned(),
         option: Choice::Stock([depth, width, height]),
     }])
@@ -390,8 +390,8 @@ impl Levels {
         }
     }
 
-    /// Whether what lies above zero are ways back in the air, all at one height: as high as the program goes, or one behind
-    /// every pass and not slower than that. Passes of another layer would come layer by layer.
+    /// Whether what lies above zero are ways back in the air, all at one height: as high as the program goes,
+    /// or one after every pass and not slower than that. Passes of another layer would come layer by layer.
     fn returns(&self) -> Option<f64> {
         let [low, high] = range(self.above.iter().map(Run::height))?;
         let speeds = |runs: &[Run]| range(runs.iter().filter_map(|run| run.speed).map(|speed| speed.value));

@@ -1,4 +1,4 @@
-//! Where the tool goes into the blank without a pass: straight down, or from a place that nobody knows.
+//! Where the tool goes into the blank without a pass: straight down, or from a place that is not known.
 //!
 //! V-cuts come from beside the blank, so a job has no such motion. What that means depends on the passes. Where those before it
 //! have cut already, the motion is one through the air. Where a pass cuts later, no part of the shape is missing, and the motion
@@ -17,8 +17,8 @@ pub(super) struct Sorted {
     pub(super) alone: Vec<Plunge>,
 }
 
-/// Sorts plunges, in the order of the program, by what the passes cut before them and behind them. `slope` is the rise of the
-/// V-cuts' flanks over x.
+/// Sorts plunges, in the order of the program, by what the passes cut before them and after them. `slope` is
+/// the rise of the V-cuts' flanks over x.
 pub(super) fn sorted(plunges: &[Plunge], passes: &[Pass], blank: Blank, slope: f64) -> Sorted {
     let mut sorted = Sorted {
         cut_later: Vec::new(),

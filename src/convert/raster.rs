@@ -2,8 +2,8 @@
 //!
 //! What runs along y, however many points the program divides it into, is a run (the module `runs`). Runs below the top of the
 //! blank are passes, and those that follow one another in one place are one. Everything else has to be in the air or beside the
-//! blank: what cuts across, obliquely, along a slope or on an arc is no pass, and is refused. What goes straight down into it is
-//! sorted by the passes around it (the module [`plunges`]).
+//! blank: what cuts across, obliquely, along a slope or on an arc is not a pass, and is refused. What goes
+//! straight down into it is sorted by the passes around it (the module [`plunges`]).
 
 use super::axes::Axes;
 use super::complaints;
@@ -33,15 +33,15 @@ pub struct Raster {
     pub pieces: usize,
     /// How far points of passes lie from them, at most, in mm.
     pub stray: f64,
-    /// How many motions are no passes.
+    /// How many motions are not passes.
     pub other_moves: usize,
     /// How many of them are arcs.
     pub arcs: usize,
     /// The highest place that the tool goes to.
     pub highest: Option<f64>,
-    /// Speeds on straight lines that are no passes.
+    /// Speeds on straight lines that are not passes.
     pub travel: Vec<Written>,
-    /// The path of the tool, broken where nobody knows where it is.
+    /// The path of the tool, broken where the tool's place is not known.
     pub path: Vec<Vec<[f64; 3]>>,
 }
 
@@ -246,7 +246,7 @@ impl Builder {
         }
     }
 
-    /// Whether an arc comes near the blank; it does where nobody knows which way it takes.
+    /// Whether an arc comes near the blank. It does where it is not known which way it takes.
     fn curve_meets_the_blank(&mut self, stretch: &Stretch<'_>) -> bool {
         self.raster.arcs += 1;
         let Some(arc) = stretch.course else {

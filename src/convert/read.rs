@@ -1,9 +1,10 @@
 //! From the text of a KRL program to its motions.
 //!
 //! What a controller does is for the interpreter of the KRL crate: which statement comes next, what names stand for, and where
-//! targets lead. Here programs are accepted whoever wrote them, and become motions ([`motions`]) or messages. Statements that decide which motions are made (`IF`, `LOOP`, `GOTO` and their
-//! like) are not followed: with a motion inside they are refused. So are calls of routines that no file given holds, for
-//! their motions would be missing.
+//! targets lead. Here programs are accepted from any source, and become motions ([`motions`]) or messages.
+//! Statements that decide which motions are made (`IF`, `LOOP`, `GOTO` and their like) are not followed: with
+//! a motion inside they are refused. So are calls of routines that no file given holds, for their motions
+//! would be missing.
 
 mod frames;
 mod motions;
@@ -125,12 +126,12 @@ pub(super) struct Reader<'a> {
 /// A statement that decides what is made.
 pub(super) struct Fork {
     pub(super) place: Span,
-    pub(super) told: Told,
+    pub(super) reported: Reported,
 }
 
 /// Whether a motion that depends on a statement was reported.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Told {
+pub(super) enum Reported {
     Not,
     Once,
 }
@@ -189,7 +190,7 @@ impl Reader<'_> {
         self.push(complaints::unreadable(self.files.span(file, line.span), expected));
     }
 
-    /// Routines with motions that nobody has called.
+    /// Routines with motions that have not been called.
     fn never_called(&mut self, execution: &Execution<'_>) {
         for (file, mut lines) in execution.never_called() {
             let head = lines.next();
@@ -257,8 +258,8 @@ impl Reader<'_> {
         } else if is(&["GOTO", "RETURN", "RESUME"]) {
             self.push(complaints::jump(place, word));
         } else if is(&["IF", "FOR", "LOOP", "WHILE", "REPEAT", "SWITCH"]) {
-            let told = Told::Not;
-            self.forks.push(Fork { place, told });
+            let reported = Reported::Not;
+            self.forks.push(Fork { place, reported });
             self.milling.left_out.push(place);
         } else if is(&["ENDIF", "ENDFOR", "ENDLOOP", "ENDWHILE", "UNTIL", "ENDSWITCH"]) {
             self.forks.pop();
@@ -314,14 +315,14 @@ impl Reader<'_> {
         if is_followed {
             self.milling.settings.push(place);
         } else {
-            // Whoever moves there now goes to a place that is not known.
+            // A motion there now goes to a place that is not known.
             self.state.variables.forget(context, to.name);
             self.milling.left_out.push(place);
         }
     }
 
     /// Takes a speed over. One that is worked out while the program runs, or set on one of several ways through it, is not
-    /// known: whoever needs it has to say it.
+    /// known: what needs it has to state it.
     fn drive(&mut self, value: Option<f64>, place: Span) {
         let value = value.filter(|_| self.forks.is_empty());
         self.speed = value.map(|value| Written { value, place });

@@ -13,7 +13,7 @@ use vcutc_diagnostics::source::Span;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch<'m> {
     pub(super) said: &'m Move,
-    /// Where it begins; where it ends, if nobody knows.
+    /// Where it begins; where it ends, if that is not known.
     pub(super) from: [f64; 3],
     /// The way of an arc, where it is known.
     pub(super) course: Option<CircularArc>,
@@ -35,7 +35,7 @@ pub(super) enum Kind {
     Oblique,
     /// An arc.
     Curve,
-    /// From a place that nobody knows, as behind motions of all axes.
+    /// From a place that is not known, as after motions of all axes.
     Landing,
 }
 

@@ -71,6 +71,6 @@ impl Plunge {
 pub enum Start {
     /// From above its lowest place, or from there upwards.
     Above,
-    /// Nobody knows.
+    /// It is not known.
     Unknown,
 }

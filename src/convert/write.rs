@@ -50,7 +50,7 @@ pub struct ProfileFile {
     pub form: ProfileForm,
     /// Where it lies, seen from the job.
     pub path: String,
-    /// The fields behind its name, without the braces.
+    /// The fields after its name, without the braces.
     pub fields: String,
 }
 

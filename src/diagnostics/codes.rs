@@ -81,7 +81,7 @@ codes! {
     UnknownBlock = "VC0207", Error, "unknown block";
     /// A block that a job must have.
     MissingBlock = "VC0208", Error, "missing block";
-    /// A word that is none of those a field takes.
+    /// A word that a field does not take.
     UnknownChoice = "VC0209", Error, "word that the field does not accept";
     /// A value outside of its range.
     OutOfRange = "VC0210", Error, "value out of range";
@@ -188,7 +188,7 @@ codes! {
     BadMachineFile = "VC0502", Error, "invalid machine file";
     /// A home that the axes cannot reach.
     HomeOutsideLimits = "VC0503", Error, "home outside the axis limits";
-    /// An orientation that is none.
+    /// An invalid orientation.
     NotARotation = "VC0504", Error, "orientation that is not a rotation";
     /// A blade that the machine has no tool for, or nothing that spins it.
     BladeWithoutTool = "VC0505", Error, "blade that the machine cannot hold or spin";

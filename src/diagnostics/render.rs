@@ -80,7 +80,7 @@ fn advice(diagnostic: &Diagnostic, margin: usize, color: ColorChoice) -> String 
     let helps = diagnostic.help.iter().map(|help| ("help", help.clone()));
     let fixes = diagnostic.fixes.iter().map(|fix| ("help", fix_in_words(fix)));
     let mut text = String::new();
-    // Which name was meant is the answer; the list of all names is for whoever meant another one.
+    // Which name was meant is the answer; the list of all names helps if another one was meant.
     let advice: Vec<(&str, String)> = if matches!(diagnostic.code, Code::UnknownField | Code::UnknownBlock) {
         fixes.chain(helps).chain(notes).collect()
     } else {

@@ -167,13 +167,13 @@ pub trait Loader {
     /// own path is relative to.
     ///
     /// # Errors
-    /// Why not, in the words of whoever holds the files.
+    /// Why not, in the words of the loader.
     fn load(&self, path: &str) -> Result<Vec<u8>, LoadError>;
 
     /// As [`Self::load`], for a file of data that may have this many bytes.
     ///
     /// # Errors
-    /// As for [`Self::load`]. Whoever holds the files may have a lower limit.
+    /// As for [`Self::load`]. The loader may have a lower limit.
     fn load_data(&self, path: &str, most: u64) -> Result<Vec<u8>, LoadError> {
         let bytes = self.load(path)?;
         match bytes.len() as u64 <= most {
@@ -277,8 +277,8 @@ pub fn join_path(from: &str, target: &str) -> String {
     format!("{root}{}", parts.join("/"))
 }
 
-/// How a file is named in the file `from`: the other way round of [`join_path`]. None where that takes the name of a folder that
-/// nobody knows.
+/// How a file is named in the file `from`: the other way round of [`join_path`]. None where that takes the
+/// name of a folder that is not known.
 #[must_use]
 pub fn path_from(from: &str, target: &str) -> Option<String> {
     let folder = from.rsplit_once('/').map_or("", |(folder, _)| folder);

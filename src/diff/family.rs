@@ -2,8 +2,8 @@
 //!
 //! Long programs are written in parts: `rib.src`, `rib_p001.src`, `rib_p002.src`. When the job becomes shorter, parts of
 //! earlier runs stay behind, and a controller that is handed the whole folder gets them too. A name is taken for such a part
-//! when it is the main file's with an underscore, a few letters and three or more digits behind it, and an extension that the
-//! program has: `rib_2.src` may be another job, `rib_p007.src` is not.
+//! when it is the main file's with an underscore, a few letters and three or more digits after it, and an
+//! extension that the program has: `rib_2.src` may be another job, `rib_p007.src` is not.
 
 /// Most letters between the underscore and the number of a part.
 const MOST_LETTERS: usize = 4;
@@ -36,12 +36,12 @@ fn is_part(name: &str, main: &str, extensions: &[&str]) -> bool {
     let Some((stem, extension)) = name.rsplit_once('.') else {
         return false;
     };
-    let behind = stem
+    let after = stem
         .get(..main.len())
         .filter(|head| head.eq_ignore_ascii_case(main))
         .and_then(|_| stem.get(main.len()..))
         .and_then(|rest| rest.strip_prefix('_'));
-    let Some(part) = behind else { return false };
+    let Some(part) = after else { return false };
     let digits = part.trim_start_matches(|letter: char| letter.is_ascii_alphabetic());
     let letters = part.len() - digits.len();
     (1..=MOST_LETTERS).contains(&letters)
@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_that_a_program_no_longer_has_are_stale() {
+    fn parts_that_a_program_does_not_have_any_more_are_stale() {
         let files = names(&["rib.src", "rib.dat", "rib_p001.src"]);
         let folder = names(&[
             "RIB_P003.SRC",

@@ -1,7 +1,7 @@
 //! A fresh program compared with the files of an earlier run, as text.
 //!
 //! Unlike `vcutc verify`, which asks what a controller would do, this asks whether a repository holds the very bytes that a
-//! job gives today. Nothing is read or written here: who holds the files hands their bytes over.
+//! job gives today. Nothing is read or written here: the caller passes the bytes of the files.
 
 pub mod align;
 pub mod family;
@@ -14,7 +14,7 @@ pub use text::{Hunk, Line, LineKind, TextChange};
 pub enum Change {
     /// Its text differs.
     Text(TextChange),
-    /// Only its line ends differ, or the break behind its last line.
+    /// Only its line ends differ, or the break after its last line.
     LineEnds {
         /// Lines that end in CR LF in the earlier file.
         earlier_crlf: usize,

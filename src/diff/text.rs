@@ -26,7 +26,7 @@ pub struct TextChange {
     pub hunks: Vec<Hunk>,
     /// Lines of changes that are not among those.
     pub left_out: usize,
-    /// Whether line ends differ besides.
+    /// Whether line ends differ as well.
     pub line_ends_differ: bool,
 }
 
@@ -47,7 +47,7 @@ pub struct Hunk {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Line {
     pub kind: LineKind,
-    /// The line without its end; what is no text is replaced, what is too long is cut.
+    /// The line without its end; what is not text is replaced, what is too long is cut.
     pub text: String,
 }
 

@@ -3,7 +3,7 @@
 //! Text and meaning are checked as soon as a text changes. What `auto` becomes and whether the machine follows takes
 //! longer, so it is a [`Task`] that is done beside and handed back. The analysis holds the interest in it: a text that changes
 //! has another analysis, and the task for the one before ends early. An answer that came all the same is thrown away, because
-//! the analysis it belongs to is no longer there.
+//! the analysis it belongs to is not there any more.
 
 use super::text::Text;
 use std::collections::BTreeMap;
@@ -217,7 +217,7 @@ pub(super) enum Finding {
     AtOnce(Box<Planned>),
     /// It could not be read.
     Unreadable,
-    /// Nobody wanted to know any more.
+    /// The answer was not wanted any more.
     Needless,
 }
 
@@ -225,17 +225,17 @@ impl Task {
     /// Plans the job and proves the plan, with what is kept of plans before. It ends early when the text has changed.
     #[must_use]
     pub fn run(self, files: &dyn Loader, targets: &[&'static dyn Backend], memory: &mut Memory) -> Done {
-        self.run_telling(files, targets, memory, (&mut Unhurried, &mut |_| ()))
+        self.run_reporting(files, targets, memory, (&mut Unhurried, &mut |_| ()))
     }
 
     /// As [`Self::run`]; what is known of a job is published at once, before suggestions are searched.
     #[must_use]
-    pub fn run_telling(
+    pub fn run_reporting(
         self,
         files: &dyn Loader,
         targets: &[&'static dyn Backend],
         memory: &mut Memory,
-        (patience, tell): (&mut dyn Patience, &mut dyn FnMut(Done)),
+        (patience, report): (&mut dyn Patience, &mut dyn FnMut(Done)),
     ) -> Done {
         let overlay = Overlay {
             texts: &self.open,
@@ -255,7 +255,7 @@ impl Task {
             root: &self.root,
             stamp: self.stamp,
             patience,
-            tell,
+            report,
         };
         let run = Run {
             memory,
@@ -278,12 +278,12 @@ impl Task {
     }
 }
 
-/// Tells what is known of a job before help is looked for.
+/// Reports what is known of a job before help is looked for.
 struct Early<'e> {
     root: &'e str,
     stamp: u64,
     patience: &'e mut dyn Patience,
-    tell: &'e mut dyn FnMut(Done),
+    report: &'e mut dyn FnMut(Done),
 }
 
 impl Early<'_> {
@@ -310,7 +310,7 @@ impl Early<'_> {
         if let (Some(job), Some(compiled)) = (&job, &compiled)
             && compiled.not_followed.is_some()
         {
-            self.tell_at_once(planned.clone());
+            self.report_at_once(planned.clone());
             planned.hints = hints(job, compiled, &wanted.and(&self.patience.slowed()));
         }
         if wanted.is_needless() {
@@ -319,8 +319,8 @@ impl Early<'_> {
         Finding::Planned(Box::new(planned))
     }
 
-    fn tell_at_once(&mut self, planned: Planned) {
-        (self.tell)(Done {
+    fn report_at_once(&mut self, planned: Planned) {
+        (self.report)(Done {
             root: self.root.to_owned(),
             stamp: self.stamp,
             result: Finding::AtOnce(Box::new(planned)),
@@ -337,7 +337,7 @@ impl Patience for Early<'_> {
             summary: Vec::new(),
             hints: Vec::new(),
         };
-        self.tell_at_once(planned);
+        self.report_at_once(planned);
         self.patience.refused(diagnostics, sources)
     }
 

@@ -125,7 +125,7 @@ fn in_short_form(around: &Surroundings<'_>, bracket: usize, at: usize, before: u
 fn in_round(around: &Surroundings<'_>, bracket: usize, before: usize) -> Wanted {
     let last = before.saturating_sub(1);
     if around.is_number(last) {
-        return Wanted::Unit(Slot::behind(around, before));
+        return Wanted::Unit(Slot::after(around, before));
     }
     if around.is_word(last) || around.closes(last) {
         // Between two values belongs an operator.
@@ -159,7 +159,7 @@ fn in_entry(around: &Surroundings<'_>, at: usize, before: usize, depth: usize) -
         return Wanted::Value(Slot::at(around, before));
     }
     if around.is_number(last) && !is_next_line {
-        return Wanted::Unit(Slot::behind(around, before));
+        return Wanted::Unit(Slot::after(around, before));
     }
     if around.is_word(last) && !is_next_line && depth == 0 {
         return Wanted::Head(around.words_before(before));
@@ -167,7 +167,7 @@ fn in_entry(around: &Surroundings<'_>, at: usize, before: usize, depth: usize) -
     in_piece(around, before, depth).unwrap_or(Wanted::Entry)
 }
 
-/// Behind the beginning of a piece that lacks something, or of a row of points.
+/// After the beginning of a piece that lacks something, or of a row of points.
 fn in_piece(around: &Surroundings<'_>, before: usize, depth: usize) -> Option<Wanted> {
     if depth == 0 {
         return None;

@@ -44,7 +44,7 @@ pub(super) struct Documents {
     earlier: BTreeMap<String, Analysis>,
     /// Roots that are not open documents: a job of the workspace for an open library.
     homes: BTreeSet<String>,
-    /// Whether it must be found out anew which roots there are.
+    /// Whether the roots must be determined again.
     roots: Roots,
     /// What the client counts positions in.
     pub(super) encoding: Encoding,
@@ -71,7 +71,7 @@ impl Documents {
         }
     }
 
-    /// Opens a document, or opens it anew.
+    /// Opens a document, or opens it again.
     pub(super) fn open(&mut self, path: String, called: Called, text: &str) {
         self.texts.insert(path.clone(), Text::new(text, self.encoding));
         self.called.insert(path, called);

@@ -23,10 +23,10 @@ pub(super) fn formatting(text: &Text) -> Option<Vec<TextEdit>> {
     }
     let ahead = common(old.chars(), new.chars());
     let (old_rest, new_rest) = (old.get(ahead..)?, new.get(ahead..)?);
-    let behind = common(old_rest.chars().rev(), new_rest.chars().rev());
-    let new_text = new_rest.get(..new_rest.len() - behind)?.to_owned();
+    let after = common(old_rest.chars().rev(), new_rest.chars().rev());
+    let new_text = new_rest.get(..new_rest.len() - after)?.to_owned();
     Some(vec![TextEdit {
-        range: text.range(ahead..old.len() - behind),
+        range: text.range(ahead..old.len() - after),
         new_text,
     }])
 }

@@ -8,13 +8,13 @@ use vcutc_diagnostics::source::Spanned;
 use vcutc_job::sema::study::Evaluator;
 use vcutc_syntax::ast::Expr;
 
-/// Most hints of an answer. Nobody looks at more at once.
+/// Most hints of an answer. More cannot be read at once.
 const MOST_HINTS: usize = 5000;
 
 /// A value to be shown after a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Hint {
-    /// Behind this byte.
+    /// After this byte.
     pub(super) at: usize,
     pub(super) value: String,
     /// More about it.

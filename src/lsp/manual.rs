@@ -1,8 +1,8 @@
 //! What the language reference says about each word: the one place where the words are explained.
 //!
 //! `docs/language.md` is compiled in, and its tables are read when they are asked for. A row explains the words in backquotes
-//! of its first cell. Tests hold the tables against those of the checks: no field without a row, and none marked as required
-//! that is not.
+//! of its first cell. Tests compare the tables with those of the checks: no field without a row, and none
+//! marked as required that is not.
 
 const REFERENCE: &str = include_str!("../../docs/language.md");
 
@@ -128,7 +128,7 @@ fn fields_table(block: &str) -> Option<usize> {
     match block {
         "limits" => headed("| Limit |"),
         "change" => headed("| Field of `change` |"),
-        "feed" => behind("`feed { ... }`", "| Field |"),
+        "feed" => after("`feed { ... }`", "| Field |"),
         "forces" => headed("| Field of `forces` |"),
         "measured" => headed("| Field of `measured` |"),
         "points" => headed("| Field of `points` |"),
@@ -141,7 +141,7 @@ fn fields_table(block: &str) -> Option<usize> {
         "nurbs" => headed("| Field of `nurbs` |"),
         "disc" => headed("| Field of `disc` |"),
         "crusher" => headed("| Field of `crusher` |"),
-        _ => behind(&format!("\n### `{}`\n", section(block)), "| Field |"),
+        _ => after(&format!("\n### `{}`\n", section(block)), "| Field |"),
     }
 }
 
@@ -159,7 +159,7 @@ fn headed(head: &str) -> Option<usize> {
 }
 
 /// The first table of that head after a text.
-fn behind(text: &str, head: &str) -> Option<usize> {
+fn after(text: &str, head: &str) -> Option<usize> {
     let start = REFERENCE.find(text)?;
     let tail = REFERENCE.get(start..)?;
     let at = tail.find(&format!("\n{head}"))?;

@@ -63,7 +63,7 @@ enum PlanningWish {
     Never,
 }
 
-/// Who reports that files on the disk have changed.
+/// What reports that files on the disk have changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Watching {
     /// The client, if it does so by itself.
@@ -253,7 +253,7 @@ impl Server {
             (Stage::Running, "textDocument/didSave" | "workspace/didChangeWatchedFiles") => {
                 self.documents.forget_all();
             }
-            // Others are none of ours.
+            // Others are ignored.
             _ => {}
         }
         Ok(Vec::new())
@@ -308,7 +308,7 @@ impl Server {
         self.publish()
     }
 
-    /// Tells what is known of every file, where that has changed.
+    /// Reports what is known of every file, where that has changed.
     fn publish(&mut self) -> Vec<Value> {
         let mut reported = self.reported();
         let mut messages = Vec::new();

@@ -73,8 +73,8 @@ impl Slot {
     }
 
     /// Where a unit is wanted: after the number before a token, and before a unit that may be there.
-    pub(super) fn behind(around: &Surroundings<'_>, before: usize) -> Self {
-        Self::of(around, before.saturating_sub(1), behind_unit(around, before))
+    pub(super) fn after(around: &Surroundings<'_>, before: usize) -> Self {
+        Self::of(around, before.saturating_sub(1), after_unit(around, before))
     }
 
     /// Of the operand that reaches from a token to another.
@@ -104,8 +104,8 @@ impl Slot {
     }
 }
 
-/// Behind the unit that a token begins, such as `mm` or `deg/s`; the token itself if it begins none.
-fn behind_unit(around: &Surroundings<'_>, start: usize) -> usize {
+/// After the unit that a token begins, such as `mm` or `deg/s`; the token itself if it begins none.
+fn after_unit(around: &Surroundings<'_>, start: usize) -> usize {
     let word = |number: usize| around.word(number).unwrap_or_default();
     let quotient = format!("{}/{}", word(start), word(start + 2));
     if around.is_symbol(start + 1, &["/"]) && vocabulary::unit_in_words(&quotient).is_some() {
@@ -123,7 +123,7 @@ fn name_before(around: &Surroundings<'_>, bracket: usize) -> usize {
     }
 }
 
-/// Whether the word before a bracket is that of a call: words of pieces are none.
+/// Whether the word before a bracket is that of a call; words of pieces are not.
 fn is_call(around: &Surroundings<'_>, name: usize) -> bool {
     let of_pieces = |word: &str| {
         Row::named(word).is_some()

@@ -43,10 +43,10 @@ impl Surroundings<'_> {
         let token = *self.all.get(number)?;
         let is_in = token.start < offset && offset <= token.end;
         // An own end closes a text or a bracketed comment: after it, one is out.
-        let is_behind = offset == token.end
+        let is_after = offset == token.end
             && (token.kind == TokenKind::Text
                 || token.kind == TokenKind::Comment && self.slice(token).ends_with("*/"));
-        (is_in && !is_behind).then_some((number, token))
+        (is_in && !is_after).then_some((number, token))
     }
 
     fn slice(&self, token: Token) -> &str {

@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_message_is_answered_and_passed_over() {
+    fn what_is_not_a_message_is_answered_and_passed_over() {
         let mut stream = framed("{ nonsense");
         for body in ["[1, 2]", r#"{"id": {}, "method": "x"}"#, r#"{"id": 7}"#] {
             stream.extend(framed(body));

@@ -1,5 +1,5 @@
-//! What a program that is not the job's would do: the rules of the process, the contour, and the reach of the machine, told
-//! at the lines of the program.
+//! What a program that is not the job's would do: the rules of the process, the contour, and the reach of the
+//! machine, reported at the lines of the program.
 //!
 //! The same proofs as for a fresh program are run on the one that was rebuilt from the statements. Those of chips and reach
 //! need a program that keeps the rules; that no cut enters the part is looked at in any case.
@@ -459,7 +459,7 @@ impl Read<'_> {
                 let (what, label) = verdict::words::stays_words(at, height, limit);
                 (format!("beside {place}, {what}"), label)
             }
-            // The slits of changed cuts have been told already, and are the same.
+            // The slits of changed cuts have been reported already, and are the same.
             CutFault::Overcut { .. } if is_reported && self.cuts().any(|cut| cut.op == op) => return None,
             CutFault::Overcut { at, depth } => (
                 format!("{place} enters the part by {} mm", show(depth.to_mm())),

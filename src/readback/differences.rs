@@ -14,7 +14,7 @@ use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic, Label};
 use vcutc_job::{HeldTool, Machine};
 
-/// So many differences are told one by one.
+/// So many differences are reported one by one.
 const MOST_IN_FULL: usize = 20;
 
 /// Most characters of a statement that a message repeats.
@@ -68,27 +68,27 @@ struct Reporter<'s> {
     after_effects: AfterEffects,
 }
 
-/// Statements that read the same and do something else, because of a difference before them: the setting that was told
-/// last, or when none was, whatever was told last.
+/// Statements that read the same and do something else, because of a difference before them: the setting that
+/// was reported last, or if there was none, whatever was reported last.
 #[derive(Default)]
 struct AfterEffects {
-    /// The diagnostic of the cause, as far as it is told in full.
+    /// The diagnostic of the cause, as far as it is reported in full.
     cause: Option<usize>,
     is_setting: bool,
     count: usize,
     first: Option<String>,
     /// Where the job says what the first of them should be.
     asked: Option<Span>,
-    /// How many of them nobody understands any more.
+    /// How many of them are not understood any more.
     lost: usize,
-    /// Whether anything was told that they can follow from.
+    /// Whether anything was reported that they can follow from.
     follow: Follow,
 }
 
 /// Whether what reads otherwise can be an after-effect.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 enum Follow {
-    /// Nothing was told before.
+    /// Nothing was reported before.
     #[default]
     Nothing,
     Cause,
@@ -222,7 +222,8 @@ impl Reporter<'_> {
         if says_the_same(should, is) {
             return;
         }
-        // What is at fault stands before it; where nothing was told before it, this is told, and the rest follows from it.
+        // What is at fault stands before it; where nothing was reported before it, this is reported, and the
+        // rest follows from it.
         match (self.after_effects.follow, is) {
             (Follow::Nothing, _) => {
                 let diagnostic = self.changed(fresh, given);
@@ -365,7 +366,7 @@ impl Reporter<'_> {
         skeleton(self.comparison.fresh.text(fresh)) == skeleton(self.comparison.given.text(given))
     }
 
-    /// A setting with another value, with which nobody knows what it means.
+    /// A setting with another value, whose meaning is not known.
     fn other_setting(&self, should: &Effect, is: &Effect, (fresh, given): (usize, usize)) -> Diagnostic {
         let message = format!("{} differs from what the compiler writes", kind_words(should));
         let diagnostic = Diagnostic::new(Code::OtherSetting, message, self.span(given), "reads differently");
@@ -380,7 +381,7 @@ impl Reporter<'_> {
         }
     }
 
-    /// The field of the job's machine that a setting follows from, where that can be told.
+    /// The field of the job's machine that a setting follows from, where that is known.
     fn field(&self, should: &Effect, (fresh, given): (usize, usize)) -> Option<Span> {
         let machine = self.comparison.job.machine.as_ref()?;
         let texts = [
@@ -524,7 +525,7 @@ impl Reporter<'_> {
         self.report(diagnostic);
     }
 
-    /// Says how many differences are not told one by one.
+    /// Says how many differences are not reported one by one.
     fn count_the_rest(&mut self) {
         let more = self.reported().saturating_sub(MOST_IN_FULL);
         if more == 0 {
@@ -558,7 +559,7 @@ impl Reporter<'_> {
         mismatch_words(mismatch, self.comparison.program().cell.as_ref())
     }
 
-    /// Where a statement of the given program stands; behind the last one where there is none.
+    /// Where a statement of the given program stands; after the last one where there is none.
     fn span(&self, given: usize) -> Span {
         self.comparison.span(given)
     }

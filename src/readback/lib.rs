@@ -2,12 +2,13 @@
 //!
 //! * [`Written`] is a program as its backend wrote it. It is read again at once and followed op by op; what comes out
 //!   differently is never handed on.
-//! * [`Reference::verify`] holds the files of a program against the one that its job compiles to now. Both are read by the same reader
-//!   and their statements aligned; every difference that is not one of layout or comments is told at its place in the
-//!   files, with the place in the job that asks for something else.
+//! * [`Reference::verify`] compares the files of a program with the one that its job compiles to now. Both
+//!   are read by the same reader and their statements aligned; every difference that is not one of layout or
+//!   comments is reported at its place in the files, with the place in the job that asks for something else.
 //!
-//! Nothing here knows a dialect: a reader tells statements, and texts are compared by their normalized text. A difference in the
-//! normalized text is always told, also where a number differs by less than its rounding.
+//! Nothing here knows a dialect: a reader reports statements, and texts are compared by their normalized
+//! text. A difference in the normalized text is always reported, also where a number differs by less than its
+//! rounding.
 
 mod absent;
 mod checks;
@@ -45,7 +46,7 @@ use vcutc_job::PlannedJob;
 use vcutc_motion::rigs::Rigs;
 use vcutc_motion::solve::Reached;
 
-/// A job's program as it is written now, and who can read it.
+/// A job's program as it is written now, and what can read it.
 #[derive(Clone, Copy)]
 pub struct Fresh<'a> {
     pub job: &'a CheckedJob,
@@ -56,7 +57,7 @@ pub struct Fresh<'a> {
     pub written: &'a Written,
     /// Where each op stands in it.
     pub places: &'a [Place],
-    /// Who reads the dialect.
+    /// What reads the dialect.
     pub reader: &'a dyn Reader,
 }
 
@@ -83,7 +84,7 @@ impl<'a> Fresh<'a> {
     }
 }
 
-/// What came of holding a program against its job.
+/// The result of comparing a program with its job.
 #[derive(Debug, Default)]
 pub struct Verdict {
     /// What differs and what is wrong, in the order of the program.
@@ -118,8 +119,8 @@ impl<'a> Reference<'a> {
         }
     }
 
-    /// Holds the files of a program against the fresh one. `shown` are the names of the files as people see them; the files
-    /// are added to `sources`, so that diagnostics can point into them.
+    /// Compares the files of a program with the fresh one. `shown` are the names of the files as people see
+    /// them; the files are added to `sources`, so that diagnostics can point into them.
     #[must_use]
     pub fn verify(&self, given: &[ProgramFile], shown: &[String], sources: &mut SourceMap) -> Verdict {
         let (mut ids, mut ordered) = (Vec::new(), Vec::new());
@@ -155,7 +156,7 @@ impl<'a> Reference<'a> {
         Verdict { diagnostics, lines }
     }
 
-    /// How many differences [`Self::verify`] tells of, without the checks of what they do.
+    /// How many differences [`Self::verify`] reports, without the checks of what they do.
     #[must_use]
     pub fn differences(&self, given: &[ProgramFile]) -> usize {
         let is = self.read(given);
@@ -244,8 +245,8 @@ enum Checked {
     NotMade,
 }
 
-/// The given files in the order in which the compiler writes those of their names, others behind: in which order somebody
-/// names files says nothing about the program.
+/// The given files in the order in which the compiler writes those of their names, and the others after them:
+/// in which order somebody names files says nothing about the program.
 fn in_order(written: &[ProgramFile], given: &[ProgramFile]) -> Vec<usize> {
     let place = |index: &usize| {
         let name = given.get(*index).map_or("", |file| file.name.as_str());

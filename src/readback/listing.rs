@@ -1,4 +1,4 @@
-//! A program as its reader tells it: statements in the order in which they are carried out.
+//! A program as its reader reports it: statements in the order in which they are carried out.
 
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{OpId, Program};

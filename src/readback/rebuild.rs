@@ -187,7 +187,7 @@ impl Builder<'_> {
         }
     }
 
-    /// What a part restates is no op.
+    /// What a part restates is not an op.
     fn of_part(&mut self, given: usize) -> Result<(), Obstacle> {
         match self.comparison.given.effect(given) {
             Some(Effect::Command(_)) => Ok(()),
@@ -207,7 +207,7 @@ impl Builder<'_> {
             Some(partner) => (Some(partner.moment.op), partner.op.site),
             None => (None, self.site),
         };
-        // One that does another kind of thing is no model for what it does.
+        // One that does another kind of thing is not a model for what it does.
         let partner = partner.filter(|partner| !partner.differs_in(|found| matches!(found, Mismatch::Kind)));
         let action = match command {
             Command::Axes(axes) => Some(self.axes(axes, partner.as_ref(), given)?),

@@ -2,8 +2,8 @@
 //! options.
 //!
 //! Every part sets everything up again and restates where the machine stands, and numbers may be written otherwise in it
-//! (RAPID's quaternions begin anew with either sign). Commands are therefore paired by what they say, and what belongs to a
-//! part's head or end alone is left aside: it says nothing new.
+//! (RAPID's quaternions begin again with either sign). Commands are therefore paired by what they say, and
+//! what belongs to a part's head or end alone is left aside: it says nothing new.
 
 use super::comparison::Comparison;
 use super::listing::{Listing, Numbering};

@@ -38,7 +38,7 @@ pub(super) enum Step {
 }
 
 impl Step {
-    /// The place of the given program at which it is told.
+    /// The place of the given program at which it is reported.
     pub(super) const fn given(self) -> usize {
         match self {
             Self::Same { given, .. }
@@ -50,8 +50,8 @@ impl Step {
         }
     }
 
-    /// By this the steps ascend: what is missing in front of a statement is told before it; otherwise the order of the given
-    /// program.
+    /// By this the steps ascend: what is missing in front of a statement is reported before it; otherwise the
+    /// order of the given program.
     pub(super) const fn order(&self) -> (usize, bool) {
         (self.given(), !matches!(self, Self::Missing { .. }))
     }
@@ -167,11 +167,11 @@ fn gap(steps: &mut Vec<Step>, skeletons: &[Vec<u32>; 2], moved: &Moved, ranges: 
     for &(to_fresh, to_given) in alike.iter().chain([&(fresh.len(), given.len())]) {
         let rest_fresh = fresh.get(from.0..to_fresh).unwrap_or_default();
         let rest_given = given.get(from.1..to_given).unwrap_or_default();
-        let behind = (
+        let after = (
             fresh.get(to_fresh).copied().unwrap_or(end_fresh),
             given.get(to_given).copied().unwrap_or(end_given),
         );
-        rest(steps, rest_fresh, rest_given, behind);
+        rest(steps, rest_fresh, rest_given, after);
         if let (Some(&fresh), Some(&given)) = (fresh.get(to_fresh), given.get(to_given)) {
             steps.push(Step::Changed { fresh, given });
         }
@@ -180,18 +180,18 @@ fn gap(steps: &mut Vec<Step>, skeletons: &[Vec<u32>; 2], moved: &Moved, ranges: 
 }
 
 /// Statements of different kinds: one for one as far as they go.
-fn rest(steps: &mut Vec<Step>, fresh: &[usize], given: &[usize], behind: Pair) {
+fn rest(steps: &mut Vec<Step>, fresh: &[usize], given: &[usize], after: Pair) {
     let both = fresh.len().min(given.len());
     let changed = fresh.iter().zip(given);
     steps.extend(changed.map(|(&fresh, &given)| Step::Changed { fresh, given }));
     let missing = fresh.get(both..).unwrap_or_default();
     steps.extend(missing.iter().map(|&fresh| Step::Missing {
         fresh,
-        given: behind.1,
+        given: after.1,
     }));
     let added = given.get(both..).unwrap_or_default();
     steps.extend(added.iter().map(|&given| Step::Added {
-        fresh: behind.0,
+        fresh: after.0,
         given,
     }));
 }
@@ -253,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn a_changed_statement_beside_a_missing_one_of_another_kind_is_told_apart() {
+    fn a_changed_statement_beside_a_missing_one_of_another_kind_is_distinguished() {
         assert_eq!(
             differences("a1 b1 c1 d1", "a1 c2 d1"),
             [
@@ -265,7 +265,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn every_statement_is_told_of_once(
+        fn every_statement_is_reported_once(
             fresh in prop::collection::vec((0_u32..5, 0_u32..3), 0..40),
             given in prop::collection::vec((0_u32..5, 0_u32..3), 0..40),
         ) {

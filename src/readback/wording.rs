@@ -71,7 +71,7 @@ pub(super) fn command_words(command: &Command) -> String {
     }
 }
 
-/// What a statement is, where it is no command.
+/// What a statement is, where it is not a command.
 pub(super) const fn kind_words(effect: &Effect) -> &'static str {
     match effect {
         Effect::Command(_) => "a motion, a switch, a wait or a change of the blade",
@@ -220,10 +220,11 @@ fn tip(is: Point3, should: Point3) -> String {
     )
 }
 
-/// Coordinates nearer than this are not told apart, in mm.
+/// Coordinates nearer than this are not distinguished, in mm.
 const SAME_COORDINATE: f64 = 1e-5;
 
-/// A number with decimals enough to tell it from one that differs in the last place that dialects print.
+/// A number with enough decimals to distinguish it from one that differs in the last place that dialects
+/// print.
 fn fine(value: f64) -> String {
     let text = format!("{value:.5}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

@@ -17,7 +17,7 @@ pub struct Written {
     /// Its files, byte for byte.
     pub bundle: Bundle,
     pub files: Vec<ProgramFile>,
-    /// Where each op stands in the text; none where nobody can read the dialect.
+    /// Where each op stands in the text; none where the dialect cannot be read.
     pub places: Option<Vec<Place>>,
 }
 
@@ -49,7 +49,8 @@ impl Written {
 
 impl Written {
     /// What the program does at a place of one of its files, in the words of the job: `the left flank of layer 1, cut 2`.
-    /// Where nothing is done at the place itself, it is what comes next in the file; none where nobody can tell.
+    /// Where nothing is done at the place itself, it is what comes next in the file; none where that is not
+    /// known.
     #[must_use]
     pub fn about(&self, program: &Program, file: usize, bytes: &Range<usize>) -> Option<String> {
         let (op, _) = (0..)

@@ -47,7 +47,7 @@ struct Subject<'a> {
     further: Further<'a>,
 }
 
-/// What a page shows besides the outcome, as far as it was asked for.
+/// What a page shows in addition to the outcome, as far as it was asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Further<'a> {
     /// The files of the program, with their bytes.

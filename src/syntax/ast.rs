@@ -285,7 +285,7 @@ pub enum Curve {
     },
 }
 
-/// What determines an arc besides its ends.
+/// What determines an arc in addition to its ends.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ArcBy {
     /// `radius r`: positive curves up over the chord (a hill), negative down (a hollow); the shorter arc.

@@ -41,8 +41,9 @@ pub(super) fn balance(file: FileId, text: &str) -> Balanced {
     settle(file, balanced)
 }
 
-/// Repeats the mending until the text no longer changes. Where something was taken out, a number and a quote may have become
-/// neighbours, which then read as inches, or a value and a bracket. Such a place has been reported already.
+/// Repeats the repair until the text does not change any more. Where something was taken out, a number and a
+/// quote may have become neighbours, which then read as inches, or a value and a bracket. Such a place has
+/// been reported already.
 fn settle(file: FileId, mut balanced: Balanced) -> Balanced {
     for _ in 0..MOST_ROUNDS {
         let again = Scan::run(file, &balanced.text, Trust::Brackets).finish();
@@ -58,8 +59,8 @@ fn settle(file: FileId, mut balanced: Balanced) -> Balanced {
     balanced
 }
 
-/// Most repetitions of the mending, which bounds the work on hostile texts. After the last one all brackets and quotes are taken
-/// out.
+/// Most repetitions of the repair, which bounds the work on hostile texts. After the last one all brackets
+/// and quotes are taken out.
 const MOST_ROUNDS: usize = 8;
 
 /// Inches in mm, exact to a nanometre (1 in = 25.4 mm, international yard and pound agreement, 1959).
@@ -404,7 +405,8 @@ impl<'t> Scan<'t> {
         found.map(|line| self.last_end + line.start..self.last_end + line.end)
     }
 
-    /// Inches, written as on a drawing. Without the mark the number would get another unit from whoever completes it.
+    /// Inches, written as on a drawing. Without the mark the number would get another unit when it is
+    /// completed.
     fn inch_mark(&mut self, token: Token) {
         let number = self
             .previous

@@ -10,7 +10,7 @@ use vcutc_diagnostics::source::Spanned;
 use vcutc_diagnostics::{Code, Diagnostic};
 
 /// How many operators one value can have, with all that is in its brackets. Bounds the depth of the tree, and so the
-/// recursion of everybody who walks it.
+/// recursion of everything that walks it.
 const MOST_OPERATORS: usize = 250;
 
 /// From loose to tight.

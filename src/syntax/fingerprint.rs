@@ -37,7 +37,7 @@ pub fn of_job(sources: &SourceMap) -> String {
     hexadecimal(&hash.finalize())
 }
 
-/// What stands for a file of data that is no text, or too large to be kept: its length and its hash.
+/// What stands for a file of data that is not text, or too large to be kept: its length and its hash.
 #[must_use]
 pub fn of_data(bytes: &[u8]) -> String {
     format!(

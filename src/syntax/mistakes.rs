@@ -49,8 +49,8 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
     if first.kind != TokenKind::Word {
         return None;
     }
-    let behind = second.map(|token| (token.kind, bad.token(token)));
-    match (word, behind) {
+    let after = second.map(|token| (token.kind, bad.token(token)));
+    match (word, after) {
         ("let" | "use" | "job", Some((TokenKind::Word | TokenKind::Text, _))) if is_entry => Some(
             Diagnostic::new(
                 Code::UnexpectedText,
@@ -223,7 +223,7 @@ fn lost_mark(bad: &Bad<'_>, fault: &Fault<'_>) -> Option<Diagnostic> {
     }
 }
 
-/// The message for a mistake that is none of the usual slips.
+/// The message for a mistake that is not one of the usual slips.
 fn plain(bad: &Bad<'_>, fault: &Fault<'_>) -> Diagnostic {
     let wanted = wanted(fault);
     let context = fault.before.map(|before| context(bad, before));

@@ -194,7 +194,7 @@ fn heads_of_blocks() {
 }
 
 #[test]
-fn a_unit_is_no_name_of_what_follows() {
+fn a_unit_is_not_a_name_of_what_follows() {
     for text in [
         "b { layer = 4 step = 3 mm }",
         "b { layer = 4 swing <= 3 mm }",
@@ -554,8 +554,8 @@ fn is_survived(text: &str) {
             );
         }
     }
-    let told = render(&diagnostics, &sources, ColorChoice::Colored);
-    assert_eq!(told.is_empty(), diagnostics.is_empty());
+    let rendered = render(&diagnostics, &sources, ColorChoice::Colored);
+    assert_eq!(rendered.is_empty(), diagnostics.is_empty());
     parse_expression(file, text, 0, &mut Vec::new());
 }
 

@@ -167,7 +167,7 @@ impl Reader<'_> {
             return;
         }
         if self.frames.first.is_none() {
-            // Positions stated in other frames are none in these.
+            // Positions stated in other frames are not positions in these.
             for made in &mut self.milling.moves {
                 made.to = None;
             }

@@ -1,11 +1,12 @@
 //! Where the motions of a program lead.
 //!
-//! What a target leaves out keeps the value that it had. Positions behind axis moves are not known, for no arm is known;
-//! those of relative motions are, where the one before is. Axes outside of the arm carry the work or the arm itself: while they
-//! stand still they are none of a job's business, and when they move the positions mean something else.
+//! What a target leaves out keeps the value that it had. Positions after axis moves are not known, because no
+//! arm is known; those of relative motions are, where the one before is. Axes outside of the arm carry the
+//! work or the arm itself: while they stand still they do not matter to a job, and when they move the
+//! positions mean something else.
 
 use super::frames::Framing;
-use super::{Reader, Told, is_setting};
+use super::{Reader, Reported, is_setting};
 use crate::asked::LONGEST;
 use crate::complaints;
 use crate::milling::{Move, Way, Written};
@@ -123,9 +124,9 @@ impl Reader<'_> {
             return false;
         };
         let decides = fork.place;
-        match core::mem::replace(&mut fork.told, Told::Once) {
-            Told::Not => self.push(complaints::fork(place, decides)),
-            Told::Once => {}
+        match core::mem::replace(&mut fork.reported, Reported::Once) {
+            Reported::Not => self.push(complaints::fork(place, decides)),
+            Reported::Once => {}
         }
         true
     }
@@ -168,7 +169,8 @@ impl Reader<'_> {
             return;
         };
         let moves = EXTERNAL.into_iter().find_map(|(name, axis)| {
-            // What is not said stays where it is, and nobody says where that is: 0 as in all programs that do not use it.
+            // What is not said stays where it is, and the program does not say where that is: 0 as in all
+            // programs that do not use it.
             let (from, to) = (held.get(axis).unwrap_or(0.0), now.get(axis).unwrap_or(0.0));
             ((to - from).abs() > STANDS).then_some((name, from, to))
         });
@@ -192,7 +194,7 @@ impl Reader<'_> {
         speed
     }
 
-    /// A motion to axis values, or to a position that nobody knows.
+    /// A motion to axis values, or to a position that is not known.
     fn elsewhere(&mut self, way: Way, target: Option<Coordinates>, place: Span) {
         let position = &mut self.state.position;
         *position = target.map_or(position.lost(), |target| position.at_axes(&target));

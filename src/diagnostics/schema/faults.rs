@@ -81,7 +81,7 @@ pub fn out_of_range(code: Code, taker: &str, range: Range, found: &str, span: Sp
     )
 }
 
-/// A word that is none of those that `taker` takes. `quoted` is how a text writes a word.
+/// A word that `taker` does not take. `quoted` is how a text writes a word.
 pub fn unknown_word(
     code: Code,
     taker: &str,

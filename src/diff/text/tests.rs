@@ -1,4 +1,5 @@
-//! Hunks against a patch that is applied, and what is told of line ends and of texts with nothing in common.
+//! Hunks against a patch that is applied, and what is reported of line ends and of texts with nothing in
+//! common.
 
 use super::*;
 use proptest::prelude::*;
@@ -84,7 +85,7 @@ fn changes_near_each_other_share_a_hunk_and_far_ones_do_not() {
 }
 
 #[test]
-fn line_ends_alone_are_told_as_such() {
+fn line_ends_alone_are_reported_as_such() {
     let found = diff("a\nb\n", "a\r\nb\r\n");
     let expected = Change::LineEnds {
         earlier_crlf: 0,

@@ -82,7 +82,7 @@ pub(super) fn ask_again(number: u64) -> Value {
     json!({ "jsonrpc": "2.0", "id": id, "method": "workspace/diagnostic/refresh" })
 }
 
-/// Tells the user of the client, in its log.
+/// Reports to the user of the client, in its log.
 pub(super) fn warning(text: &str) -> Value {
     const WARNING: u8 = 2;
     notification("window/logMessage", &json!({ "type": WARNING, "message": text }))

@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn layers_tell_their_heights() {
+    fn layers_show_their_heights() {
         let cut = |z: f64| Cut {
             kind: CutKind::Cut,
             number: 1,

@@ -1,4 +1,5 @@
-//! What a page has besides when a server shows it: its version, and a script that loads it anew when there is another one.
+//! What else a page has when a server shows it: its version, and a script that loads it again when there is
+//! another one.
 
 use crate::html::Html;
 
@@ -10,7 +11,7 @@ pub(super) const SCRIPT: &str = include_str!("../assets/live.js");
 pub struct Served {
     /// What sets this page apart from all others that were or will be shown at its address.
     pub version: String,
-    /// What went wrong besides the job, shown at the top.
+    /// What went wrong apart from the job, shown at the top.
     pub trouble: Option<String>,
 }
 
@@ -24,7 +25,7 @@ impl Served {
         }
     }
 
-    /// The same, with something to tell at its top.
+    /// The same, with a message at its top.
     #[must_use]
     pub fn with_trouble(version: String, trouble: &str) -> Self {
         Self {

@@ -107,7 +107,7 @@ fn text(number: usize, name: &str, text: &str) -> Html {
     )
 }
 
-/// A line, cut off where nobody reads on.
+/// A line, cut off where it becomes too long to read.
 fn short(line: &str) -> String {
     match line.char_indices().nth(LONGEST_LINE) {
         Some((end, _)) => format!("{} ...", line.get(..end).unwrap_or_default()),

@@ -28,11 +28,11 @@ pub(super) fn header(subject: Subject<'_>) -> Html {
 }
 
 fn warnings(subject: Subject<'_>) -> Html {
-    let told = render(subject.warnings, subject.sources, ColorChoice::Plain);
+    let text = render(subject.warnings, subject.sources, ColorChoice::Plain);
     html!(
         "warnings.html",
         count = counted(subject.warnings.len(), "warning"),
-        lines = Html::lines(told.strip_suffix('\n').unwrap_or(&told))
+        lines = Html::lines(text.strip_suffix('\n').unwrap_or(&text))
     )
 }
 

@@ -1,4 +1,4 @@
-//! What a machine looks like, as far as its kinematics tells: simple bodies around the lines of its axes.
+//! What a machine looks like, as far as its kinematics shows: simple bodies around the lines of its axes.
 //!
 //! No maker's shape is known here, so an arm is rounded bars from axis to axis, and a five-axis machine a bridge along Y that
 //! slides along X, a carriage on it, a ram, a head and a table. Sizes that the kinematics leaves open follow from the
@@ -108,8 +108,8 @@ fn links(linkage: &Linkage, slides: usize, arm: &[Joint], size: f64) -> Vec<Body
     bodies
 }
 
-/// A bridge along Y on two posts that X moves, a carriage that Y moves besides, and a ram above the head. The posts end at
-/// `floor`.
+/// A bridge along Y on two posts that X moves, a carriage that Y moves as well, and a ram above the head. The
+/// posts end at `floor`.
 fn gantry(head: Point3, floor: f64, axes: &[Axis], size: f64) -> Vec<Body> {
     let range = |axis: usize| axes.get(axis).map_or([0.0, 0.0], |axis| [axis.min, axis.max]);
     let (y, z) = (range(1), range(2));

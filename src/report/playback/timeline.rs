@@ -1,7 +1,8 @@
 //! What happens when: the ops of a program as columns, an entry an op.
 //!
-//! Tips lie on the grid of a micrometre (`src/geometry/grid.rs`), so they are kept as whole micrometres: who divides by 1000
-//! has the program's own numbers again, to the last bit, and can replay the cuts as the proof did.
+//! Tips lie on the grid of a micrometre (`src/geometry/grid.rs`), so they are kept as whole micrometres: a
+//! reader that divides by 1000 has the program's own numbers again, to the last bit, and can replay the cuts
+//! as the proof did.
 
 use vcutc_backend_api::ir::{OpId, Program, Site};
 use vcutc_backend_api::state::TipPose;

@@ -63,9 +63,9 @@ impl Track {
     pub fn of(reached: &ReachableProgram, rigs: &Rigs<'_>) -> Self {
         let axes = rigs.first().axes;
         let mut thinned = Thinned::new(reached);
-        let made = |motion: Motion| Told::of(axes, &motion);
-        let taken: Result<(), Infallible> = motions(reached, rigs, &SPACING, made, |told| {
-            thinned.take(told);
+        let made = |motion: Motion| KnotsOfOp::of(axes, &motion);
+        let taken: Result<(), Infallible> = motions(reached, rigs, &SPACING, made, |of_op| {
+            thinned.take(of_op);
             Ok(())
         });
         match taken {
@@ -96,14 +96,14 @@ pub fn between(knots: &[Knot], done: f64) -> Joints {
 }
 
 /// The knots of an op.
-struct Told {
+struct KnotsOfOp {
     op: Option<OpId>,
     /// Where its axes begin.
     from: Joints,
     knots: Vec<Knot>,
 }
 
-impl Told {
+impl KnotsOfOp {
     fn of(axes: &[Axis], motion: &Motion) -> Self {
         let samples: Vec<Knot> = (motion.samples.iter())
             .map(|sample| Knot {
@@ -111,7 +111,7 @@ impl Told {
                 joints: sample.joints,
             })
             .collect();
-        // Without a home nobody knows where the axes begin: they are where the first motion brings them.
+        // Without a home it is not known where the axes begin: they are where the first motion brings them.
         let ends = samples.last().map(|end| end.joints).unwrap_or_default();
         let from = motion.start.unwrap_or(ends);
         Self {
@@ -140,12 +140,12 @@ impl Thinned {
         }
     }
 
-    fn take(&mut self, told: Told) {
-        self.start.get_or_insert(told.from);
-        if let Some(count) = told.op.and_then(|op| self.counts.get_mut(place(op))) {
-            *count = u32::try_from(told.knots.len()).unwrap_or(u32::MAX);
+    fn take(&mut self, of_op: KnotsOfOp) {
+        self.start.get_or_insert(of_op.from);
+        if let Some(count) = of_op.op.and_then(|op| self.counts.get_mut(place(op))) {
+            *count = u32::try_from(of_op.knots.len()).unwrap_or(u32::MAX);
         }
-        self.knots.extend(told.knots);
+        self.knots.extend(of_op.knots);
     }
 
     fn packed(self, axes: &[Axis]) -> Track {
@@ -206,7 +206,7 @@ fn fewest(axes: &[Axis], from: Joints, samples: &[Knot]) -> Vec<Knot> {
     while pieces < all {
         let spread = (1..=pieces).filter_map(|piece| samples.get((piece * all).div_ceil(pieces) - 1));
         let knots: Vec<Knot> = core::iter::once(&start).chain(spread).copied().collect();
-        if samples.iter().all(|sample| is_told(axes, &knots, sample)) {
+        if samples.iter().all(|sample| is_shown(axes, &knots, sample)) {
             return knots.into_iter().skip(1).collect();
         }
         pieces += (pieces / 3).max(1);
@@ -214,15 +214,15 @@ fn fewest(axes: &[Axis], from: Joints, samples: &[Knot]) -> Vec<Knot> {
     samples.to_vec()
 }
 
-fn is_told(axes: &[Axis], knots: &[Knot], sample: &Knot) -> bool {
-    let told = between(knots, sample.done);
+fn is_shown(axes: &[Axis], knots: &[Knot], sample: &Knot) -> bool {
+    let shown = between(knots, sample.done);
     axes.iter()
-        .zip(told.iter().zip(sample.joints))
-        .all(|(axis, (told, joint))| {
+        .zip(shown.iter().zip(sample.joints))
+        .all(|(axis, (shown, joint))| {
             let most = match axis.kind {
                 AxisKind::Rotary => TURN_ERROR,
                 AxisKind::Linear => WAY_ERROR,
             };
-            (told - joint).abs() <= most * FOR_THINNING
+            (shown - joint).abs() <= most * FOR_THINNING
         })
 }

@@ -146,8 +146,8 @@ impl Printer {
                 (Doc::OnlyBroken(text), Mode::Broken) => self.put(text),
                 (Doc::Line | Doc::Soft, Mode::Broken) | (Doc::Hard, _) => self.end_line(indent),
                 (Doc::Group(group), _) => {
-                    let behind = parts.get(at + 1..).unwrap_or_default();
-                    let mode = if self.fits(group, behind) {
+                    let after = parts.get(at + 1..).unwrap_or_default();
+                    let mode = if self.fits(group, after) {
                         Mode::Flat
                     } else {
                         Mode::Broken
@@ -160,8 +160,8 @@ impl Printer {
     }
 
     /// Whether a group fits on the line, with what cannot be broken off after it.
-    fn fits(&self, group: &Group, behind: &[Doc]) -> bool {
-        let tail: usize = behind.iter().map_while(Doc::unbreakable).sum();
+    fn fits(&self, group: &Group, after: &[Doc]) -> bool {
+        let tail: usize = after.iter().map_while(Doc::unbreakable).sum();
         group
             .flat
             .is_some_and(|flat| self.column.saturating_add(flat).saturating_add(tail) <= self.width)

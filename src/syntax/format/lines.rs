@@ -63,7 +63,7 @@ impl Writer {
                 self.begin_line(statement.gap, at == 0 && statement.leading.is_empty());
             }
             self.statement(statement, column);
-            self.comments_behind(&statement.trailing);
+            self.comments_after(&statement.trailing);
         }
         self.comments_before(closing, Gap::Below, statements.is_empty());
     }
@@ -86,7 +86,7 @@ impl Writer {
     }
 
     /// Comments on the line that a statement or a brace ends.
-    fn comments_behind(&mut self, comments: &[Comment]) {
+    fn comments_after(&mut self, comments: &[Comment]) {
         for (at, comment) in comments.iter().enumerate() {
             let blanks = match at {
                 0 => blanks_before_comment(self.column()),
@@ -120,7 +120,7 @@ impl Writer {
                 self.depth -= 1;
                 self.text.push_str(&comment.text);
             } else if comment.ends_its_line() {
-                self.comments_behind(std::slice::from_ref(comment));
+                self.comments_after(std::slice::from_ref(comment));
             } else {
                 self.text.push(' ');
                 self.text.push_str(&comment.text);
@@ -137,7 +137,7 @@ impl Writer {
     fn body(&mut self, body: &Body<'_>) {
         self.comments_before_brace(&body.before);
         self.text.push('{');
-        self.comments_behind(&body.opening);
+        self.comments_after(&body.opening);
         self.depth += 1;
         self.statements(&body.statements, &body.closing);
         self.depth -= 1;

@@ -214,7 +214,7 @@ impl Between {
         } else {
             self.comments
                 .iter()
-                .take_while(|(_, behind_comma)| is_ours(*behind_comma))
+                .take_while(|(_, after_comma)| is_ours(*after_comma))
                 .count()
         };
         let theirs = self.comments.split_off(ours);
@@ -282,7 +282,7 @@ impl<'t> Reader<'t> {
     /// Comments and commas up to the next word.
     fn between(&mut self) -> Between {
         let mut comments = Vec::new();
-        let mut behind_comma = false;
+        let mut after_comma = false;
         // Where the last thing that is not a comma ended.
         let mut end = self.end;
         while let Some(token) = self.peek() {
@@ -290,12 +290,12 @@ impl<'t> Reader<'t> {
                 TokenKind::Comment => {
                     let mut comment = self.comment(token);
                     comment.gap = gap(self.slice(end, token.start));
-                    comments.push((comment, behind_comma));
+                    comments.push((comment, after_comma));
                     end = token.end;
                 }
                 TokenKind::Symbol if self.slice(token.start, token.end) == "," => {
                     self.take(token);
-                    behind_comma = true;
+                    after_comma = true;
                 }
                 TokenKind::Word
                 | TokenKind::Number
@@ -326,7 +326,7 @@ impl<'t> Reader<'t> {
         let mut before = start;
         for node in nodes {
             let statement = read(self, node);
-            let (trailing, rest) = self.between().split(|behind_comma| !behind_comma);
+            let (trailing, rest) = self.between().split(|after_comma| !after_comma);
             statements.push(Statement {
                 leading: before.comments,
                 gap: before.gap,

@@ -51,7 +51,7 @@ pub(super) fn roles(kind: Kind, words: &mut [Word<'_>]) {
         let [word, next @ ..] = rest else {
             return;
         };
-        // `at (2 * span) { ... }` is no call either.
+        // `at (2 * span) { ... }` is not a call either.
         let is_station = kind == Kind::Block && before.is_empty() && word.text == "at";
         let is_outer_curve = kind == Kind::Curve && depth == 0 || is_station;
         word.role = match word.kind {

@@ -247,9 +247,9 @@ fn without_places(ast: &Ast) -> String {
     let mut rest = format!("{ast:?}");
     while let Some(at) = rest.find("..") {
         let before = rest[..at].trim_end_matches(|c: char| c.is_ascii_digit()).len();
-        let behind = rest[at + 2..].trim_start_matches(|c: char| c.is_ascii_digit());
+        let after = rest[at + 2..].trim_start_matches(|c: char| c.is_ascii_digit());
         shown += &rest[..before];
-        rest = behind.to_owned();
+        rest = after.to_owned();
     }
     shown + &rest
 }

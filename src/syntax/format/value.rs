@@ -308,11 +308,11 @@ fn one_value(value: &[Word<'_>], done: usize, ending: &Ending<'_, '_>, docs: &mu
         true => Doc::OnlyBroken(ending.last_comma),
         false => Doc::text(","),
     });
-    let (behind, _) = split_at_line_end(&ending.next.comments, ending.next.gap);
-    trailing(moved.iter().chain(behind), docs);
+    let (after, _) = split_at_line_end(&ending.next.comments, ending.next.gap);
+    trailing(moved.iter().chain(after), docs);
     Done {
-        comments: behind.len(),
-        tail: tail(moved.iter().chain(behind).last()),
+        comments: after.len(),
+        tail: tail(moved.iter().chain(after).last()),
     }
 }
 
