@@ -20,7 +20,7 @@ use vcutc_motion::trajectory::{Motion, Sample, Spacing, motions};
 pub struct Torques {
     /// What the arm needs to stand still there.
     pub weight: [f64; JOINTS],
-    /// What it needs besides, to move as it does.
+    /// What else it needs to move as it does.
     pub motion: [f64; JOINTS],
     /// What it needs against the forces of the blade, where these count.
     pub cutting: [f64; JOINTS],

@@ -1,9 +1,10 @@
 //! The most torque that each axis needs, proven everywhere along a program.
 //!
-//! Of each part of a motion the weight of the arm is enclosed with its derivatives, as the axes are. What the axes need to move besides is
-//! linear in their accelerations and quadratic in their rates, and is enclosed by intervals of both. It counts where the motion has
-//! a constant rate: on arcs the control slows down, and moves of all axes go by a course that only it knows. Where forces of the
-//! blade are known, whatever they may be at any stretch of its edge is added.
+//! Of each part of a motion the weight of the arm is enclosed with its derivatives, as the axes are. What
+//! else the axes need to move is linear in their accelerations and quadratic in their rates, and is enclosed
+//! by intervals of both. It counts where the motion has a constant rate: on arcs the control slows down, and
+//! moves of all axes go by a course that only it knows. Where forces of the blade are known, whatever they
+//! may be at any stretch of its edge is added.
 
 use crate::arm::{JOINTS, State};
 use crate::arms::Arms;

@@ -145,7 +145,7 @@ impl View<'_> {
         Some(wanted.clamp(LEAST_SAMPLES, MOST_SAMPLES))
     }
 
-    /// The runs of circles that touch the same wall, from places evenly apart and these besides.
+    /// The runs of circles that touch the same wall, from places evenly apart and from these.
     fn runs(&mut self, tolerance: f64, besides: &[f64]) -> Result<Vec<Run>, AxisError> {
         let mut runs: Vec<Run> = Vec::new();
         let Some(count) = self.count(tolerance) else {

@@ -1,8 +1,9 @@
 //! The passes of a field that clear a region.
 //!
-//! The lines of a field alone are no passes: they come nearer to walls than the tool may, they end where fronts of neighbouring
-//! sources do not meet, and they leave ground between them. So the pass next to the walls is the true offset, lines keep as far
-//! from the walls as that, they run out beyond open sides, and extra passes clear what the others leave.
+//! The lines of a field alone are not passes: they come nearer to walls than the tool may, they end where
+//! fronts of neighbouring sources do not meet, and they leave ground between them. So the pass next to the
+//! walls is the true offset, lines keep as far from the walls as that, they run out beyond open sides, and
+//! extra passes clear what the others leave.
 
 use crate::axis::{AxisError, Detail, axis};
 use crate::domain::open_sides;
@@ -49,7 +50,7 @@ pub struct Wanted {
 /// Why there are no passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PassesError {
-    /// A length or an area that is none.
+    /// An invalid length or area.
     Parameter,
     /// The tool fits nowhere.
     TooWide,
@@ -77,7 +78,7 @@ impl From<CoverageFault> for PassesError {
     }
 }
 
-/// Passes along the lines of a field, and what was needed besides.
+/// Passes along the lines of a field, and what else was needed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FieldPasses {
     /// The passes next to the walls, of level 0, and those along lines, from the walls inwards. What is farther from the walls lies

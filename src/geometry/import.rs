@@ -104,7 +104,7 @@ fn coordinate(piece: Piece<'_>, text: &str) -> Result<f64, DataError> {
     coordinate_of(text, piece.text).map_err(|message| DataError::new(piece.range(), message))
 }
 
-/// A number within the range of coordinates, or why it is none; `shown` is how the file has it.
+/// A number within the range of coordinates, or why it is not; `shown` is how the file has it.
 fn coordinate_of(text: &str, shown: &str) -> Result<f64, String> {
     let value = number(text).ok_or_else(|| format!("`{}` is not a number", shortened(shown)))?;
     if value.abs() > LARGEST_COORDINATE {

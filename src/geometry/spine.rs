@@ -61,7 +61,7 @@ pub enum SpineError {
     Order,
     /// Steeper than [`Spine::STEEPEST`], or its slope changes too much at a knot ([`Spine::LARGEST_BEND`]).
     Bends,
-    /// The least rise is not 0, or a number is none.
+    /// The least rise is not 0, or a number is not finite.
     Level,
 }
 

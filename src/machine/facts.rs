@@ -1,4 +1,5 @@
-//! What people want to know of a machine besides what is computed with: sources, disagreements, published poses.
+//! What people want to know of a machine apart from what is computed with: sources, disagreements, published
+//! poses.
 
 use crate::kinematics::{Joints, Mechanism};
 use crate::ranges::{ANGLE, LENGTH, QUATERNION_PART, TOLERANCE};

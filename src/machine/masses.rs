@@ -36,7 +36,7 @@ pub(super) const TORQUE_KEY: &str = "torque";
 pub struct Masses {
     pub kind: Kind,
     pub backing: Backing,
-    /// What the numbers cover besides the links.
+    /// What the numbers cover in addition to the links.
     pub covered: Vec<Covered>,
     /// How far they can be used.
     pub note: Option<String>,
@@ -52,7 +52,7 @@ pub struct Masses {
 pub enum Kind {
     /// Each link is a body.
     Bodies,
-    /// They give the torques of the axes, but are no body link by link.
+    /// They give the torques of the axes, but not a body for each link.
     Lumped,
 }
 
@@ -89,7 +89,7 @@ impl Backing {
     }
 }
 
-/// What adds to the torques of an arm besides its links.
+/// What adds to the torques of an arm in addition to its links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Covered {
     /// The links themselves.

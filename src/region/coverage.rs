@@ -94,7 +94,7 @@ pub enum CoverageFault {
 /// Bounds what passes leave of a region.
 ///
 /// # Errors
-/// The tool is none, or the work is beyond its bound.
+/// The tool is not valid, or the work is beyond its bound.
 pub fn coverage(region: &Region, passes: &[Pass], tool: Tool) -> Result<Coverage, CoverageFault> {
     if !tool.is_sound() {
         return Err(CoverageFault::Tool);
@@ -119,7 +119,7 @@ pub fn coverage(region: &Region, passes: &[Pass], tool: Tool) -> Result<Coverage
 /// everywhere within.
 ///
 /// # Errors
-/// The tool is none, or the work is beyond its bound.
+/// The tool is not valid, or the work is beyond its bound.
 pub fn unreachable(region: &Region, tool: Tool) -> Result<Coverage, CoverageFault> {
     if !tool.is_sound() {
         return Err(CoverageFault::Tool);

@@ -6,7 +6,7 @@ use crate::piece::Piece;
 use crate::place::Place;
 use crate::region::{Region, Side};
 
-/// The walls of a region, ready to be asked how near they are. Open sides are none.
+/// The walls of a region, ready to be asked how near they are. Open sides are not walls.
 #[derive(Clone, Debug)]
 pub struct Walls {
     curves: Vec<Curve>,

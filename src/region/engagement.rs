@@ -97,7 +97,7 @@ pub enum EngagementFault {
 /// Finds how much of the rim works in the material, along passes in the order in which they are cut.
 ///
 /// # Errors
-/// The tool is none, or the work is beyond its bound.
+/// The tool is not valid, or the work is beyond its bound.
 pub fn engagement(region: &Region, passes: &[Pass], radius: f64) -> Result<Engagement, EngagementFault> {
     if !(radius > 0.0 && radius.is_finite()) {
         return Err(EngagementFault::Tool);

@@ -5,8 +5,8 @@
 //! crossings a slice is nearer, or not, as a whole: nearness changes where another wall is as far away, and there its moved
 //! wall, or the arc about its end, crosses. What stays is stitched.
 //!
-//! Open sides are no walls. Walls are led on beyond them, and what lies within a reach of an open side belongs to the region;
-//! there ways begin and end.
+//! Open sides are not walls. Walls are led on beyond them, and what lies within a reach of an open side
+//! belongs to the region; there ways begin and end.
 
 use crate::boxes::{Dense, Extent, Tree};
 use crate::curve::Curve;

@@ -69,7 +69,7 @@ pub enum Pattern {
 /// Why there are no passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PatternFault {
-    /// A radius, step or angle that is none.
+    /// An invalid radius, step or angle.
     Parameter,
     /// The tool fits nowhere.
     TooWide,

@@ -45,7 +45,7 @@ impl Few {
     }
 }
 
-/// The circle about a centre, as a whole one: it is no piece.
+/// The circle about a centre, as a whole one: it is not a piece.
 pub(crate) fn circle(centre: Place, radius: f64) -> Curve {
     let at = centre.plus(Place::new(radius, 0.0));
     Curve {

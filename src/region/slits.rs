@@ -1,6 +1,7 @@
 //! Slits along the walls of a region, by a straight blade that stands in the plane of its way.
 //!
-//! Where walls go on into each other the blade goes on along them; at corners it ends, is lifted, and begins anew:
+//! Where walls go on into each other the blade goes on along them; at corners it ends, is lifted, and begins
+//! again:
 //!
 //! | Wall | The tip | What stays at its foot |
 //! | --- | --- | --- |

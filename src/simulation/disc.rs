@@ -30,7 +30,8 @@ pub struct DiscPass {
     pub side: Side,
     /// How far the rim may go on below what stands beside the strip.
     pub beyond: Length,
-    /// The thickest sliver that the pass may take off besides its strip; none where it is what the lead shaves.
+    /// The thickest sliver that the pass may take off in addition to its strip; none where it is what the
+    /// lead shaves.
     pub shave: Option<Length>,
     /// Air around the body.
     pub clearance: Length,

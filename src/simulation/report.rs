@@ -64,7 +64,7 @@ impl Report {
     /// Where the part is farther from the machined contour than that is anywhere from the part: where no cut reaches it.
     #[must_use]
     pub fn hollow(&self) -> Option<Scallop> {
-        // Less than what a hundredth of a millimetre shows is none.
+        // Less than what a hundredth of a millimetre shows does not count.
         (self.deepest.height.to_mm() >= self.scallop.height.to_mm() + 0.005).then_some(self.deepest)
     }
 }

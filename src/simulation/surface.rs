@@ -267,7 +267,7 @@ impl Surface {
             .find_map(|side| self.beyond(vee.ray(side)?, side, 0))
     }
 
-    /// What the only flank of a cut does; a V of two flanks is none.
+    /// What the only flank of a cut does; not for a V of two flanks.
     pub fn single(&mut self, vee: Vee) -> Single {
         let Some((vee, side, ray)) = self.single_ray(vee) else {
             return Single::Outside;

@@ -32,7 +32,7 @@ use vcutc_geometry::import::shortened;
 pub struct ReadMesh {
     /// Its triangles, in the file's own unit, in the order of the file.
     pub mesh: Mesh,
-    /// What is worth telling about it.
+    /// What is worth reporting about it.
     pub remarks: Remarks,
 }
 

@@ -1,8 +1,9 @@
 //! Meshes of triangles.
 //!
 //! A [`Mesh`] is a list of corners and a list of triangles that name their corners. It is checked when it is made, so that
-//! whoever has one may compute with it: all coordinates are numbers in range, and all corners that triangles name exist. A
-//! mesh promises nothing else: it may have borders, cracks, sheets above each other, and triangles without area.
+//! its owner may compute with it: all coordinates are numbers in range, and all corners that triangles name
+//! exist. A mesh promises nothing else: it may have borders, cracks, sheets above each other, and triangles
+//! without area.
 
 use core::fmt;
 use vcutc_backend_api::geometry::Point3;
@@ -212,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_mesh_is_refused() {
+    fn what_is_not_a_mesh_is_refused() {
         assert_eq!(
             Mesh::new(corners(), vec![[0, 1, 2], [0, 1, 3]]),
             Err(MeshError::NoSuchCorner { triangle: 1 })

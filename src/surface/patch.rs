@@ -161,7 +161,7 @@ const SHARED: f64 = 0.4;
 /// what gapes between their triangles is narrower than the tolerance.
 ///
 /// # Errors
-/// See [`PatchError`]. Which surface is wrong, [`nurbs`] tells.
+/// See [`PatchError`]. [`nurbs`] says which surface is wrong.
 pub fn several(surfaces: &[Nurbs], tolerance: Length) -> Result<Mesh, PatchError> {
     match surfaces {
         [only] => nurbs(only, tolerance),

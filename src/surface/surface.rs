@@ -54,7 +54,7 @@ pub struct Accuracy {
 /// Why there is no surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SurfaceError {
-    /// The plan is empty, or a number given is none or out of range.
+    /// The plan is empty, or a given number is not finite or out of range.
     BadPlan,
     /// With its unit and in its place the mesh reaches beyond the largest coordinate.
     OutOfRange,

@@ -73,8 +73,8 @@ fn thousandths<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Er
 }
 
 impl ModeFigures {
-    /// Of an arm that cuts. None where masses or stiffness are not known, where a joint moves no mass, where the masses are no bodies,
-    /// and where nothing is cut.
+    /// Of an arm that cuts. None where masses or stiffness are not known, where a joint moves no mass, where
+    /// the masses are not bodies, and where nothing is cut.
     #[must_use]
     pub fn of(known: Known<'_>, arms: &Arms) -> Option<Self> {
         let masses = known.model.masses.as_ref()?;

@@ -19,7 +19,7 @@ const fn at(middle: f64) -> Part {
 }
 
 /// Takes the modes at the samples of all cuts, in order, with the cut and the values of the axes. None where masses or stiffness are not
-/// known, where a joint moves no mass, and where the masses are no bodies.
+/// known, where a joint moves no mass, and where the masses are not bodies.
 pub(super) fn along_cuts(
     known: Known<'_>,
     arms: &Arms,

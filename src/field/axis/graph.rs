@@ -9,8 +9,8 @@ use vcutc_region::place::Place;
 /// they are left out.
 const SAME_NODE: f64 = 1e-4;
 
-/// The simplified axis: between nodes that are no mere changes of the wall, one straight piece, or two where the axis is off
-/// it by more than the tolerance.
+/// The simplified axis: between nodes that are not mere changes of the wall, one straight piece, or two where
+/// the axis is off it by more than the tolerance.
 pub(super) fn simplified(branches: &[Branch], tolerance: f64) -> Vec<Segment> {
     let is_long = |branch: &&Branch| {
         branch

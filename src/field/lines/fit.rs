@@ -111,7 +111,8 @@ fn pair(from: &Point, to: &Point, ahead: Ahead) -> Biarc {
     Biarc::new(knot(from), knot(to))
 }
 
-/// The arcs of a pair; a line where they are none, or would swing far aside, as at the tips of cusps.
+/// The arcs of a pair; a line where there are none, or where they would swing far aside, as at the tips of
+/// cusps.
 fn arcs(pair: &Biarc) -> impl Iterator<Item = Piece> {
     let arcs = pair
         .sound()

@@ -94,7 +94,7 @@ fn passes_keep_from_walls_and_leave_nothing() {
 
 /// The wall pass is the true offset; of the lines of a field on the simplified axis some end within the pocket.
 #[test]
-fn what_is_told_of_lines() {
+fn what_is_reported_of_lines() {
     let found = passes(&pocket(5), &TOOL, &FIELDS[4]).unwrap();
     assert_eq!((found.lines, found.broken), (16, 8));
     let walls: Vec<&Pass> = found.passes.iter().filter(|pass| pass.level == 0).collect();

@@ -9,7 +9,7 @@ use super::{COINCIDENT, CurveError, MOST_POINTS, Point2, check_points};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use vcutc_backend_api::units::Length;
 
-/// How unequal the distances of a centre from both ends may be, in mm. It also tells a half circle.
+/// How unequal the distances of a centre from both ends may be, in mm. It also identifies a half circle.
 const CENTER_TOLERANCE: f64 = 1e-3;
 
 /// Three points whose triangle is lower than this lie on one line, in mm.
@@ -120,7 +120,7 @@ impl Arc {
 
     pub(super) fn flatten(&self, tolerance: f64, out: &mut Vec<Point2>) -> Result<(), CurveError> {
         let pieces = libm::ceil(self.sweep.abs() / self.widest_chord(tolerance));
-        // The cast saturates; the comparison comes first all the same.
+        // The cast saturates; the comparison still comes first.
         if pieces > MOST_POINTS as f64 {
             return Err(CurveError::TooManyPoints);
         }

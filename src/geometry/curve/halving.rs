@@ -5,7 +5,7 @@
 
 use super::{CurveError, Point2};
 
-/// More halvings than any curve takes whose points a tolerance can tell apart.
+/// More halvings than any curve needs whose points a tolerance can distinguish.
 const MOST_HALVINGS: usize = 60;
 
 /// A control point.

@@ -63,7 +63,7 @@ pub enum NurbsError {
         /// The weight, counted from 0.
         index: usize,
     },
-    /// The control points are no points of a curve.
+    /// The control points are not points of a curve.
     Curve(CurveError),
 }
 

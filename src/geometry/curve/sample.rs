@@ -13,7 +13,7 @@ const FIRST_GRID: usize = 256;
 /// Most points of a formula. Fewer than of a curve: each costs five evaluations or more.
 pub const MOST_SAMPLES: usize = 500_000;
 
-/// Where an interval is tested besides its middle, as shares of its width.
+/// Where an interval is tested in addition to its middle, as shares of its width.
 const TESTS: [f64; 4] = [0.113, 0.289, 0.717, 0.891];
 
 /// Intervals narrower than this are not halved any more, in mm; relative to x where that is more.
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn a_vertical_tangent_is_no_jump() {
+    fn a_vertical_tangent_is_not_a_jump() {
         let f = |x: f64| (x <= 50.0).then(|| (2500.0 - x * x).max(0.0).sqrt());
         let points = sample(&f, 0.0, 50.0, Length::mm(0.005)).unwrap();
         assert!(worst(&f, &points) <= 0.005);

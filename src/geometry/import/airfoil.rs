@@ -2,12 +2,14 @@
 //!
 //! **Selig**: a title, then the points from the trailing edge over one side to the leading edge and back along the
 //! other. **Lednicer**: a title, the number of points of each side (`61. 61.`), then each side from the leading edge
-//! to the trailing edge. Which one it is follows from the points: sides that start anew jump back across the chord.
+//! to the trailing edge. Which one it is follows from the points: sides that start again jump back across the
+//! chord.
 //!
 //! Real files are less regular than that, and what other programs read is read here too: [`sheet`] finds the points among
-//! comments, grids of ISES and MSES and headings, [`sides`] tells the two sides apart, and [`repair`] sees to it that both reach
-//! from the leading to the trailing edge of a chord of 1 and do not cross. A side is read as a function of x: where it has several
-//! heights the outer one counts. Whatever is not as the file has it is listed as a [`Repair`], with its place and its size.
+//! comments, grids of ISES and MSES and headings, [`sides`] separates the two sides, and [`repair`] sees to
+//! it that both reach from the leading to the trailing edge of a chord of 1 and do not cross. A side is read
+//! as a function of x: where it has several heights the outer one counts. Whatever is not as the file has it
+//! is listed as a [`Repair`], with its place and its size.
 
 mod repair;
 mod sheet;
@@ -78,7 +80,7 @@ pub fn airfoil(text: &str) -> Result<Airfoil, DataError> {
 /// the west.
 ///
 /// # Errors
-/// The bytes, where one of them is zero: they are no text.
+/// The bytes, where one of them is zero: they are not text.
 pub fn airfoil_text(bytes: Vec<u8>) -> Result<String, Vec<u8>> {
     match String::from_utf8(bytes) {
         Ok(text) => Ok(text),

@@ -13,7 +13,7 @@ enum Separator {
 }
 
 impl Separator {
-    /// The separator of a line. Each line is looked at on its own, so that mended files still read.
+    /// The separator of a line. Each line is looked at on its own, so that repaired files can still be read.
     fn of(line: Piece<'_>) -> Self {
         if line.text.contains(';') {
             Self::Semicolon
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn fewer_than_two_points_are_no_profile() {
+    fn fewer_than_two_points_are_not_a_profile() {
         assert!(complaint("").1.contains("none is found"));
         assert!(complaint("x,z\n1,2\n").1.contains("only one is found"));
     }

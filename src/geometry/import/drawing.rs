@@ -63,7 +63,7 @@ pub struct Drawing {
 pub enum Unit {
     /// So many mm.
     Known(f64),
-    /// The file does not say, or says one that is no length.
+    /// The file does not say, or says one that is not a length.
     Unsaid(Place),
 }
 
@@ -127,7 +127,7 @@ pub struct Unread {
 /// Why something is left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Why {
-    /// Things of this kind are no outlines, or none that are read.
+    /// Things of this kind are not outlines, or not outlines that are read.
     Kind,
     /// It is tilted out of the plane of the drawing.
     Tilted,

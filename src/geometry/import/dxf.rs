@@ -26,7 +26,8 @@ use groups::Groups;
 /// Reads a drawing: what stands on a layer, or on all of them. Capitals make no difference to names of layers.
 ///
 /// # Errors
-/// What is no DXF, ends too early, or has entities that cannot be understood; blocks within themselves or without end.
+/// A text that is not DXF, ends too early, or has entities that cannot be understood; blocks within
+/// themselves or without end.
 pub fn dxf(text: &str, layer: Option<&str>) -> Result<Drawing, DataError> {
     let mut groups = Groups::new(text);
     let file = sections::read(&mut groups)?;

@@ -22,7 +22,7 @@ use super::drawing::Drawing;
 /// Reads a drawing: what stands on a layer, or all of it.
 ///
 /// # Errors
-/// What is no SVG, or has elements that cannot be understood; references without end.
+/// A text that is not SVG, or has elements that cannot be understood; references without end.
 pub fn svg(text: &str, layer: Option<&str>) -> Result<Drawing, DataError> {
     let document = tree::document(text)?;
     let page = page::Page::of(document.root_element())?;

@@ -14,7 +14,7 @@ fn distance_to_segment(point: Point2, pair: &[Point2]) -> f64 {
 }
 
 /// A point on the true offset is exactly the distance away from the profile, one above it is farther: so the
-/// distance from places on the result tells both bounds, without any notion of caps.
+/// distance from places on the result gives both bounds, without any notion of caps.
 fn assert_offset(profile: &Profile, distance: f64, shares: &[f64]) {
     let raised = offset_up(profile, Length::mm(distance));
     let (start, end) = profile.span();

@@ -1,7 +1,7 @@
 //! A machined contour: a polyline from left to right that may have walls, straight up or down at one x.
 //!
-//! It has no height for every x, so it is no [`Profile`]. But where it comes nearest to a point is found in the same way: a search
-//! by blocks asks for x that nowhere falls, not for x that rises.
+//! It does not have a height for every x, so it is not a [`Profile`]. But where it comes nearest to a point
+//! is found in the same way: a search by blocks asks for x that nowhere falls, not for x that rises.
 
 use super::{Point2, Profile, least_step};
 

@@ -31,10 +31,10 @@ const POSES: u32 = 64;
 /// that is meant.
 const STRAIGHT: f64 = 1e-4;
 
-/// Lengths up to this are none, in mm.
+/// Lengths up to this count as 0, in mm.
 const NO_LENGTH: f64 = 1e-3;
 
-/// Angles up to this are none, in rad: rounding of the arithmetic.
+/// Angles up to this count as 0, in rad: rounding of the arithmetic.
 const NO_ANGLE: f64 = 1e-12;
 
 /// A constant pose that differs by less from none at all, in mm and as Frobenius norm, is rounding.

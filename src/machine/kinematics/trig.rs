@@ -11,7 +11,7 @@
 
 use core::f64::consts::{FRAC_2_PI, FRAC_PI_4, PI, TAU};
 
-/// Largest angle, in rad, that [`Turn::of`] takes: beyond it the reduction by pi/2 is no longer exact.
+/// Largest angle, in rad, that [`Turn::of`] takes: beyond it the reduction by pi/2 is not exact.
 pub const WIDEST: f64 = 1e6;
 
 /// An angle as its sine and cosine.

@@ -91,7 +91,7 @@ fn what_no_arm_has_is_refused() {
 }
 
 #[test]
-fn numbers_that_are_lumped_are_no_bodies() {
+fn numbers_that_are_lumped_are_not_bodies() {
     let lumped = links().replace("zz = 2.0", "zz = 4.0");
     assert!(sheet(&format!("[dynamics]\n{lumped}")).is_err());
     assert!(sheet(&format!("[dynamics]\nkind = \"lumped\"\n{lumped}")).is_ok());

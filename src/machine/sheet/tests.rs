@@ -179,7 +179,7 @@ fn rates_are_above_nothing() {
 }
 
 #[test]
-fn unknown_keys_are_told_with_what_was_meant() {
+fn unknown_keys_are_reported_with_what_was_meant() {
     let text = SMALL.replace("c4_mm", "c4");
     let found = parse(&text).unwrap_err();
     let messages: Vec<_> = found.iter().map(|fault| fault.message.as_str()).collect();
@@ -191,7 +191,7 @@ fn unknown_keys_are_told_with_what_was_meant() {
 }
 
 #[test]
-fn a_known_pose_that_is_missed_is_told_with_the_distance() {
+fn a_known_pose_that_is_missed_is_reported_with_the_distance() {
     let check =
         "[[fk_check]]\njoints_deg = [0, 0, 0, 0, 0, 0]\nquat_wxyz = [0.70710678, 0.0, 0.70710678, 0.0]\n";
     let right = format!("{SMALL}{check}xyz_mm = [1450.0, 0.0, 1700.0]\n");
@@ -242,7 +242,7 @@ fn words_are_known_words() {
 }
 
 #[test]
-fn limits_that_nobody_checks_are_refused() {
+fn limits_that_are_not_checked_are_refused() {
     let (place, message) = fault("[limits]\n", "[limits]\nelbow_angle_limit_deg = [-70.0, 70.0]\n");
     assert_eq!(place, "[-70.0, 70.0]");
     assert!(message.contains("each axis separately"), "{message}");
@@ -251,7 +251,7 @@ fn limits_that_nobody_checks_are_refused() {
 }
 
 #[test]
-fn several_faults_are_told_at_once_in_the_order_of_the_text() {
+fn several_faults_are_reported_at_once_in_the_order_of_the_text() {
     let text = SMALL
         .replace("a1_mm = 300", "a1_mm = nan")
         .replace("[1, 1, 1, 1, 1, 1]", "[2, 1, 1, 1, 1, 1]")
@@ -262,7 +262,7 @@ fn several_faults_are_told_at_once_in_the_order_of_the_text() {
 }
 
 #[test]
-fn what_is_no_toml_is_told_where() {
+fn what_is_not_toml_is_reported_with_its_place() {
     let (place, message) = faults("a2_mm = -100.0", "a2_mm = = 3").remove(0);
     assert!(message.starts_with("the sheet is not TOML: "), "{message}");
     assert!(place.len() < 10, "{place}");

@@ -10,7 +10,7 @@ use vcutc_diagnostics::schema::field::FieldSpec;
 /// How sheets of one kind of machine are read.
 #[derive(Clone, Copy)]
 pub(super) struct Form {
-    /// The fields of the sheet as a whole, besides those that all sheets have.
+    /// The fields of the sheet as a whole, in addition to those that all sheets have.
     pub(super) fields: &'static [FieldSpec],
     /// Reads what is particular to the kind.
     pub(super) read: fn(&Table<'_>, Maker, &mut Vec<Diagnostic>) -> Option<Body>,

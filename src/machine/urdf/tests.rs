@@ -257,7 +257,7 @@ const UR10E: &[Row] = &[
     ),
 ];
 
-/// The text of a URDF, with what real ones have besides.
+/// The text of a URDF, with what else real ones have.
 fn text(rows: &[Row]) -> String {
     let mut text =
         String::from("<?xml version=\"1.0\" ?>\n<!-- written for tests -->\n<robot name=\"arm\">\n");

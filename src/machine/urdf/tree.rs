@@ -79,7 +79,7 @@ impl<'t> Tree<'t> {
         let mut found = BTreeSet::new();
         for link in self.links.iter().filter(|link| link.has_mass()) {
             let mut next = Some(link.name.node);
-            // Who carries one that is known already is known, too.
+            // The carriers of a known link are known, too.
             while let Some(name) = next.filter(|name| found.insert(*name)) {
                 next = self.carrier(name).map(|joint| joint.parent.node);
             }

@@ -2,7 +2,7 @@
 //!
 //! The centre may go where its distance from all walls is at least what it keeps. The edge of that is made of pieces beside the
 //! walls and of arcs about their ends, less what other walls block. It is computed here from the walls, once more: the proof takes
-//! nothing from those who planned.
+//! nothing from the planner.
 
 use super::Tool;
 use crate::boxes::{Extent, Tree};
@@ -17,7 +17,7 @@ use core::f64::consts::PI;
 /// By so much, in mm, a place may be too near to a wall and still count as one for the centre. It makes more ground reachable.
 const SLACK: f64 = 1e-9;
 
-/// Shorter parts, in mm, are none.
+/// Shorter parts, in mm, do not count.
 const SHORTEST: f64 = 1e-9;
 
 /// How far passes may be off the edge, in mm, and still follow it: the least that does is what counts. Programs have whole

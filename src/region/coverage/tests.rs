@@ -191,7 +191,7 @@ fn an_open_side_is_cut_up_to_its_end() {
 }
 
 #[test]
-fn tools_that_are_none_or_too_small_are_refused() {
+fn invalid_or_too_small_tools_are_refused() {
     let region = rectangle(80.0, 60.0);
     let bad = [
         (0.0, 0.0),

@@ -72,7 +72,7 @@ proptest! {
 }
 
 #[test]
-fn open_sides_are_no_walls() {
+fn open_sides_are_not_walls() {
     let corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(x, y)| Place::new(x, y));
     let edges = (0..4).map(|i| Edge {
         piece: Piece::line(corners[i], corners[(i + 1) % 4]),

@@ -11,8 +11,8 @@ use core::f64::consts::FRAC_PI_2;
 /// What lies so close to the outline of what is cut, in mm, touches it.
 const TOUCHING: f64 = 1e-9;
 
-/// Angles up to this, in rad, are none: at the sides of the way, where the rim touches what is cut, its chips are a 200 millionth of
-/// the radius thick.
+/// Angles up to this, in rad, count as 0: at the sides of the way, where the rim touches what is cut, its
+/// chips are a 200 millionth of the radius thick.
 const NOTHING: f64 = 1e-4;
 
 /// How much farther off, in mm, what surely cuts nothing of the rim is: far more than rounding makes of crossings.
@@ -343,7 +343,7 @@ fn shortened(piece: &Curve, by: f64) -> Option<Curve> {
 }
 
 /// The part of an arc's way that lies a quarter of a turn and more behind, with a further angle to spare. What is nearer never cuts
-/// the front half of the rim, or cuts of it what it is no loss to leave out.
+/// the front half of the rim, or cuts of it what can be left out without loss.
 fn older_part(way: &Curve, share: f64, spare: f64) -> Option<Curve> {
     let sweep = way.piece.sweep.abs();
     if way.piece.is_line() {

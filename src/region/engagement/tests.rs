@@ -120,7 +120,7 @@ fn nothing_works_beyond_an_open_side() {
 }
 
 #[test]
-fn tools_that_are_none_and_ways_without_end_are_refused() {
+fn invalid_tools_and_ways_without_end_are_refused() {
     let region = rectangle(100.0, 80.0);
     let pass = [open(&[[10.0, 10.0], [90.0, 10.0]])];
     for radius in [0.0, -1.0, f64::NAN, f64::INFINITY] {

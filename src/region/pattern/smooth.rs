@@ -14,7 +14,7 @@ use crate::piece::Piece;
 use crate::place::Place;
 use core::f64::consts::SQRT_2;
 
-/// Corners that turn by less, in rad, are none.
+/// Corners that turn by less, in rad, do not count.
 const STRAIGHT: f64 = 1e-6;
 
 /// Arcs of a smaller radius, in mm, are left out, and so are pieces shorter than that.

@@ -275,7 +275,7 @@ fn inward_corners_are_sharp_next_to_the_walls_only() {
 }
 
 #[test]
-fn parameters_that_are_none() {
+fn invalid_parameters() {
     let region = pocket(2);
     for pattern in [
         Pattern::Offset { step: 0.0 },

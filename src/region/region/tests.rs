@@ -189,7 +189,7 @@ fn circles_cross_where_their_centres_are_near() {
 }
 
 #[test]
-fn touching_in_a_place_is_no_crossing() {
+fn touching_in_a_place_is_not_a_crossing() {
     let outline = rectangle(0.0, 0.0, 100.0, 80.0);
     // Corner on a side, circle on a side, two circles, corner on corner.
     let corner = polygon(&[(50.0, 0.0), (60.0, 10.0), (40.0, 10.0)]);
@@ -233,7 +233,7 @@ fn touching_in_a_place_is_no_crossing() {
 }
 
 #[test]
-fn what_is_no_loop_is_refused() {
+fn what_is_not_a_loop_is_refused() {
     assert_eq!(Region::new(vec![]), Err(RegionFault::Empty));
     let there_and_back = polygon(&[(0.0, 0.0), (10.0, 0.0)]);
     assert!(Region::new(vec![there_and_back]).is_err());

@@ -86,7 +86,7 @@ impl Section<'_> {
 /// How many columns there are.
 const COLUMNS: usize = 128;
 
-/// After so many motions the columns are made anew.
+/// After so many motions the columns are made again.
 const LASTS: u32 = 64;
 
 /// Bounds on the section's height from above.

@@ -210,7 +210,7 @@ impl<C: Iterator<Item = Crack>> Walk<'_, '_, C> {
         }
     }
 
-    /// Ends the piece at hand; one without width is none.
+    /// Ends the piece at hand; one without width is dropped.
     fn close(&mut self, x: f64, end: End) {
         if let Some(mut piece) = self.open.take() {
             piece.span[1] = x;

@@ -1,4 +1,4 @@
-//! What cuts take out of a section, kept for those who want to see it: chips as their outlines, and slits.
+//! What cuts take out of a section, kept for display: chips as their outlines, and slits.
 
 use super::{Crack, CrossSection};
 use crate::surface::{Surface, Vee};

@@ -73,7 +73,7 @@ pub struct Across {
 }
 
 impl Tracks {
-    /// The disc of a blade, with these limits; none of a blade that is none.
+    /// The disc of a blade, with these limits; none for other blades.
     #[must_use]
     pub fn disc(&self, blade: &Blade) -> Option<Disc> {
         match blade.shape {
@@ -109,7 +109,7 @@ pub struct Strips {
     pub clearance: Length,
 }
 
-/// For who replays a pass without asking what is wrong with it.
+/// For a replay of a pass without its faults.
 const UNLIMITED: Skin = Skin {
     depth: Length::mm(f64::INFINITY),
     width: Length::mm(f64::INFINITY),
@@ -130,8 +130,8 @@ pub(super) struct Through {
 }
 
 impl Through {
-    /// The pass that a segment is; none where it is no straight way along y with a disc that leans along it. One that is rolled
-    /// besides is a pass that takes the skin off.
+    /// The pass that a segment is; none where it is not a straight way along y with a disc that leans along
+    /// it. One that is also rolled is a pass that takes the skin off.
     pub(super) fn of(program: &Program, segment: &Segment<'_>, passes: Option<Passes>) -> Option<Self> {
         let blade = program.blade(segment.before.tool)?;
         let Shape::Disc(edge) = blade.shape else {
@@ -315,7 +315,7 @@ impl<'p> Player<'p> {
                 let pass = through.strip(Some(strips), self.section.surface());
                 self.section.pass_unguarded(&through.disc, &pass)
             }
-            // They are no passes, see `Through::of`.
+            // They are not passes, see `Through::of`.
             Some(Passes::Tracks(_) | Passes::Region) => return,
             // What a pass takes off does not depend on what it is for.
             None if through.roll == Angle::ZERO => {

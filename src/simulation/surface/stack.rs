@@ -3,9 +3,9 @@
 //! Whether material stands above a flank beyond its exit is asked for every flank once a steeper one, or a wall, has been
 //! cut. Looking at every corner up to the stock's top would take longer the more cuts lie between here and the wall. So a
 //! Fenwick tree [Fenwick 1994] over the stack keeps the highest corner of blocks of them: a block that stays below the
-//! flank where the flank gets to it stays below all along, for a flank rises. Looking so takes logarithmic time as long as few
-//! corners are above the flank. The tree grows when it is asked and shrinks with the stack, so surfaces without
-//! walls never have one.
+//! flank where the flank gets to it stays below all along, because a flank rises. Looking so takes
+//! logarithmic time as long as few corners are above the flank. The tree grows when it is asked and shrinks
+//! with the stack, so surfaces without walls never have one.
 
 use super::{FlankWalk, TOUCH, is_same};
 use vcutc_geometry::curve::Point2;

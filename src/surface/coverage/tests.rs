@@ -97,7 +97,7 @@ fn cracks_along_lines_between_bins_are_welded() {
 }
 
 #[test]
-fn cracks_are_welded_or_told() {
+fn cracks_are_welded_or_reported() {
     let welded = cracked(30.0 - 1e-4, 30.0).coverage().unwrap();
     assert_eq!(
         (welded.gaps.len(), welded.uncovered, welded.open_edges),
@@ -114,7 +114,7 @@ fn cracks_are_welded_or_told() {
 }
 
 #[test]
-fn a_strip_along_the_end_is_told() {
+fn a_strip_along_the_end_is_reported() {
     let surface = surface_over(&sampled(100.0, 56.0, [40, 20], &|x, y| x + y), FIXED, 100.0, 60.0);
     let coverage = surface.coverage().unwrap();
     assert!((coverage.uncovered.to_mm2() - 400.0).abs() < 1e-6);
@@ -167,7 +167,7 @@ fn closed_bodies_with_floor_and_walls_are_fine() {
 }
 
 #[test]
-fn undercuts_are_told_with_their_area() {
+fn undercuts_are_reported_with_their_area() {
     // Over y from 20 to 30 a lip hangs: 10 mm of 100.
     let lip = extruded(&[
         [0.0, 0.0],

@@ -80,7 +80,8 @@ struct Piece {
     half: [f64; 2],
     /// Its greatest height.
     top: f64,
-    /// The height of its plane over the middle of the bin, and its slope; none if it is too steep or too narrow to tell.
+    /// The height of its plane over the middle of the bin, and its slope; none if it is too steep or too
+    /// narrow to determine.
     plane: Option<(f64, [f64; 2])>,
 }
 

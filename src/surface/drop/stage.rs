@@ -80,7 +80,7 @@ impl Cylinder {
         let slope = sine * (to[2] - from[2] - (to[0] - from[0]) / sine) / across;
         let q = self.radius * slope / (slope * slope + 1.0).sqrt();
         let share = (q - from[1]) / across;
-        // Not for a number that is none, of a side along the heading.
+        // False for NaN, which a side along the heading gives.
         (0.0..=1.0).contains(&share).then(|| between(from, to, share))
     }
 }

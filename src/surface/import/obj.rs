@@ -1,8 +1,8 @@
 //! OBJ: corners, and polygons that name them.
 //!
 //! Lines `v x y z` and `f a b c ...` are read; an index may be negative (counted back from the last corner so far) and may have
-//! further indices behind slashes, which belong to textures and normals. A line goes on after a backslash at its end. Every
-//! other kind of line is counted and passed over.
+//! further indices after slashes, which belong to textures and normals. A line goes on after a backslash at
+//! its end. Every other kind of line is counted and passed over.
 
 use super::gather::Gather;
 use super::words::{Word, Words, lines};
@@ -11,8 +11,8 @@ use super::{DataError, ReadMesh, fault};
 /// Reads the polygons of an OBJ file as fans of triangles.
 ///
 /// # Errors
-/// Corners that are no numbers or out of range, faces that name corners which do not exist, that pass a corner twice, or that
-/// are concave; a file without a triangle that has an area.
+/// Corners that are not numbers or out of range, faces that name corners which do not exist, that pass a
+/// corner twice, or that are concave; a file without a triangle that has an area.
 pub fn obj(bytes: &[u8]) -> Result<ReadMesh, DataError> {
     let mut gather = Gather::default();
     let mut named = Vec::new();

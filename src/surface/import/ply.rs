@@ -26,8 +26,9 @@ enum Use {
 /// Reads the polygons of a PLY file as fans of triangles.
 ///
 /// # Errors
-/// A head that is none, data that ends too early, corners out of range, faces that name corners which do not exist before them,
-/// that pass a corner twice, or that are concave; a file without a triangle that has an area.
+/// An invalid head, data that ends too early, corners out of range, faces that name corners which do not
+/// exist before them, that pass a corner twice, or that are concave; a file without a triangle that has an
+/// area.
 pub fn ply(bytes: &[u8]) -> Result<ReadMesh, DataError> {
     let head = head(bytes)?;
     let mut values = values(bytes, head.form, head.end);

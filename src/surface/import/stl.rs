@@ -25,8 +25,8 @@ const TRIANGLE: usize = 50;
 /// Reads an STL file, binary or text. Corners with the same coordinates become one.
 ///
 /// # Errors
-/// A length that does not fit the number of triangles, coordinates that are no numbers or out of range, and text that is no
-/// STL; a file without a triangle that has an area.
+/// A length that does not fit the number of triangles, coordinates that are not numbers or out of range, and
+/// text that is not STL; a file without a triangle that has an area.
 pub fn stl(bytes: &[u8]) -> Result<ReadMesh, DataError> {
     let count = bytes
         .get(80..HEAD)
@@ -74,7 +74,7 @@ fn after_mark(bytes: &[u8]) -> usize {
     if bytes.starts_with(MARK) { MARK.len() } else { 0 }
 }
 
-/// The form of a file of triangles that is no STL, if it begins as another one does.
+/// The form of a file of triangles that is not STL, if it begins as another one does.
 fn other_form(bytes: &[u8]) -> Option<&'static str> {
     const LINES: usize = 100;
     let start = after_mark(bytes);
@@ -160,7 +160,7 @@ fn text(bytes: &[u8]) -> Result<Vec<Single>, DataError> {
 fn facet(words: &mut Words<'_>, corners: &mut Vec<Single>) -> Result<(), DataError> {
     expect(words, "normal")?;
     for _ in 0..3 {
-        // Normals that are no numbers occur, on triangles without area.
+        // Normals that are not numbers occur, on triangles without area.
         some(words)?;
     }
     expect(words, "outer")?;

@@ -124,13 +124,16 @@ fn all_files_hold_the_same_triangles() {
     assert_eq!(soup(&stl(&text_stl(&two())).unwrap().mesh), wanted);
     let read = obj(text_obj().as_bytes()).unwrap();
     assert_eq!(soup(&read.mesh), wanted);
-    let told: Vec<_> = read
+    let passed_over: Vec<_> = read
         .remarks
         .passed_over
         .iter()
         .map(|(n, k)| (n.as_str(), *k))
         .collect();
-    assert_eq!(told, [("mtllib", 1), ("o", 1), ("s", 1), ("vn", 1), ("vt", 1)]);
+    assert_eq!(
+        passed_over,
+        [("mtllib", 1), ("o", 1), ("s", 1), ("vn", 1), ("vt", 1)]
+    );
     for file in [
         text_ply().as_bytes().to_vec(),
         text_ply().replace('\n', "\r\n").into_bytes(),
@@ -150,7 +153,7 @@ fn equal_corners_are_one() {
 }
 
 #[test]
-fn odd_triangles_are_left_out_and_told() {
+fn odd_triangles_are_left_out_and_reported() {
     let mut triangles = two();
     let [a, b, c] = triangles[0];
     triangles.extend([[b, c, a], [a, a, b], [a, [5.0, 0.0, 1.5], b]]);
@@ -173,7 +176,7 @@ fn other_files_named_as_stl_are_called_by_their_form() {
         assert!(message(format!("{mark}{}", text_obj()).as_bytes()).contains("`.obj`"));
         assert!(message(format!("{mark}{}", text_ply()).as_bytes()).contains("`.ply`"));
     }
-    // A binary file that was cut off is none of them.
+    // A binary file that was cut off is not one of them.
     let mut cut = binary_stl("v of a vane", &two());
     cut.pop();
     assert!(message(&cut).contains("promises 2"));
@@ -368,8 +371,8 @@ proptest! {
             match stl(&file) {
                 Ok(read) => {
                     prop_assert_eq!(soup(&read.mesh), wanted);
-                    let told = read.remarks.degenerate + read.remarks.doubled + read.mesh.triangles().len();
-                    prop_assert_eq!(told, triangles.len());
+                    let seen = read.remarks.degenerate + read.remarks.doubled + read.mesh.triangles().len();
+                    prop_assert_eq!(seen, triangles.len());
                 }
                 Err(_) => prop_assert!(wanted.is_empty()),
             }

@@ -107,8 +107,8 @@ fn waves() -> impl Strategy<Value = [f64; 4]> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// A tilt by the greatest curvature under the disc is a proof; the paraboloid of the contact alone is none, and the drop never
-    /// asks for more than the proof.
+    /// A tilt by the greatest curvature under the disc is a proof; the paraboloid of the contact alone is
+    /// not, and the drop never asks for more than the proof.
     #[test]
     fn a_proof_by_curvature_is_never_lifted([a, b, s, t] in waves(), turn in 0.0..6.3f64) {
         let height = move |x: f64, y: f64| a * libm::sin(x / 30.0 + s) + b * libm::cos((y + x / 2.0) / 35.0 + t);

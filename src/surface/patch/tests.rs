@@ -163,7 +163,7 @@ fn patches_side_by_side_are_a_union() {
 }
 
 #[test]
-fn what_is_no_surface_is_refused() {
+fn what_is_not_a_surface_is_refused() {
     let tolerance = Length::mm(0.1);
     let change = |change: &dyn Fn(&mut Nurbs)| {
         let mut surface = quarter(90.0);

@@ -82,7 +82,7 @@ proptest! {
 }
 
 #[test]
-fn what_has_no_direction_is_no_contact() {
+fn what_has_no_direction_is_not_a_contact() {
     let place = Point3::new(0.0, 0.0, 0.0);
     assert_eq!(Contact::new(place, [0.0, 0.0, -1.0], [1.0, 0.0]), None);
     assert_eq!(Contact::new(place, [1.0, 0.0, 0.0], [1.0, 0.0]), None);

@@ -40,7 +40,7 @@ fn units_scale_and_frames_move_and_turn() {
             assert!(off.abs() < 1e-6, "{x} {y} {off}");
         }
     }
-    // Rounding at that distance leaves strips along the sides that are no gaps.
+    // Rounding at that distance leaves strips along the sides that are not gaps.
     assert_eq!(turned.coverage().unwrap().uncovered.to_mm2(), 0.0);
 }
 
@@ -58,7 +58,7 @@ fn a_part_turned_half_round_is_its_mirror_image() {
 }
 
 #[test]
-fn what_lies_elsewhere_is_told_with_its_box() {
+fn what_lies_elsewhere_is_reported_with_its_box() {
     let mesh = sampled(100.0, 60.0, [2, 2], &|_, _| 3.0);
     let surface = |move_by: [f64; 4], unit: f64, width: f64| {
         let plan = Plan {

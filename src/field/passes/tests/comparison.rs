@@ -1,6 +1,6 @@
 //! The tables in `docs/pocket_patterns.md`: they compare patterns of passes on five pockets.
 //!
-//! `UPDATE_DOCS=1 cargo test -p vcutc-field comparison` writes them anew.
+//! `UPDATE_DOCS=1 cargo test -p vcutc-field comparison` rewrites them.
 
 use super::figures::{Figures, Slot};
 use super::*;
@@ -260,7 +260,7 @@ fn alone(fields: &[Alone]) -> String {
     )
 }
 
-/// Compares a table of the page with a fresh one, or writes it anew when asked to.
+/// Compares a table of the page with a fresh one, or rewrites it when asked to.
 #[allow(
     clippy::disallowed_methods,
     reason = "the test reads a committed file, and writes it when asked to"

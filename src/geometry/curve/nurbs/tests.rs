@@ -102,7 +102,7 @@ fn weights_make_an_exact_quarter_circle() {
 }
 
 #[test]
-fn what_is_no_spline_is_refused() {
+fn what_is_not_a_spline_is_refused() {
     let good = Nurbs {
         degree: 2,
         knots: vec![0.0, 0.0, 0.0, 1.0, 2.0, 2.0, 2.0],

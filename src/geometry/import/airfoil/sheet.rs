@@ -199,7 +199,7 @@ impl<'a> Reading<'a> {
         Err(DataError::new(place.clone(), message))
     }
 
-    /// How many rows at the start are no points but say how many there are: 0 or 1.
+    /// How many rows at the start are not points but say how many there are: 0 or 1.
     fn take_counts(&mut self) -> usize {
         let Some((first, rest)) = self.points.split_first() else {
             return 0;

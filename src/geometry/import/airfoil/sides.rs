@@ -32,7 +32,7 @@ impl Pair {
 pub(super) struct Outline {
     /// With strictly increasing x.
     pub(super) points: Vec<Vertex>,
-    /// Points that are left out, for the side passes over them.
+    /// Points that are left out because the side passes over them.
     pub(super) inside: Vec<Inside>,
 }
 

@@ -149,7 +149,7 @@ fn around_the_nose_the_outer_points_count() {
 }
 
 #[test]
-fn coarse_outlines_are_no_jumps() {
+fn coarse_outlines_are_not_jumps() {
     let foil = airfoil("diamond\n1 0\n0.1 0.1\n0 0\n0.1 -0.1\n1 0\n").unwrap();
     assert_eq!((foil.upper.len(), foil.lower.len()), (3, 3));
     assert!(foil.upper[1].z > 0.0 && foil.lower[1].z < 0.0);
@@ -482,7 +482,7 @@ fn headings_counts_and_third_columns_are_passed_over_and_said() {
 }
 
 #[test]
-fn other_programs_ways_to_write_are_no_repairs() {
+fn other_programs_ways_to_write_are_not_repairs() {
     let points = naca0012();
     let clean = airfoil(&file(&points)).unwrap();
     let rows = |row: fn(&(f64, f64)) -> String| points.iter().map(row).collect::<String>();

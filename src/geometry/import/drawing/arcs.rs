@@ -15,7 +15,7 @@ use crate::curve::COINCIDENT;
 use crate::point::Point2;
 use core::f64::consts::PI;
 
-/// A corner bends by more than this where it is none of the polyline's own, in rad.
+/// A corner that is not one of the polyline's own bends by more than this, in rad.
 const CORNER: f64 = 0.1;
 
 /// A line or an arc from one point to another.

@@ -214,7 +214,8 @@ pub(super) fn listed(chains: &[Walked]) -> Vec<Chain> {
     ends.collect()
 }
 
-/// Most chains among which the nearest ends are looked for; more are no outline that was left open.
+/// Most chains among which the nearest ends are looked for; more of them are not an outline that was left
+/// open.
 const MOST_COMPARED: usize = 200;
 
 /// The two nearest ends of different open chains.

@@ -1,7 +1,8 @@
 //! Which ends of lines belong together.
 //!
-//! Ends that coincide are paired first. Where more than two do the drawing branches, and nobody can say which way the
-//! outline goes. Ends that are still loose are then paired within the tolerance, the nearest first.
+//! Ends that coincide are paired first. Where more than two do the drawing branches, and it is not clear
+//! which way the outline goes. Ends that are still loose are then paired within the tolerance, the nearest
+//! first.
 //!
 //! Neighbours are found in a grid whose cells are so small that two ends in one cell are within reach of each other; so
 //! the work is bounded by the number of ends in a cell, and that is bounded too.

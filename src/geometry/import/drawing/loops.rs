@@ -45,7 +45,7 @@ pub struct Loops {
     pub repeated: Vec<usize>,
 }
 
-/// Why strokes are no loops.
+/// Why strokes do not form loops.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LoopsError {
     /// The strokes do not chain: nothing is drawn, a shape is not a curve, or ends cannot be paired.
@@ -54,7 +54,7 @@ pub enum LoopsError {
     Open {
         /// How many loops there are.
         loops: usize,
-        /// The chains that are none.
+        /// The chains that are not loops.
         chains: Vec<Chain>,
         /// The two loose ends that are nearest each other: of one chain or of two.
         nearest: Option<Gap>,

@@ -2,8 +2,8 @@
 //!
 //! Things are halved by the middles of their boxes along the longer side, until few are left. Halves whose boxes do not
 //! meet are passed over with all that they hold, so that an outline takes time in proportion to its segments. Things that
-//! lie across each other's boxes without end would take the square of it; the work is bounded, and nobody learns of
-//! pairs beyond ([`Dense`]).
+//! lie across each other's boxes without end would take the square of it; the work is bounded, and nothing is
+//! reported of pairs beyond ([`Dense`]).
 
 use crate::point::Point2;
 

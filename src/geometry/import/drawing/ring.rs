@@ -27,13 +27,13 @@ pub(super) enum Turn {
 pub(super) enum RingError {
     /// Nothing lies between its sides.
     NoArea,
-    /// Two of its segments meet that are no neighbours.
+    /// Two of its segments meet that are not neighbours.
     Meets {
         at: Point2,
         /// The segments, by the corners they begin with.
         segments: [usize; 2],
     },
-    /// It lies beside itself so often that nobody looks at all of it.
+    /// It lies beside itself so often that not all of it is looked at.
     Dense,
 }
 
@@ -187,8 +187,8 @@ impl Span {
             first.checked_sub(1).and_then(|place| way.get(place)),
             way.get(first),
         ) {
-            (Some(before), Some(behind)) if first == last => {
-                let z = before.lerp(*behind, (x - before.x) / (behind.x - before.x)).z;
+            (Some(before), Some(after)) if first == last => {
+                let z = before.lerp(*after, (x - before.x) / (after.x - before.x)).z;
                 return Self { low: z, high: z };
             }
             _ => way.get(first..last).unwrap_or_default(),
@@ -201,7 +201,8 @@ impl Span {
     }
 }
 
-/// The first two segments found that meet where `counts` says so and are no neighbours, or neighbours that fold.
+/// The first two segments found that meet where `counts` says so and are not neighbours, or are neighbours
+/// that fold.
 fn meeting(ring: &[Point2], counts: &dyn Fn(Point2) -> bool) -> Result<Option<RingError>, RingError> {
     let count = ring.len();
     let segment = |place: usize| [ring[place], ring[(place + 1) % count]];
@@ -239,7 +240,7 @@ fn fold([from, corner]: [Point2; 2], [_, to]: [Point2; 2]) -> Option<Point2> {
 enum Hand {
     Left,
     Right,
-    /// On it, as far as doubles tell.
+    /// On it, as far as doubles can show.
     On,
 }
 

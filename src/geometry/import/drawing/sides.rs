@@ -1,7 +1,8 @@
 //! The upper or the lower side of a closed outline.
 //!
 //! A side leads from the leftmost place of the outline to the rightmost. Where the outline runs straight up there, the
-//! upper side begins at the top of that line and the lower side at its foot: what is vertical is no part of a profile.
+//! upper side begins at the top of that line and the lower side at its foot: what is vertical is not part of
+//! a profile.
 
 use super::chain::reverse;
 use super::join::SAME;

@@ -6,7 +6,7 @@
 
 use crate::import::western;
 
-/// Why bytes are no text of a DXF.
+/// Why bytes are not the text of a DXF.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NoText {
     /// A DXF in binary form.
@@ -45,7 +45,7 @@ pub fn dxf_text(bytes: Vec<u8>) -> Result<String, NoText> {
     }
 }
 
-/// A text with the letters that its codes stand for; what is no code stays as it is.
+/// A text with the letters that its codes stand for; what is not a code stays as it is.
 fn without_codes(text: String) -> String {
     if !text.contains(UNICODE) && !text.contains(SIGN) {
         return text;
@@ -53,12 +53,12 @@ fn without_codes(text: String) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut rest = text.as_str();
     while let Some(at) = rest.find(['\\', '%']) {
-        let (before, behind) = rest.split_at(at);
+        let (before, after) = rest.split_at(at);
         plain.push_str(before);
         let (letter, length) =
-            letter_of_code(behind).unwrap_or_else(|| (behind.chars().next().unwrap_or(' '), 1));
+            letter_of_code(after).unwrap_or_else(|| (after.chars().next().unwrap_or(' '), 1));
         plain.push(letter);
-        rest = behind.get(length..).unwrap_or_default();
+        rest = after.get(length..).unwrap_or_default();
     }
     plain.push_str(rest);
     plain
@@ -72,15 +72,15 @@ const SIGN: &str = "%%";
 
 /// The letter of the code that a text begins with, and how many bytes that has.
 fn letter_of_code(text: &str) -> Option<(char, usize)> {
-    if let Some(behind) = text.strip_prefix(UNICODE) {
-        let digits = behind.get(..4)?;
+    if let Some(after) = text.strip_prefix(UNICODE) {
+        let digits = after.get(..4)?;
         let is_number = digits.chars().all(|digit| digit.is_ascii_hexdigit());
         let number = u32::from_str_radix(digits, 16).ok().filter(|_| is_number)?;
         let letter = char::from_u32(number).filter(|letter| !letter.is_control())?;
         return Some((letter, UNICODE.len() + digits.len()));
     }
-    let behind = text.strip_prefix(SIGN)?;
-    let letter = match behind.chars().next()? {
+    let after = text.strip_prefix(SIGN)?;
+    let letter = match after.chars().next()? {
         'd' | 'D' => '°',
         'p' | 'P' => '±',
         'c' | 'C' => '⌀',
@@ -90,13 +90,13 @@ fn letter_of_code(text: &str) -> Option<(char, usize)> {
     Some((letter, SIGN.len() + 1))
 }
 
-/// The code page that a file names: the value of the group behind `$DWGCODEPAGE`.
+/// The code page that a file names: the value of the group after `$DWGCODEPAGE`.
 fn code_page(bytes: &[u8]) -> Option<String> {
     // The header stands at the beginning.
     const HEAD: usize = 65_536;
     let head = String::from_utf8_lossy(bytes.get(..HEAD.min(bytes.len())).unwrap_or_default());
-    let behind = head.split_once("$DWGCODEPAGE")?.1;
-    let value = behind
+    let after = head.split_once("$DWGCODEPAGE")?.1;
+    let value = after
         .lines()
         .map(str::trim)
         .filter(|line| !line.is_empty())

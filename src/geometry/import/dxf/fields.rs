@@ -5,7 +5,7 @@ use super::super::{DataError, Piece, coordinate, number, shortened};
 use super::groups::{Group, Groups};
 use crate::point::Point2;
 
-/// The groups of an entity behind its name.
+/// The groups of an entity after its name.
 pub(super) struct Fields<'t> {
     /// Its name: `LINE`.
     pub(super) kind: &'t str,

@@ -54,8 +54,8 @@ pub(super) fn read<'t>(fields: &Fields<'t>) -> Result<Content<'t>, DataError> {
         return Err(fields.error("this INSERT scales its block to zero"));
     }
     let repeat = |count: i32, way: Point2| -> Result<Repeat, DataError> {
-        let told = fields.get(count).map_or(Ok(1), |value| value.whole())?;
-        let count = usize::try_from(told).unwrap_or(1).max(1);
+        let stated = fields.get(count).map_or(Ok(1), |value| value.whole())?;
+        let count = usize::try_from(stated).unwrap_or(1).max(1);
         Ok(Repeat {
             count,
             step: facing.vector(turn.vector(way)),
@@ -249,7 +249,7 @@ impl<'f, 't> Unfolding<'f, 't> {
         self.path.push(block.name);
         for row in 0..insert.rows.count {
             for column in 0..insert.columns.count {
-                // Empty blocks repeated for ever are bounded too.
+                // Empty blocks repeated without end are bounded too.
                 self.looked_at += 1;
                 let (c, r) = (column as f64, row as f64);
                 let aside = Affine::shift(

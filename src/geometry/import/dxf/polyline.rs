@@ -45,10 +45,10 @@ pub(super) fn light<'t>(fields: &Fields<'_>) -> Result<Content<'t>, DataError> {
     if open.is_some() {
         return Err(fields.error("the last corner of this LWPOLYLINE lacks its y"));
     }
-    let told = fields.whole(90)?;
-    if fields.get(90).is_some() && usize::try_from(told) != Ok(corners.len()) {
+    let stated = fields.whole(90)?;
+    if fields.get(90).is_some() && usize::try_from(stated) != Ok(corners.len()) {
         let message = format!(
-            "this LWPOLYLINE says that it has {told} corners, and has {}",
+            "this LWPOLYLINE says that it has {stated} corners, and has {}",
             corners.len()
         );
         return Err(fields.error(message));
@@ -56,7 +56,7 @@ pub(super) fn light<'t>(fields: &Fields<'_>) -> Result<Content<'t>, DataError> {
     shapes(fields, "LWPOLYLINE", &corners)
 }
 
-/// Takes the corners behind a POLYLINE, up to its SEQEND.
+/// Takes the corners after a POLYLINE, up to its SEQEND.
 pub(super) fn take_corners<'t>(groups: &mut Groups<'t>) -> Result<Vec<Fields<'t>>, DataError> {
     let mut corners = Vec::new();
     loop {

@@ -52,10 +52,10 @@ pub(super) fn spline<'t>(fields: &Fields<'_>) -> Result<Content<'t>, DataError> 
         (73, "control points", lists.control[0].len()),
         (74, "fit points", lists.fit[0].len()),
     ] {
-        let told = fields.whole(code)?;
-        if fields.get(code).is_some() && usize::try_from(told) != Ok(count) {
+        let stated = fields.whole(code)?;
+        if fields.get(code).is_some() && usize::try_from(stated) != Ok(count) {
             return Err(fields.error(format!(
-                "this SPLINE says that it has {told} {what}, and has {count}"
+                "this SPLINE says that it has {stated} {what}, and has {count}"
             )));
         }
     }

@@ -1,4 +1,4 @@
-//! Files that are no DXF, or one that cannot be understood: all are pointed at.
+//! Files that are not DXF, or cannot be understood: each fault is shown at its place.
 
 use super::super::drawing::{Affine, Drawing, Shape, Why, outline};
 use super::*;
@@ -24,7 +24,7 @@ fn complaint(text: &str) -> (String, String) {
 const LINE: &str = "0 LINE 8 SKIN 10 0.0 20 0.0 30 0.0 11 10.0 21 5.0 31 0.0";
 
 #[test]
-fn what_is_no_dxf_is_told_so() {
+fn what_is_not_dxf_is_reported() {
     assert!(complaint("").1.contains("empty"));
     assert!(complaint("x,z\n0,1\n").1.contains("begins with"));
     assert!(complaint("<svg/>\n<g/>\n").1.contains("begins with"));
@@ -58,7 +58,7 @@ fn codes_stand_for_letters() {
 }
 
 #[test]
-fn files_that_were_cut_off_are_told_so() {
+fn files_that_were_cut_off_are_reported() {
     let text = entities(LINE);
     for (at, _) in text.match_indices('\n') {
         let cut = &text[..at];
@@ -353,7 +353,7 @@ fn polylines_of_all_programs_are_the_same_line() {
         "0 LWPOLYLINE 5 2A 100 AcDbPolyline 90 3 70 128 43 0.5 38 7 39 1 10 0 20 0 40 1 41 2 91 7 10 10 20 5 42 0 10 20 20 0",
         // Seen from below.
         "0 LWPOLYLINE 90 3 70 0 10 0 20 0 10 -10 20 5 10 -20 20 0 210 0 220 0 230 -1",
-        // A corner twice, and extended data behind.
+        // A corner twice, and extended data after it.
         "0 LWPOLYLINE 90 4 70 0 10 0 20 0 10 10 20 5 10 10 20 5 10 20 20 0 1001 ACAD 1040 7.5 1010 99 1020 99",
         &heavy("0", ""),
         &heavy("8", " 70 32"),

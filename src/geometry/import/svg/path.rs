@@ -30,7 +30,7 @@ pub(super) fn subpaths(text: Text<'_>) -> Result<Vec<Vec<Shape>>, DataError> {
             if command == Command::Close || !scan.is_number_next() {
                 break;
             }
-            // Further pairs behind a move are lines.
+            // Further pairs after a move are lines.
             if command == Command::Move {
                 command = Command::Line;
             }
@@ -218,10 +218,10 @@ impl Drawing {
         self.handle = Handle::None;
     }
 
-    fn curve(&mut self, behind: Vec<Point2>, handle: Handle) {
-        if let Some(&to) = behind.last() {
+    fn curve(&mut self, after: Vec<Point2>, handle: Handle) {
+        if let Some(&to) = after.last() {
             let mut control = vec![self.here];
-            control.extend(behind);
+            control.extend(after);
             self.shapes.push(Shape::Bezier(control));
             self.here = to;
             self.handle = handle;

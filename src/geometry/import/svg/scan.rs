@@ -19,14 +19,14 @@ impl<'a> Scan<'a> {
         self.text.text.get(self.at..).unwrap_or_default()
     }
 
-    /// The next character behind blanks, if there is one.
+    /// The next character after blanks, if there is one.
     pub(super) fn peek(&mut self) -> Option<char> {
         let rest = self.rest();
         self.at += rest.len() - rest.trim_start().len();
         self.rest().chars().next()
     }
 
-    /// Takes a character behind blanks if it is the one.
+    /// Takes a character after blanks if it is the one.
     pub(super) fn take(&mut self, wanted: char) -> bool {
         let is_there = self.peek() == Some(wanted);
         if is_there {
@@ -35,14 +35,14 @@ impl<'a> Scan<'a> {
         is_there
     }
 
-    /// Takes a letter behind blanks, if there is one.
+    /// Takes a letter after blanks, if there is one.
     pub(super) fn letter(&mut self) -> Option<char> {
         let letter = self.peek().filter(char::is_ascii_alphabetic)?;
         self.at += 1;
         Some(letter)
     }
 
-    /// Takes a word of letters behind blanks.
+    /// Takes a word of letters after blanks.
     pub(super) fn word(&mut self) -> &'a str {
         self.peek();
         let rest = self.rest();
@@ -128,7 +128,7 @@ fn number_length(text: &str) -> usize {
     let mut parts = 0;
     if bytes.get(at) == Some(&b'.') {
         parts = digits(at + 1);
-        // A point without digits behind it belongs to the number only behind digits.
+        // A point without digits after it belongs to the number only after digits.
         if whole + parts > 0 {
             at += 1 + parts;
         }

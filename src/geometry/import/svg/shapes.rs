@@ -13,7 +13,7 @@ use roxmltree::Node;
 /// What an element draws: its name, and its strokes.
 pub(super) type Drawn = (&'static str, Vec<Vec<Shape>>);
 
-/// The strokes of an element; none when it is no shape.
+/// The strokes of an element; none when it is not a shape.
 pub(super) fn strokes(node: Node<'_, '_>) -> Result<Option<Drawn>, DataError> {
     Ok(Some(match node.tag_name().name() {
         "path" => (

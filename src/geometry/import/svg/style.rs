@@ -113,9 +113,9 @@ impl<'d> Sheet<'d> {
 
     fn read(&mut self, text: &'d str, place: Place) -> Result<(), DataError> {
         let mut rest = text;
-        while let Some((prelude, behind)) = rest.split_once('{') {
-            let (body, behind) = block(behind);
-            rest = behind;
+        while let Some((prelude, after)) = rest.split_once('{') {
+            let (body, after) = block(after);
+            rest = after;
             self.rules += 1;
             // Rules without a block, such as `@import`, and comments stand before selectors.
             let selectors = prelude.rsplit([';', '/']).next().unwrap_or_default().trim();
@@ -183,7 +183,7 @@ fn class(selector: &str) -> Option<&str> {
     (is_name && !name.is_empty()).then_some(name)
 }
 
-/// A block up to the brace that closes it, and what is behind.
+/// A block up to the brace that closes it, and what is after.
 fn block(text: &str) -> (&str, &str) {
     let mut depth: usize = 1;
     for (at, brace) in text.match_indices(['{', '}']) {

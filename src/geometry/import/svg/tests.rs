@@ -1,4 +1,4 @@
-//! Elements, transformations and pages; files that are no SVG or cannot be understood.
+//! Elements, transformations and pages; files that are not SVG or cannot be understood.
 
 use super::super::drawing::{Affine, OutlineError, Unit, Why, outline};
 use super::*;

@@ -318,7 +318,7 @@ fn parallel_axes_and_an_axis_along_the_spindle_are_refused() {
 }
 
 #[test]
-fn what_is_no_number_has_no_way() {
+fn what_is_not_a_number_has_no_way() {
     for spindle in 0..3 {
         let machine = machine(0, spindle);
         let good = machine.forward(&[1.0, 2.0, 3.0, 0.1, 0.2, 0.0]);

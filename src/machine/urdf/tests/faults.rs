@@ -201,7 +201,7 @@ const FAULTS: &[(&str, &str, &str, &str)] = &[
 ];
 
 #[test]
-fn every_fault_is_told_at_its_place() {
+fn every_fault_is_reported_at_its_place() {
     for (from, to, message, place) in FAULTS {
         let good = text(KR210);
         let bad = if *from == "robot" {
@@ -211,9 +211,9 @@ fn every_fault_is_told_at_its_place() {
         };
         assert_ne!(good, bad, "{from}");
         let faults = parse("arm", FileId::ALONE, &bad, Flange::ByConvention).expect_err(message);
-        let told = faults.iter().find(|fault| fault.message.starts_with(message));
-        let told = told.unwrap_or_else(|| panic!("{message}\n{faults:#?}"));
-        assert_eq!(&bad[told.primary.span.bytes()], *place, "{message}");
+        let found = faults.iter().find(|fault| fault.message.starts_with(message));
+        let found = found.unwrap_or_else(|| panic!("{message}\n{faults:#?}"));
+        assert_eq!(&bad[found.primary.span.bytes()], *place, "{message}");
     }
 }
 

@@ -440,7 +440,7 @@ fn a_flank_from_a_slit_frees_what_is_beside_it() {
             }]
         );
     }
-    // A slit that ends above the flank is none to it.
+    // A slit that ends above the flank does not matter to it.
     for vee in [
         Vee::one(at(15.0, 4.0), Side::Right, 1.0),
         Vee::one(at(20.0, 25.0), Side::Left, WALL),

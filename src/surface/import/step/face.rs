@@ -5,7 +5,7 @@
 //! larger), which bends one into the other without ever leaving that distance from the border. So both wind equally often
 //! around each place farther from the border than that, and the face has all of these places. How edges are divided and
 //! parametrised does not matter, nor where they begin or which way they turn. That is so in plan, where a part is a height;
-//! a surface that folds back to within that distance of its own border is none.
+//! a surface that folds back to within that distance of its own border is not.
 
 use super::super::{DataError, fault};
 use super::edge::{Edge, FLATNESS};

@@ -366,7 +366,7 @@ impl<'a> Instance<'a> {
         })
     }
 
-    /// What it is called in messages: the most telling of its keywords, which is the longest.
+    /// What it is called in messages: the clearest of its keywords, which is the longest.
     pub(super) fn kind(&self) -> String {
         let longest = self
             .records

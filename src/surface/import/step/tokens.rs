@@ -26,7 +26,7 @@ pub(super) enum Kind {
     Comma,
     Equals,
     Semicolon,
-    /// A character that only sections besides HEADER and DATA may have.
+    /// A character that only sections other than HEADER and DATA may have.
     Other,
 }
 

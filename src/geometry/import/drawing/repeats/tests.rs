@@ -18,7 +18,7 @@ fn repeated(strokes: &[Stroke]) -> Vec<usize> {
 fn lines_that_lie_on_others_from_end_to_end_count_once() {
     let ring = [(0.0, 0.0), (80.0, 0.0), (80.0, 30.0), (0.0, 30.0), (0.0, 0.0)];
     let turned = [(80.0, 30.0), (80.0, 0.0), (0.0, 0.0), (0.0, 30.0), (80.0, 30.0)];
-    // The same, back, from another corner; in pieces, before the whole and behind it.
+    // The same, back, from another corner; in pieces, before the whole and after it.
     assert_eq!(repeated(&[line(&ring), line(&ring)]), [1]);
     assert_eq!(repeated(&[line(&ring), line(&turned)]), [1]);
     let piece = line(&[(80.0, 30.0), (80.0, 0.0)]);
@@ -53,7 +53,7 @@ fn lines_that_lie_on_each_other_in_part_are_found() {
         (ends[0] - 40.0).abs() < 1e-9 && (ends[1] - 50.0).abs() < 1e-9,
         "{overlap:?}"
     );
-    // One that leads back over itself; a touch, a gap that is joined and lines side by side are none.
+    // One that leads back over itself; a touch, a gap that is joined and lines side by side do not count.
     let back = found(&[line(&[(0.0, 5.0), (50.0, 5.0), (30.0, 5.0), (30.0, 9.0)])]).unwrap();
     assert_eq!(back.strokes, [0, 0]);
     assert!(back.from.distance(at(30.0)).min(back.to.distance(at(30.0))) < 1e-9);

@@ -35,7 +35,7 @@ fn segments(ring: &[Corner]) -> Vec<[Corner; 2]> {
         .collect()
 }
 
-/// All pairs that are no neighbours.
+/// All pairs that are not neighbours.
 fn strangers(count: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..count).flat_map(move |j| {
         (0..j)
