@@ -15,7 +15,8 @@ fn main() {
     let version = env::var("CARGO_PKG_VERSION").unwrap_or_default();
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=build/commit.rs");
-    // Builds for development would be made anew after every commit, for a number that is old as soon as a file changes.
+    // Builds for development would be repeated after every commit, for a number that is old as soon as a file
+    // changes.
     let is_release = env::var("PROFILE").is_ok_and(|profile| profile == "release");
     let root = env::var("CARGO_MANIFEST_DIR").unwrap_or_default();
     let root = Path::new(&root);

@@ -1,9 +1,10 @@
 //! The machined contour by polygon clipping: one difference of the stock's rectangle and the triangles of all cuts.
 //!
 //! A cut takes out a triangle that stands on its tip. As high as the blade reaches it covers every chip of these jobs,
-//! which is all that can be said before the cuts have been replayed, so that is what the replay is held against. Triangles
-//! just as high as the lattice's chips leave the same material too; they give the peers the least overlap to resolve, but
-//! only because somebody knew the lattice. Either way the areas left are compared before a time counts.
+//! which is all that can be said before the cuts have been replayed, so the replay is compared with that.
+//! Triangles just as high as the lattice's chips leave the same material too; they give the peers the least
+//! overlap to resolve, but only because somebody knew the lattice. Either way the areas left are compared
+//! before a time counts.
 //!
 //! Coordinates are whole micrometres, the grid that tips lie on, which both peers take without converting. Both peers
 //! sweep along one axis, so how many edges are active at once depends on which way round the polygons lie: each peer gets

@@ -115,7 +115,7 @@ pub fn cobyla(start: [f64; 3], accuracy: f64) -> Vec<f64> {
     }
 }
 
-/// Slopes by differences, as who has no derivatives takes them.
+/// Slopes by finite differences, as a solver takes them that has no derivatives.
 fn slopes(function: fn(&[f64]) -> f64, x: &[f64], gradient: &mut [f64]) {
     let here = function(x);
     let mut moved = [x[0], x[1], x[2]];

@@ -203,24 +203,24 @@ pub fn prepare<'p>(program: &'p ReachableProgram, options: &'p Options) -> Box<d
 #[inline(never)]
 pub fn read(program: &ReachableProgram, options: &Options, files: &[ProgramFile]) -> usize {
     let mut count = 0;
-    told(program, options, files, &mut |statement| {
+    read_back(program, options, files, &mut |statement| {
         std::hint::black_box(&statement);
         count += 1;
     });
     count
 }
 
-/// Text to statements, each of them held against the program.
+/// Text to statements, each of them compared with the program.
 #[inline(never)]
 pub fn retrace(program: &ReachableProgram, options: &Options, files: &[ProgramFile]) {
     let reader = Krl.reader().expect("KRL is read");
     let comparator = Comparator::new(program, reader, reader.resolution(options));
     let mut replay = readback::Replay::new(comparator, reader.frames());
-    told(program, options, files, &mut |statement| replay.take(&statement));
+    read_back(program, options, files, &mut |statement| replay.take(&statement));
     replay.finish().expect("the program is what was written");
 }
 
-fn told(
+fn read_back(
     program: &ReachableProgram,
     options: &Options,
     files: &[ProgramFile],

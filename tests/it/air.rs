@@ -111,7 +111,7 @@ fn it_is_written_for_every_control() {
     }
 }
 
-/// The digits behind `Z ` of each line of a KRL program.
+/// The digits after `Z ` of each line of a KRL program.
 fn heights(text: &str) -> Vec<f64> {
     let motions = text
         .lines()
@@ -214,7 +214,7 @@ fn long_names_keep_their_ending() {
     );
 }
 
-/// `UPDATE_PICTURES=1` writes it anew.
+/// `UPDATE_PICTURES=1` rewrites it.
 #[test]
 fn the_figure_of_the_blade_is_true() {
     let outcome = compile("wavy_panel.vcut", &folder());

@@ -60,7 +60,7 @@ impl Outcome {
             .collect()
     }
 
-    fn told(&self) -> String {
+    fn rendered(&self) -> String {
         render(&self.diagnostics, &self.sources, ColorChoice::Plain)
     }
 }
@@ -138,7 +138,7 @@ impl Case {
 fn right_jobs_check() {
     insta::glob!("../check/ok", "*.vcut", |path| {
         let outcome = Case::read(path).check(None);
-        assert_eq!(outcome.told(), "", "{}", path.display());
+        assert_eq!(outcome.rendered(), "", "{}", path.display());
         assert!(outcome.job.is_some(), "{}", path.display());
     });
 }
@@ -148,8 +148,8 @@ fn right_jobs_check() {
 fn every_field_reaches_the_checked_job() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/check/ok/everything.vcut");
     let job = Case::read(&path).check(None).job.unwrap();
-    let told = format!("{:#?}", (job.name, job.stock, job.operations, job.machine));
-    insta::assert_snapshot!(without_places(&told));
+    let shown = format!("{:#?}", (job.name, job.stock, job.operations, job.machine));
+    insta::assert_snapshot!(without_places(&shown));
 }
 
 /// A debug text without its spans, which say nothing about the meaning and change with every comma.
@@ -176,7 +176,7 @@ fn wrong_jobs_are_explained() {
         let case = Case::read(path);
         let outcome = case.check(None);
         insta::with_settings!({ omit_expression => true, prepend_module_to_snapshot => false }, {
-            insta::assert_snapshot!(format!("{}\n{}", case.text, outcome.told()));
+            insta::assert_snapshot!(format!("{}\n{}", case.text, outcome.rendered()));
         });
         let refused = vcutc::diagnostics::has_errors(&outcome.diagnostics);
         assert_eq!(outcome.job.is_none(), refused, "{}", path.display());
@@ -204,7 +204,7 @@ fn fixes_mend_what_they_are_offered_for() {
                     "{}: {}\n{}",
                     path.display(),
                     fix.title,
-                    after.told()
+                    after.rendered()
                 );
             }
         }
@@ -265,8 +265,8 @@ fn examples_of_the_manual_read_as_they_stand() {
             let mut diagnostics = Vec::new();
             let file = sources.add("example", example.clone());
             vcutc::syntax::parse(file, &example, &mut diagnostics);
-            let told = render(&diagnostics, &sources, ColorChoice::Plain);
-            assert_eq!(told, "", "{example}");
+            let rendered = render(&diagnostics, &sources, ColorChoice::Plain);
+            assert_eq!(rendered, "", "{example}");
             count += 1;
         }
     }
@@ -284,6 +284,6 @@ fn the_first_example_of_the_manual_is_a_whole_job() {
         text: text.clone(),
     };
     let outcome = case.check(Some(("example.vcut".to_owned(), text)));
-    assert_eq!(outcome.told(), "");
+    assert_eq!(outcome.rendered(), "");
     assert!(outcome.job.is_some());
 }

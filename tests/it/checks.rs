@@ -399,11 +399,11 @@ fn a_body_that_is_stated_is_checked() {
         let figures = compiled.checks.figures();
         let holder = figures.iter().find(|figure| figure.check == "holder").unwrap();
         assert_eq!(holder.reason.unwrap_or("made"), came);
-        let is_told = compiled
+        let is_reported = compiled
             .summary
             .iter()
             .any(|line| line.trim_start().starts_with("body "));
-        assert_eq!(is_told, came == "made");
+        assert_eq!(is_reported, came == "made");
         assert_eq!(
             compiled.checks.proven().contains("the body of the blade"),
             came == "made"

@@ -39,7 +39,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use tempfile::TempDir;
 
-/// What a run left behind.
+/// What a run left.
 #[derive(Debug)]
 pub(crate) struct Run {
     pub(crate) code: Option<i32>,
@@ -52,7 +52,7 @@ fn folder() -> TempDir {
     tempfile::tempdir().unwrap()
 }
 
-/// The compiler, to be started in a folder, undisturbed by the environment of whoever runs the tests.
+/// The compiler, to be started in a folder, undisturbed by the environment of the tests.
 fn command(folder: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_vcutc"));
     // What is found in a second depends on the machine that runs the tests.

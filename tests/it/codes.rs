@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use vcutc::diagnostics::Code;
 
-/// Codes that no job can bring about, with the test that does and why there is no job.
+/// Codes that no job can cause, with the test that does and the reason.
 const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
     (
         Code::Unsupported,
@@ -40,7 +40,7 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
     (
         Code::OutsideProgram,
         "tests/it/cli/outside.rs",
-        "what_is_no_program_is_not_written",
+        "what_is_not_a_program_is_not_written",
         "it takes a program beside the job",
     ),
     (
@@ -82,13 +82,13 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
     (
         Code::BadBaseline,
         "tests/it/cli/baseline.rs",
-        "a_baseline_that_cannot_be_used_is_told_at_its_place",
+        "a_baseline_that_cannot_be_used_is_reported_at_its_place",
         "it is about vcut.toml",
     ),
     (
         Code::NoBaseline,
         "tests/it/cli/baseline.rs",
-        "a_program_that_is_new_is_told",
+        "a_program_that_is_new_is_reported",
         "it is about vcut.toml",
     ),
     (
@@ -100,74 +100,74 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
     (
         Code::NoPass,
         "tests/it/convert/refusals.rs",
-        "what_is_no_raster_is_told_at_its_line",
+        "what_is_not_a_raster_is_reported_at_its_line",
         "it is about a milling program",
     ),
     (
         Code::NotFollowed,
         "tests/it/convert/refusals.rs",
-        "what_is_no_raster_is_told_at_its_line",
+        "what_is_not_a_raster_is_reported_at_its_line",
         "it is about a milling program",
     ),
     (
         Code::NothingToConvert,
         "tests/it/convert/refusals.rs",
-        "what_is_no_raster_is_told_at_its_line",
+        "what_is_not_a_raster_is_reported_at_its_line",
         "it is about a milling program",
     ),
     (
         Code::Unclear,
         "tests/it/convert/refusals.rs",
-        "what_is_no_raster_is_told_at_its_line",
+        "what_is_not_a_raster_is_reported_at_its_line",
         "it is about a milling program",
     ),
     (
         Code::LeftOut,
         "tests/it/convert/refusals.rs",
-        "what_is_no_raster_is_told_at_its_line",
+        "what_is_not_a_raster_is_reported_at_its_line",
         "it is about a milling program",
     ),
     (
         Code::BesideBlank,
         "tests/it/convert/refusals.rs",
-        "what_is_no_raster_is_told_at_its_line",
+        "what_is_not_a_raster_is_reported_at_its_line",
         "it is about a milling program",
     ),
     (
         Code::MissingRoutine,
         "tests/it/convert/refusals.rs",
-        "what_is_no_raster_is_told_at_its_line",
+        "what_is_not_a_raster_is_reported_at_its_line",
         "it is about a milling program",
     ),
     (
         Code::ExternalAxis,
         "tests/it/convert/refusals.rs",
-        "what_is_no_raster_is_told_at_its_line",
+        "what_is_not_a_raster_is_reported_at_its_line",
         "it is about a milling program",
     ),
     (
         Code::NotWhole,
         "tests/it/convert/refusals.rs",
-        "what_is_no_raster_is_told_at_its_line",
+        "what_is_not_a_raster_is_reported_at_its_line",
         "it is about a milling program",
     ),
     (
         Code::AboveBlank,
         "tests/it/convert/refusals.rs",
-        "what_is_no_raster_is_told_at_its_line",
+        "what_is_not_a_raster_is_reported_at_its_line",
         "it is about a milling program",
     ),
     (
         Code::Plunge,
         "tests/it/convert/refusals.rs",
-        "what_is_no_raster_is_told_at_its_line",
+        "what_is_not_a_raster_is_reported_at_its_line",
         "it is about a milling program",
     ),
 ];
 
 #[test]
 fn every_code_has_a_failing_example() {
-    // By their names: one of them is no text.
+    // By their names: one of them is not text.
     let folders = ["tests/check/err", "tests/process/err", "tests/verify"];
     let entries = folders
         .iter()

@@ -1,5 +1,5 @@
-//! `vcutc convert`: rasters of many post processors become the tips they stand for, and what is no raster is refused with its
-//! line.
+//! `vcutc convert`: rasters of many post processors become the tips they stand for, and what is not a raster
+//! is refused with its line.
 
 mod posts;
 mod refusals;
@@ -267,7 +267,7 @@ fn inferred<'a>(conversion: &'a Conversion, subject: &str) -> Vec<&'a str> {
     of_subject.map(|inference| inference.what.as_str()).collect()
 }
 
-/// What posts write around and behind motions, and what changes none of them.
+/// What posts write around and after motions, and what changes none of them.
 #[test]
 fn words_around_motions_change_no_pass() {
     let head = "PDAT_ACT={VEL 15,ACC 100,APO_DIST 50}\nFDAT_ACT={TOOL_NO 13,BASE_NO 1,IPO_FRAME #BASE}\nBAS (#FRAMES)\n\
@@ -342,7 +342,7 @@ fn ways_in_the_air_stay_what_they_are() {
     }
 }
 
-/// Noise up to the tolerance leaves the passes what they are, and is told.
+/// Noise up to the tolerance does not change the passes, and is reported.
 #[test]
 fn noise_of_posts_is_swallowed_up_to_the_tolerance() {
     let noisy = changed(|text| {
@@ -389,8 +389,11 @@ fn noise_of_posts_is_swallowed_up_to_the_tolerance() {
         );
     }
     assert_eq!(conversion.raster.passes.len(), paper().tips().len());
-    let told = inferred(&conversion, "tolerance");
-    assert!(told.len() == 1 && told[0].contains("0.025 mm"), "{told:?}");
+    let inferred_tolerances = inferred(&conversion, "tolerance");
+    assert!(
+        inferred_tolerances.len() == 1 && inferred_tolerances[0].contains("0.025 mm"),
+        "{inferred_tolerances:?}"
+    );
 }
 
 fn any_raster() -> impl Strategy<Value = Raster> {

@@ -107,7 +107,7 @@ fn no_point_of_the_disc_enters_the_part_and_all_of_it_is_covered() {
         }
         let highest = lowest.iter().copied().fold(0.0, f64::max);
         assert!(highest < 0.125, "{profile}: {highest}");
-        // Who replays without asking what is wrong sees the same surface, as pictures do.
+        // A replay without faults, as for pictures, gives the same surface.
         let (_, left) = watched(compiled.program.verified(), &[], &mut |_, _, _| {});
         for corner in left.corners() {
             assert!(corner.z <= part(corner.x) + 0.125, "{corner:?}");

@@ -140,8 +140,8 @@ fn points_of_the_disc_neither_enter_the_part_nor_leave_more_than_the_limit() {
             }
         }
         assert_eq!((compared, tracked.across.len()), (3, tracked.sections));
-        let told = compiled.summary.iter().any(|line| line.contains("finished"));
-        assert!(told, "{:?}", compiled.summary);
+        let is_reported = compiled.summary.iter().any(|line| line.contains("finished"));
+        assert!(is_reported, "{:?}", compiled.summary);
     }
 }
 

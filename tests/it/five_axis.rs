@@ -51,9 +51,9 @@ fn the_others_say_that_they_lack_a_spindle() {
     }
 }
 
-/// On a head that swings and rakes, a blade that is mounted turned is told of as such.
+/// On a head that swings and rakes, a blade that is mounted turned is reported as such.
 #[test]
-fn a_blade_that_is_mounted_turned_is_told_of() {
+fn a_blade_that_is_mounted_turned_is_reported() {
     let job = read("tests/process/err/VC0516_no_spindle.vcut")
         .replace("head_head_ac", "head_head_ba")
         .replace("a = -90 deg", "a = -80 deg");
@@ -308,12 +308,14 @@ fn a_chain_on_tilted_work_takes_the_blade_off_its_place() {
     let (job, tilted) = chain_on("4 deg", |joint| joint);
     let unreached = tilted.unwrap_err();
     let why = explain(&job, unreached.unreachable().expect("it is no fault")).expect("it has a machine");
-    let told = [why.with_advice()];
-    assert_eq!(numbers(&told), ["VC0530"]);
+    let diagnostics = [why.with_advice()];
+    assert_eq!(numbers(&diagnostics), ["VC0530"]);
     assert!(
-        told[0].message.starts_with("the rotary axes take the blade "),
+        diagnostics[0]
+            .message
+            .starts_with("the rotary axes take the blade "),
         "{}",
-        told[0].message
+        diagnostics[0].message
     );
 }
 

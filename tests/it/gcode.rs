@@ -75,7 +75,7 @@ fn every_option_is_explained() {
 
 /// What the help line offers for a home is taken.
 #[test]
-fn a_home_that_is_missing_is_told_with_the_machines_own_axes() {
+fn a_home_that_is_missing_is_reported_with_the_machines_own_axes() {
     let with = |home: &str| {
         let block = format!("{home}\n gcode {{ dialect = sinumerik }}");
         outcome("generic/head_head_ba", "reorient = 40 deg/s", &block)

@@ -13,7 +13,7 @@ const JOB: &str = "job.vcut";
 /// A job of the tests that its machine is too slow for.
 const TOO_FAST: &str = include_str!("../process/err/VC0512_reorienting_too_fast.vcut");
 
-/// Who notes what is told at once, and wants no more or all there is.
+/// Notes what is reported at once, and wants no more or all there is.
 struct Noting {
     wanted: Wanted,
     at_once: Vec<Diagnostic>,
@@ -63,7 +63,7 @@ pub(crate) fn patiently(text: &str, wanted: Wanted) -> (Outcome, Vec<Diagnostic>
 }
 
 #[test]
-fn a_refusal_is_told_before_help_is_looked_for() {
+fn a_refusal_is_reported_before_help_is_looked_for() {
     let (outcome, at_once, stages) = patiently(TOO_FAST, Wanted::ALWAYS);
     assert_eq!(numbers(&at_once), ["VC0512"]);
     assert!(at_once[0].fixes.is_empty(), "{at_once:#?}");
@@ -82,7 +82,7 @@ fn a_refusal_is_told_before_help_is_looked_for() {
 }
 
 #[test]
-fn who_wants_no_help_gets_the_refusal_and_is_told_what_was_cut_short() {
+fn without_help_the_refusal_says_what_was_cut_short() {
     let (outcome, at_once, _) = patiently(TOO_FAST, Wanted::never());
     assert_eq!(numbers(&outcome.diagnostics), ["VC0512"]);
     let [only] = &outcome.diagnostics[..] else {

@@ -1,4 +1,4 @@
-//! Who checks a job again and again reads a file of triangles once.
+//! Repeated checks of a job read a file of triangles once.
 
 use crate::pipeline::Files;
 use crate::surfaces::{VCUT, job, stl};
@@ -76,7 +76,7 @@ fn a_file_is_read_once_while_nothing_about_it_changes() {
     }
     // And the first one is still there.
     assert!(is_one(&first, &of(&text, &mesh).0.unwrap()));
-    // Who keeps nothing reads it anew.
+    // Without a memory it is read again.
     assert!(!is_one(&first, &checked(&text, mesh, None).0.unwrap()));
 }
 

@@ -110,12 +110,12 @@ const DIALECTS: &[Dialect] = &[
 ];
 
 impl Dialect {
-    /// How much of a line, from behind its number, is no comment.
+    /// How much of a line, after its number, is not a comment.
     fn code<'l>(&self, line: &'l str) -> &'l str {
         let line = if self.numbered {
             let line = line.trim_start();
-            let behind = line.strip_prefix('N').unwrap_or(line);
-            behind.trim_start_matches(|c: char| c.is_ascii_digit())
+            let after = line.strip_prefix('N').unwrap_or(line);
+            after.trim_start_matches(|c: char| c.is_ascii_digit())
         } else {
             line
         };
@@ -176,7 +176,7 @@ fn other_digit(text: &str, code: &str, salt: usize) -> Option<String> {
     Some(format!("{}{}{}", &text[..at], (digit + 1) % 10, &text[at + 1..]))
 }
 
-/// A line with the first number behind a word for a speed half as large again.
+/// A line with the first number after a word for a speed half as large again.
 fn other_speed(text: &str, words: &[&str]) -> Option<String> {
     let word = words
         .iter()

@@ -1,7 +1,7 @@
 //! The table in `docs/optimum.md`: the block of Cui et al. at the parameters of the paper and at the optima, each planned,
 //! proven and simulated by the whole compiler.
 //!
-//! `UPDATE_DOCS=1 cargo test --test it optimum_table` writes it anew.
+//! `UPDATE_DOCS=1 cargo test --test it optimum_table` rewrites it.
 
 use crate::pipeline::{Files, compile, rendered};
 use crate::published::{ARC, LEAD_DEG};
@@ -148,7 +148,7 @@ fn the_table_of_optima_is_current_and_the_papers() {
     );
 }
 
-/// Compares a table of a page with a fresh one, or writes it anew when asked to.
+/// Compares a table of a page with a fresh one, or rewrites it when asked to.
 #[allow(
     clippy::disallowed_methods,
     reason = "the test writes a committed file when asked to"

@@ -1,4 +1,4 @@
-//! The pages of the diagnostic codes: what they show as wrong is wrong, what they show as mended compiles.
+//! The pages of the diagnostic codes: what they show as wrong is wrong, what they show as fixed compiles.
 //!
 //! Only complete jobs are tried (blocks with a `job` line and a stock); pieces of jobs are for reading. Files that a page uses are
 //! those of `examples`.
@@ -65,7 +65,7 @@ fn jobs(part: &str) -> impl Iterator<Item = &str> {
 #[test]
 fn examples_of_pages_have_the_error_and_mended_ones_do_not() {
     let mut breaches = Vec::new();
-    // No job is known that shows a fault of the compiler; it would be mended.
+    // No job is known that shows a fault of the compiler; it would be fixed.
     for code in Code::ALL.iter().filter(|&&code| code != Code::Internal) {
         let page = code.page();
         let (example, remedy) = page.split_once("\n## What to do\n").unwrap_or((page, ""));

@@ -214,7 +214,7 @@ fn cuts_keep_clear_of_what_control_points_stand_for() {
             let nearest = &mut highest[x.round() as usize];
             *nearest = nearest.max(z);
         }
-        // With weights, x differs along v, and samples are no sections.
+        // With weights, x differs along v, and samples are not sections.
         if !patch.weights.is_empty() {
             continue;
         }

@@ -127,7 +127,7 @@ fn is_of_vs((example, _): &(String, Vec<crate::shop::Pairing>)) -> bool {
 
 #[test]
 fn chips_add_up_to_what_is_removed() {
-    // Strips are no chips of a V, and pockets free none.
+    // Strips are not chips of a V, and pockets free none.
     for (example, pairings) in compiling().into_iter().filter(is_of_vs) {
         let outcome = compiled(pairings[0].machine, &example);
         let material = Material::of(outcome).unwrap();

@@ -84,7 +84,7 @@ pub(crate) fn emit_for(target: &dyn Backend, outcome: &Outcome) -> Result<Bundle
     }
 }
 
-/// All that the compiler has to tell about a job, the target's objections included.
+/// All that the compiler reports of a job, the target's objections included.
 pub(crate) fn all_diagnostics(outcome: &Outcome) -> Vec<Diagnostic> {
     let objections = emit(outcome).err().unwrap_or_default();
     [outcome.diagnostics.clone(), objections].concat()

@@ -164,7 +164,7 @@ fn a_page_says_every_op_of_the_program() {
                 assert_eq!(read.collect::<Vec<_>>(), [via.x, via.y, via.z], "{job} {i}");
             }
             if let Some(TipPose { tip, .. }) = pose {
-                // To the last bit, for the section is cut with them.
+                // To the last bit, because the section is cut with them.
                 let read = tips[3 * i..3 * i + 3].iter().map(|&tip| f64::from(tip) / 1000.0);
                 assert_eq!(read.collect::<Vec<_>>(), [tip.x, tip.y, tip.z], "{job} {i}");
             }
@@ -173,7 +173,7 @@ fn a_page_says_every_op_of_the_program() {
 }
 
 #[test]
-fn axes_are_told_again_all_along_the_program() {
+fn axes_are_shown_all_along_the_program() {
     for (job, pairings) in compiling() {
         for pairing in pairings {
             let outcome = compiled(pairing.machine, &job);
@@ -184,13 +184,15 @@ fn axes_are_told_again_all_along_the_program() {
             let rigs = Rigs::of(&machine.model, cell, program(outcome));
             let taken: Result<(), Infallible> =
                 trajectory(&reached.program, &rigs, &Spacing::CLOSE, |sample| {
-                    let told = between(&knots[sample.op.0 as usize], sample.done);
-                    for (axis, (told, joint)) in cell.axes.iter().zip(told.iter().zip(sample.joints)) {
+                    let interpolated = between(&knots[sample.op.0 as usize], sample.done);
+                    for (axis, (interpolated, joint)) in
+                        cell.axes.iter().zip(interpolated.iter().zip(sample.joints))
+                    {
                         let most = match axis.kind {
                             AxisKind::Rotary => TURN_ERROR,
                             AxisKind::Linear => WAY_ERROR,
                         };
-                        let off = (told - joint).abs();
+                        let off = (interpolated - joint).abs();
                         assert!(
                             off <= most,
                             "{job}, {pairing:?}: {} off by {off} in {sample:?}",

@@ -423,7 +423,7 @@ fn islands_that_are_drawn_twice_count_once() {
         "{}",
         rendered(&twice.diagnostics, &twice)
     );
-    // What is no island is named, wherever it stands among others.
+    // What is not an island is named, wherever it stands among others.
     for (islands, named) in [
         (format!("{circle} island {{ {ROOM} }}"), "line to (130 mm, 10 mm)"),
         (format!("island {{ circle (50 mm, 50 mm) radius 5 mm }} {circle} island {{ circle (90 mm, 50 mm) radius 9 mm }}"), "circle (50 mm, 50 mm) radius 5 mm"),

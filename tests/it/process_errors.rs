@@ -66,7 +66,7 @@ fn run(files: &Files) -> (Outcome, Vec<Diagnostic>) {
 }
 
 /// Without the warnings that much stays, and that rates are not known, where a job is about something else: small jobs of a few
-/// cuts leave much, and some need a robot whose rates nobody states.
+/// cuts leave much, and some need a robot whose rates are not stated.
 fn of_interest(case: &Case, mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let beside = [Code::MuchStays, Code::RatesNotChecked];
     diagnostics.retain(|one| !beside.contains(&one.code) || case.expected().contains(&one.code.number()));

@@ -174,8 +174,8 @@ fn processes_are_even_where_the_independent_model_says() {
     }
 }
 
-/// The parts of the comparison that are no blocks, 1000 mm deep, with the best V cuts in s and the feed of the disc in m/min at which
-/// both processes are even.
+/// The parts of the comparison that are not blocks, 1000 mm deep, with the best V cuts in s and the feed of
+/// the disc in m/min at which both processes are even.
 const CURVED: [(&str, f64, &str, f64, f64); 3] = [
     (
         "curve",
@@ -210,7 +210,7 @@ const fn curved(width: f64, profile: &'static str) -> Job {
     }
 }
 
-/// On parts that are no blocks: strips up to the part against the best V cuts, 1000 mm deep.
+/// On parts that are not blocks: strips up to the part against the best V cuts, 1000 mm deep.
 #[test]
 fn on_curved_parts_the_disc_has_to_be_as_fast_as_the_independent_model_says() {
     for (_, width, profile, vcut_s, feed) in CURVED {
@@ -252,7 +252,7 @@ fn the_faster_process_changes_where_the_independent_model_says() {
     }
 }
 
-/// Without a machine nobody says how long a change takes, and the summary says that it is not counted.
+/// Without a machine it is not known how long a change takes, and the summary says that it is not counted.
 #[test]
 fn changes_without_a_machine_are_said_not_to_count() {
     let text = SLOW.text();
@@ -303,7 +303,8 @@ fn a_program_takes_as_long_as_the_terms_of_the_formula() {
     assert!((0.0..=runs * lowest + 1e-6).contains(&ways), "{ways}");
 }
 
-/// The table of both processes in `docs/optimum.md`. `UPDATE_DOCS=1 cargo test --test it processes` writes it anew.
+/// The table of both processes in `docs/optimum.md`. `UPDATE_DOCS=1 cargo test --test it processes` rewrites
+/// it.
 #[test]
 fn the_table_of_processes_is_current() {
     let best = Job {

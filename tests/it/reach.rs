@@ -184,7 +184,7 @@ fn threads_change_nothing() {
     }
 }
 
-/// The job of VC0514, mended by coming up between the cuts and by cutting all left flanks first.
+/// The job of VC0514, fixed by coming up between the cuts and by cutting all left flanks first.
 fn wide_work() -> Files {
     let folder = root().join("tests/process/err");
     let text = std::fs::read_to_string(folder.join("VC0514_wide_work.vcut")).unwrap();
@@ -224,7 +224,7 @@ fn the_branch_changes_in_the_air_where_it_has_to() {
 }
 
 #[test]
-fn sampled_axes_join_and_stay_within_what_is_told() {
+fn sampled_axes_join_and_stay_within_what_is_reported() {
     let outcome = compile(JOB, &wide_work());
     let reached = solved(&outcome);
     let job = outcome.job.as_ref().unwrap();

@@ -238,7 +238,7 @@ fn a_job_of_eleven_changes_reads_back_on_all_targets() {
 
 /// What a verified program says of passes and slits that were changed, in the words of strips.
 #[test]
-fn changed_strips_are_told_as_strips() {
+fn changed_strips_are_reported_as_strips() {
     let outcome = compiled(job(SLOPE, TENS), "kuka");
     let backend = registry::backend("krl").unwrap();
     let written = driver::write(&outcome, backend).unwrap().unwrap();

@@ -1,9 +1,10 @@
-//! Programs before judges who are not ours.
+//! Programs before foreign judges.
 //!
 //! LinuxCNC's own interpreter carries out the G-code programs of all examples, and what it makes of them (its canonical
-//! functions) is held against the intermediate program, op by op, and so is what the machine is set to at each of them:
-//! the kinematics, the blade, the mode of control. A grammar of RAPID by another author reads the RAPID modules of
-//! the shortest example, and of all others every form of line: of those that differ in nothing but digits the first.
+//! functions) is compared with the intermediate program, op by op, and so is what the machine is set to at
+//! each of them: the kinematics, the blade, the mode of control. A grammar of RAPID by another author reads
+//! the RAPID modules of the shortest example, and of all others every form of line: of those that differ in
+//! nothing but digits the first.
 //!
 //! Both are installed by `.ci/run`. Where one is missing its tests are skipped and say so, unless `VCUTC_REFEREES` is
 //! `required`.

@@ -25,7 +25,7 @@ impl TextFile {
         &self.text[..end]
     }
 
-    /// The lines of [`Self::without_tests`] that are no comments, with their numbers.
+    /// The lines of [`Self::without_tests`] that are not comments, with their numbers.
     pub(crate) fn code(&self) -> impl Iterator<Item = (usize, &str)> {
         let lines = (1..).zip(self.without_tests().lines());
         lines.filter(|(_, line)| !line.trim_start().starts_with("//"))

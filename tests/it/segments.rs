@@ -199,7 +199,7 @@ fn is_as_walked(program: &Program, index: usize, segment: &Segment<'_>) {
     }
 }
 
-/// Every `step`th op, for the walk looks back through all ops before it.
+/// Every `step`th op, because the walk looks back through all ops before it.
 fn compare(program: &Program, step: usize) {
     let mut segments = program.segments();
     assert_eq!(segments.len(), program.ops.len());

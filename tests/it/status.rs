@@ -188,15 +188,15 @@ proptest! {
         for model in arms() {
             let axes = posture(&model, &shares);
             let ways = ways(&model, &axes);
-            let mut told = BTreeSet::new();
+            let mut definitions = BTreeSet::new();
             for way in &ways {
                 let text = written(&program(&model, way));
                 prop_assert_eq!(text, definition(&model, &way.joints), "{} {:?}", model.name, way);
-                told.insert(text);
+                definitions.insert(text);
             }
-            // No two ways are told alike, and the one that the pose was made from is among them.
-            prop_assert_eq!(told.len(), ways.len(), "{}", model.name);
-            prop_assert!(told.contains(&definition(&model, &axes)), "{}", model.name);
+            // No two ways are described alike, and the one that the pose was made from is among them.
+            prop_assert_eq!(definitions.len(), ways.len(), "{}", model.name);
+            prop_assert!(definitions.contains(&definition(&model, &axes)), "{}", model.name);
         }
     }
 }

@@ -275,9 +275,9 @@ fn no_cut_enters_what_triangles_stand_for() {
     );
     let [x, y] = place.map(Length::to_mm);
     assert!((machined(x.clamp(1e-6, 120.0 - 1e-6)) - dome(x, y) - height.to_mm()).abs() < 0.02);
-    let told = |words: &str| compiled.summary.iter().any(|line| line.contains(words));
+    let says = |words: &str| compiled.summary.iter().any(|line| line.contains(words));
     assert!(
-        told(" l stay on the part, at most ") && told("below the part's shadow"),
+        says(" l stay on the part, at most ") && says("below the part's shadow"),
         "{:?}",
         compiled.summary
     );

@@ -43,8 +43,8 @@ fn expected_codes(text: &str) -> Vec<&str> {
 fn right_files_are_read() {
     insta::glob!("../syntax/ok", "*.vcut", |path| {
         let case = read(path);
-        let told = render(&case.diagnostics, &case.sources, ColorChoice::Plain);
-        assert_eq!(told, "", "{}", path.display());
+        let rendered = render(&case.diagnostics, &case.sources, ColorChoice::Plain);
+        assert_eq!(rendered, "", "{}", path.display());
     });
 }
 
@@ -53,9 +53,9 @@ fn wrong_files_are_explained() {
     let mut surprises = Vec::new();
     insta::glob!("../syntax/err", "*.vcut", |path| {
         let case = read(path);
-        let told = render(&case.diagnostics, &case.sources, ColorChoice::Plain);
+        let rendered = render(&case.diagnostics, &case.sources, ColorChoice::Plain);
         insta::with_settings!({ omit_expression => true, prepend_module_to_snapshot => false }, {
-            insta::assert_snapshot!(format!("{}\n{told}", case.text));
+            insta::assert_snapshot!(format!("{}\n{rendered}", case.text));
         });
         let codes: Vec<&str> = case.diagnostics.iter().map(|d| d.code.number()).collect();
         if codes != expected_codes(&case.text) {
@@ -65,7 +65,7 @@ fn wrong_files_are_explained() {
     assert!(surprises.is_empty(), "{surprises:#?}");
 }
 
-/// A fix that is offered must mend what it is offered for.
+/// An offered fix must fix what it is offered for.
 #[test]
 fn fixes_mend_what_they_are_offered_for() {
     insta::glob!("../syntax/err", "*.vcut", |path| {
@@ -76,8 +76,12 @@ fn fixes_mend_what_they_are_offered_for() {
         let fixed = fix::apply(&case.text, case.file, &edits).expect("fixes fit the text");
         let mut diagnostics = Vec::new();
         parse(case.file, &fixed, &mut diagnostics);
-        let told = render(&diagnostics, &case.sources, ColorChoice::Plain);
-        assert!(diagnostics.len() <= left, "{}\n{fixed}\n{told}", path.display());
+        let rendered = render(&diagnostics, &case.sources, ColorChoice::Plain);
+        assert!(
+            diagnostics.len() <= left,
+            "{}\n{fixed}\n{rendered}",
+            path.display()
+        );
     });
 }
 
@@ -103,10 +107,10 @@ fn every_code_of_the_syntax_has_an_example() {
     }
 }
 
-/// The pages of the codes show a job that fails and the same job mended.
+/// The pages of the codes show a job that fails and the same job fixed.
 #[test]
 fn pages_show_what_they_say() {
-    // What is no UTF-8 cannot be shown on a page.
+    // What is not UTF-8 cannot be shown on a page.
     let shown = |code: &&Code| code.number().starts_with("VC01") && **code != Code::NotUtf8;
     for code in Code::ALL.iter().filter(shown) {
         let blocks: Vec<&str> = code
@@ -211,13 +215,13 @@ fn any_span_can_be_drawn() {
                 let diagnostic = Diagnostic::new(Code::UnexpectedText, "m", span, "label one")
                     .and(span.after(), "label two")
                     .note("n");
-                let told = render(&[diagnostic], &sources, ColorChoice::Plain);
-                assert!(told.starts_with("error[VC0101]: m\n"));
+                let rendered = render(&[diagnostic], &sources, ColorChoice::Plain);
+                assert!(rendered.starts_with("error[VC0101]: m\n"));
                 assert!(
-                    told.contains("label one") && told.contains("label two"),
-                    "{text:?} {span:?}\n{told}"
+                    rendered.contains("label one") && rendered.contains("label two"),
+                    "{text:?} {span:?}\n{rendered}"
                 );
-                assert!(!told.contains('\u{1b}') && !told.contains('\u{202e}'));
+                assert!(!rendered.contains('\u{1b}') && !rendered.contains('\u{202e}'));
             }
         }
     }

@@ -447,7 +447,7 @@ fn dependencies(manifest: &str) -> impl Iterator<Item = &str> {
         .take_while(|line| !line.starts_with('['))
 }
 
-/// Paths below the root that stand in backquotes; patterns such as `docs/diagnostics/VCnnnn.md` are none.
+/// Paths below the root that stand in backquotes; patterns such as `docs/diagnostics/VCnnnn.md` do not count.
 fn cited_keys(line: &str) -> impl Iterator<Item = &str> {
     let brackets = line.split('[').skip(1).filter_map(|rest| rest.split(']').next());
     brackets

@@ -360,11 +360,11 @@ fn a_place_that_relieves_a_drive_is_offered() {
     let files = Files::of(&folder).with(JOB, text.clone());
     let outcome = compile(JOB, &files);
     assert!(outcome.compiled.is_none());
-    let [told_of] = outcome.diagnostics.as_slice() else {
+    let [diagnostic] = outcome.diagnostics.as_slice() else {
         panic!("{}", rendered(&outcome.diagnostics, &outcome));
     };
-    assert_eq!(told_of.code, Code::TorqueAboveLimit);
-    let [fix] = told_of.fixes.as_slice() else {
+    assert_eq!(diagnostic.code, Code::TorqueAboveLimit);
+    let [fix] = diagnostic.fixes.as_slice() else {
         panic!("{}", rendered(&outcome.diagnostics, &outcome));
     };
     let moved = compile(JOB, &fixed(&files, &outcome, fix));
@@ -380,7 +380,7 @@ fn a_place_that_relieves_a_drive_is_offered() {
     assert!(
         all_diagnostics(&moved)
             .iter()
-            .all(|told| told.code != Code::TorqueAboveLimit)
+            .all(|diagnostic| diagnostic.code != Code::TorqueAboveLimit)
     );
     // The same job with the limit a little below what is needed there is refused, at a little above it is not. What is stated is a
     // bound, up to half a percent above that.

@@ -1,8 +1,8 @@
-//! Programs that somebody has changed: what `vcutc verify` tells of them.
+//! Programs that somebody has changed: what `vcutc verify` reports of them.
 //!
-//! A case is a change of the program of `tests/verify/bench.vcut`, in the form of a diff: behind the first line, which names
-//! the codes that are expected, each block is some lines of the program, with `-` in front of those that were taken out and
-//! `+` in front of those that were put in.
+//! A case is a change of the program of `tests/verify/bench.vcut`, in the form of a diff: after the first
+//! line, which names the codes that are expected, each block is some lines of the program, with `-` in front
+//! of those that were taken out and `+` in front of those that were put in.
 
 use crate::pipeline::{Files, compile, krl, numbers, rendered};
 use crate::repository::{expected_codes, root};
@@ -41,7 +41,7 @@ impl Bench {
         &self.written.files
     }
 
-    /// What is told of a program, with the texts that it points into.
+    /// What is reported of a program, with the texts that it points into.
     fn verify(&self, files: &[ProgramFile]) -> (Verdict, Outcome) {
         let (job, plan) = (self.outcome.job.as_ref(), self.outcome.plan.as_ref());
         let reached = self.outcome.compiled.as_ref().unwrap().program.reached();
@@ -109,8 +109,8 @@ fn lowered_cuts_take_the_body_of_the_blade_into_the_stock() {
     }
     let (verdict, outcome) = bench.verify(&lowered);
     let messages = rendered(&verdict.diagnostics, &outcome);
-    let told = "error[VC0709]: the body of `sabre` enters the stock by 0.4";
-    assert!(messages.contains(told), "{messages}");
+    let expected = "error[VC0709]: the body of `sabre` enters the stock by 0.4";
+    assert!(messages.contains(expected), "{messages}");
     assert!(!messages.contains("enters the part"), "{messages}");
 }
 
@@ -190,7 +190,7 @@ fn layout_and_comments_are_free() {
 }
 
 #[test]
-fn of_many_differences_the_first_are_told_and_all_are_counted() {
+fn of_many_differences_the_first_are_reported_and_all_are_counted() {
     let bench = Bench::new();
     let mut files = bench.files().to_vec();
     files[0].text = files[0].text.replace("C 130.8934}", "C 130.8935}");

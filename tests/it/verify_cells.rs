@@ -1,5 +1,5 @@
-//! What `vcutc verify` tells of changed programs on all kinds of machines: KRL, RAPID and G-code say the same edit in
-//! different ways, and the same has to be told of it.
+//! What `vcutc verify` reports of changed programs on all kinds of machines: KRL, RAPID and G-code say the
+//! same edit in different ways, and the same has to be reported of it.
 
 use crate::pipeline::{Files, compile_on, numbers};
 use crate::repository::root;
@@ -69,7 +69,7 @@ impl Cell {
         &self.written.files
     }
 
-    /// What is told of a program, and what its messages point at in the job's files.
+    /// What is reported of a program, and what its messages point at in the job's files.
     fn verify(&self, files: &[ProgramFile]) -> (Verdict, Vec<String>) {
         let reader = registry::backend(self.target).unwrap().reader().unwrap();
         let (job, plan) = (self.outcome.job.as_ref(), self.outcome.plan.as_ref());
@@ -100,7 +100,7 @@ fn differences(verdict: &Verdict) -> Vec<&Diagnostic> {
     found.filter(|found| found.code.number() <= "VC0707").collect()
 }
 
-/// One setting that nobody can make sense of any more takes the meaning from all that depends on it.
+/// One setting that cannot be understood any more takes the meaning from all that depends on it.
 #[test]
 fn one_changed_setting_is_one_difference() {
     for ((machine, target), (from, to, field)) in MACHINES.into_iter().zip([
@@ -147,7 +147,7 @@ fn a_lowered_tip_is_one_difference_and_enters_the_part() {
 }
 
 #[test]
-fn a_dropped_motion_is_told() {
+fn a_dropped_motion_is_reported() {
     for (machine, target) in MACHINES {
         let cell = Cell::new(machine, target);
         let mut files = cell.files().to_vec();

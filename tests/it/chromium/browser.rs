@@ -35,7 +35,7 @@ pub(super) struct Browser {
     to: RefCell<ChildStdin>,
     from: RefCell<BufReader<ChildStdout>>,
     next: Cell<u64>,
-    /// What was told without being asked for.
+    /// What was reported without being asked for.
     events: RefCell<Vec<Value>>,
     /// Where it keeps its things.
     _profile: TempDir,

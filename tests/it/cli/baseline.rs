@@ -34,7 +34,7 @@ fn accepted() -> TempDir {
 }
 
 /// What a build says, which ends with that code.
-fn told(path: &Path, arguments: &[&str], code: i32) -> String {
+fn reported(path: &Path, arguments: &[&str], code: i32) -> String {
     let run = vcutc(path, arguments);
     assert_eq!(run.code, Some(code), "{}", run.stderr);
     run.stderr
@@ -54,10 +54,10 @@ fn an_accepted_program_holds_and_its_file_stays() {
     let repository = accepted();
     let path = repository.path();
     let first = numbers(path);
-    told(path, &["build"], 0);
-    told(path, &["build", "--check"], 0);
+    reported(path, &["build"], 0);
+    reported(path, &["build", "--check"], 0);
     // From a folder below, too.
-    told(&path.join("jobs"), &["build", "--check"], 0);
+    reported(&path.join("jobs"), &["build", "--check"], 0);
     assert_eq!(numbers(path), first);
     let record = &serde_json::from_str::<serde_json::Value>(&first).unwrap()[0];
     assert_eq!(
@@ -81,7 +81,7 @@ fn a_program_that_takes_longer_is_not_written() {
     let before = fs::read(path.join("programs/rib.src")).unwrap();
     // A tenth slower while cutting: worse than 2 %; nothing else changes.
     change_job(path, "cut = 200 mm/s", "cut = 180 mm/s");
-    let text = told(path, &["build"], 1);
+    let text = reported(path, &["build"], 1);
     assert!(
         text.contains("error[VC0806]: the program's time of jobs/rib.vcut for krl has grown from "),
         "{text}"
@@ -95,10 +95,10 @@ fn a_program_that_takes_longer_is_not_written() {
         "{text}"
     );
     assert_eq!(fs::read(path.join("programs/rib.src")).unwrap(), before);
-    told(path, &["build", "--check"], 1);
+    reported(path, &["build", "--check"], 1);
     // What helps is what the message says.
-    told(path, &["build", "--accept"], 0);
-    told(path, &["build"], 0);
+    reported(path, &["build", "--accept"], 0);
+    reported(path, &["build"], 0);
     assert_ne!(fs::read(path.join("programs/rib.src")).unwrap(), before);
 }
 
@@ -108,7 +108,7 @@ fn a_program_that_is_better_holds_and_the_bar_stays() {
     let path = repository.path();
     let first = numbers(path);
     change_job(path, "cut = 200 mm/s", "cut = 400 mm/s");
-    told(path, &["build"], 0);
+    reported(path, &["build"], 0);
     assert_eq!(numbers(path), first);
 }
 
@@ -117,15 +117,15 @@ fn a_program_within_its_tolerance_holds() {
     let repository = accepted();
     let path = repository.path();
     change_job(path, "clearance = 10 mm", "clearance = 10.5 mm");
-    told(path, &["build"], 0);
+    reported(path, &["build"], 0);
 }
 
 #[test]
-fn a_program_that_is_new_is_told() {
+fn a_program_that_is_new_is_reported() {
     let repository = accepted();
     let path = repository.path();
     fs::write(path.join("jobs/two.vcut"), RIB.replace("\"rib\"", "\"two\"")).unwrap();
-    let text = told(path, &["build"], 1);
+    let text = reported(path, &["build"], 1);
     assert!(text.contains("error[VC0808]"), "{text}");
     assert!(
         text.contains("numbers.json has no figures of jobs/two.vcut"),
@@ -134,12 +134,12 @@ fn a_program_that_is_new_is_told() {
     assert!(!path.join("programs/two.src").exists());
     // Accepting one of them keeps the figures of the other.
     let rib = numbers(path).lines().nth(1).unwrap().to_owned();
-    told(path, &["build", "two", "--accept"], 0);
+    reported(path, &["build", "two", "--accept"], 0);
     assert!(numbers(path).contains(&rib));
-    told(path, &["build"], 0);
-    // One that is no longer listed is forgotten.
+    reported(path, &["build"], 0);
+    // One that is not listed any more is forgotten.
     fs::remove_file(path.join("jobs/rib.vcut")).unwrap();
-    told(path, &["build", "--accept"], 0);
+    reported(path, &["build", "--accept"], 0);
     assert!(!numbers(path).contains("jobs/rib.vcut"));
 }
 
@@ -149,41 +149,41 @@ fn a_job_with_errors_keeps_its_figures() {
     let path = repository.path();
     let first = numbers(path);
     change_job(path, "layer     = 4 mm", "layer     = 9 mm");
-    told(path, &["build", "--accept"], 1);
+    reported(path, &["build", "--accept"], 1);
     assert_eq!(numbers(path), first);
 }
 
 #[test]
-fn a_baseline_that_cannot_be_used_is_told_at_its_place() {
+fn a_baseline_that_cannot_be_used_is_reported_at_its_place() {
     let repository = repository();
     let path = repository.path();
-    let text = told(path, &["build"], 1);
+    let text = reported(path, &["build"], 1);
     assert!(
         text.contains("error[VC0807]: there is no file numbers.json"),
         "{text}"
     );
     assert!(text.contains("vcut.toml:7:8"), "{text}");
     fs::write(path.join("numbers.json"), "[\n{\"job\": 3}]").unwrap();
-    let text = told(path, &["build"], 1);
+    let text = reported(path, &["build"], 1);
     assert!(
         text.contains("error[VC0807]: these are not the figures of programs"),
         "{text}"
     );
     assert!(text.contains("numbers.json:2:"), "{text}");
     fs::write(path.join("vcut.toml"), LIST.split("[baseline]").next().unwrap()).unwrap();
-    let text = told(path, &["build", "--accept"], 1);
+    let text = reported(path, &["build", "--accept"], 1);
     assert!(text.contains("error[VC0807]: the list names no file"), "{text}");
-    told(path, &["build"], 0);
+    reported(path, &["build"], 0);
 }
 
 #[test]
-fn a_file_that_is_no_baseline_is_not_overwritten() {
+fn a_file_that_is_not_a_baseline_is_not_overwritten() {
     let repository = repository();
     let path = repository.path();
     for name in ["vcut.toml", "jobs/rib.vcut", "programs/rib.src"] {
         let list = LIST.replace("numbers.json", name);
         fs::write(path.join("vcut.toml"), &list).unwrap();
-        let text = told(path, &["build", "--accept"], 2);
+        let text = reported(path, &["build", "--accept"], 2);
         assert!(text.contains("does not contain figures of programs"), "{text}");
         assert_eq!(fs::read_to_string(path.join("vcut.toml")).unwrap(), list);
     }
@@ -193,6 +193,6 @@ fn a_file_that_is_no_baseline_is_not_overwritten() {
     let path = repository.path();
     let spoiled = format!("<<<<<<< ours\n{}", numbers(path));
     fs::write(path.join("numbers.json"), &spoiled).unwrap();
-    told(path, &["build", "--accept"], 2);
+    reported(path, &["build", "--accept"], 2);
     assert_eq!(numbers(path), spoiled);
 }

@@ -1,4 +1,4 @@
-//! `vcutc build`: what is built from a list of programs, and what is told of lists that are wrong.
+//! `vcutc build`: what is built from a list of programs, and what is reported of wrong lists.
 
 use super::jobs::RIB;
 use super::{folder, json_lines, names, vcutc};
@@ -42,7 +42,7 @@ fn without_time(text: &str) -> String {
     lines.map(|line| line.replace('\\', "/") + "\n").collect()
 }
 
-fn told(folder: &Path, arguments: &[&str], code: i32) -> String {
+fn reported(folder: &Path, arguments: &[&str], code: i32) -> String {
     let run = vcutc(folder, arguments);
     assert_eq!(run.code, Some(code), "{}", run.stderr);
     assert_eq!(run.stdout, "");
@@ -53,19 +53,19 @@ fn told(folder: &Path, arguments: &[&str], code: i32) -> String {
 fn a_whole_repository_is_built_then_unchanged_then_checked() {
     let repository = repository();
     let path = repository.path();
-    let first = told(path, &["build"], 0);
+    let first = reported(path, &["build"], 0);
     assert_eq!(names(&path.join("programs/krl/left")), ["left.dat", "left.src"]);
     assert_eq!(names(&path.join("narrow")), ["rib.dat", "rib.src"]);
-    let again = told(&path.join("jobs/deeper"), &["build"], 0);
+    let again = reported(&path.join("jobs/deeper"), &["build"], 0);
     assert!(again.contains("3 programs: 3 unchanged"), "{again}");
-    let checked = told(path, &["build", "--check"], 0);
+    let checked = reported(path, &["build", "--check"], 0);
     fs::write(
         path.join("programs/krl/right/right.src"),
         "DEF right( )\r\nEND\r\n",
     )
     .unwrap();
     fs::write(path.join("jobs/left.vcut"), RIB.replace("60 deg", "60 mm")).unwrap();
-    let different = told(path, &["build", "--check"], 1);
+    let different = reported(path, &["build", "--check"], 1);
     assert!(
         different.contains("1 unchanged, 1 different, 1 failed"),
         "{different}"
@@ -78,8 +78,8 @@ fn a_failing_job_leaves_the_others_their_programs() {
     let repository = repository();
     let path = repository.path();
     fs::write(path.join("jobs/left.vcut"), "job").unwrap();
-    let told = told(path, &["build"], 1);
-    assert!(told.contains("3 programs: 2 written, 1 failed"), "{told}");
+    let reported = reported(path, &["build"], 1);
+    assert!(reported.contains("3 programs: 2 written, 1 failed"), "{reported}");
     assert_eq!(names(&path.join("programs/krl")), ["right"]);
 }
 
@@ -93,11 +93,11 @@ fn single_programs_are_chosen_by_section_job_or_path() {
         ("jobs/right.vcut", "1 program:"),
         ("./rib.vcut", "1 program:"),
     ] {
-        let told = told(path, &["build", word, "--manifest", "vcut.toml"], 0);
-        assert!(told.contains(count), "{word}: {told}");
+        let reported = reported(path, &["build", word, "--manifest", "vcut.toml"], 0);
+        assert!(reported.contains(count), "{word}: {reported}");
     }
-    let told = told(path, &["build", "lefft"], 2);
-    assert!(told.contains("did you mean `left`?"), "{told}");
+    let reported = reported(path, &["build", "lefft"], 2);
+    assert!(reported.contains("did you mean `left`?"), "{reported}");
 }
 
 #[test]
@@ -124,7 +124,7 @@ fn a_list_with_faults_is_told_at_its_places() {
             "target = 3\noutput = \"narrow",
         );
     fs::write(repository.path().join("vcut.toml"), text).unwrap();
-    insta::assert_snapshot!(told(repository.path(), &["build"], 1));
+    insta::assert_snapshot!(reported(repository.path(), &["build"], 1));
     assert!(!repository.path().join("narrow").exists());
 }
 
@@ -135,7 +135,7 @@ fn jobs_that_are_not_there_are_told() {
         .replace("jobs/*.vcut", "job/*.vcut")
         .replace("\"rib.vcut\"", "\"rip.vcut\"");
     fs::write(repository.path().join("vcut.toml"), text).unwrap();
-    insta::assert_snapshot!(told(repository.path(), &["build"], 1));
+    insta::assert_snapshot!(reported(repository.path(), &["build"], 1));
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn a_target_that_is_not_there_is_told() {
     let repository = repository();
     let text = LIST.replacen("\"krl\"", "\"krll\"", 1);
     fs::write(repository.path().join("vcut.toml"), text).unwrap();
-    insta::assert_snapshot!(told(repository.path(), &["build"], 1));
+    insta::assert_snapshot!(reported(repository.path(), &["build"], 1));
 }
 
 #[test]
@@ -159,7 +159,7 @@ fn two_programs_for_one_file_are_refused_before_anything_is_written() {
         RIB.replace("job \"rib\"", "job \"RIB\""),
     )
     .unwrap();
-    insta::assert_snapshot!(told(path, &["build"], 1));
+    insta::assert_snapshot!(reported(path, &["build"], 1));
     assert!(!path.join("narrow").exists() || names(&path.join("narrow")).is_empty());
     let run = vcutc(
         path,
@@ -174,8 +174,8 @@ fn several_jobs_can_share_a_folder_without_a_list() {
     let repository = repository();
     let path = repository.path();
     let arguments = ["rib.vcut", "jobs/left.vcut", "--target", "krl", "-o", "out"];
-    assert!(told(path, &arguments, 0).contains("2 programs: 2 written"));
-    assert!(told(path, &[&arguments[..], &["--check"]].concat(), 0).contains("2 programs: 2 unchanged"));
+    assert!(reported(path, &arguments, 0).contains("2 programs: 2 written"));
+    assert!(reported(path, &[&arguments[..], &["--check"]].concat(), 0).contains("2 programs: 2 unchanged"));
 }
 
 #[test]
@@ -198,10 +198,10 @@ fn hostile_lists_end_in_messages() {
 
 #[test]
 fn the_examples_of_the_repository_are_up_to_date() {
-    let told = told(
+    let reported = reported(
         crate::repository::root(),
         &["build", "--check", "--manifest", "examples/vcut.toml"],
         0,
     );
-    assert!(told.contains("3 programs: 3 unchanged"), "{told}");
+    assert!(reported.contains("3 programs: 3 unchanged"), "{reported}");
 }

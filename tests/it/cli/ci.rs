@@ -76,7 +76,7 @@ fn workflows_are_well_formed_and_their_commands_run() {
     assert_eq!(count, 7);
 }
 
-/// What the hook that checks jobs leaves out are the files that are none.
+/// The hook that checks jobs leaves out only files that are not jobs.
 #[test]
 fn the_hook_for_jobs_gets_jobs_only() {
     let hooks = read(".pre-commit-hooks.yaml");

@@ -133,7 +133,8 @@ fn messages_about_tips_show_the_line_of_the_program() {
     );
 }
 
-/// A job with errors is where they are mended: it is written, and the run says that it has them, and what was not made.
+/// A job with errors is written, so that they can be fixed in it. The run says that it has them, and what was
+/// not made.
 #[test]
 fn a_job_with_errors_is_written_as_such() {
     let out = folder();
@@ -161,7 +162,7 @@ fn a_job_with_errors_is_written_as_such() {
 
 /// DOS ends texts with Ctrl-Z, and some posts fill a block with it.
 #[test]
-fn marks_at_the_end_of_a_file_are_no_statements() {
+fn marks_at_the_end_of_a_file_are_not_statements() {
     let out = folder();
     let text = read(PANEL).replace("panel", "marked");
     for marks in ["\u{1a}", "\r\n\u{1a}", "\u{1a}\u{1a}\u{1a}\n"] {
@@ -331,7 +332,7 @@ fn a_program_needs_a_machine_and_files_have_to_be_there() {
 }
 
 #[test]
-fn what_is_inferred_is_told_to_programs_too() {
+fn what_is_inferred_is_reported_to_programs_too() {
     let run = vcutc(root(), &convert(&["--message-format", "json"]));
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let first = run.stderr.lines().next().unwrap();

@@ -1,4 +1,4 @@
-//! `vcutc fmt`: what is written, what is told, and what stays as it was.
+//! `vcutc fmt`: what is written, what is reported, and what stays as it was.
 
 use super::{folder, json_lines, names, vcutc, vcutc_reading};
 use std::fs;
@@ -98,19 +98,19 @@ fn standard_input_goes_to_standard_output() {
 }
 
 #[test]
-fn what_cannot_be_formatted_is_told() {
+fn what_cannot_be_formatted_is_reported() {
     let shop = shop();
     let path = shop.path();
     fs::create_dir(path.join("empty")).unwrap();
     fs::write(path.join("bytes.vcut"), b"job \"\xff\"\n").unwrap();
-    for (arguments, told, code) in [
+    for (arguments, message, code) in [
         (["fmt", "none.vcut"], "cannot format none.vcut", 2),
         (["fmt", "empty"], "it contains no job files (.vcut)", 2),
         (["fmt", "bytes.vcut"], "VC0107", 1),
     ] {
         let run = vcutc(path, &arguments);
         assert_eq!(run.code, Some(code), "{}", run.stderr);
-        assert!(run.stderr.contains(told), "{}", run.stderr);
+        assert!(run.stderr.contains(message), "{}", run.stderr);
     }
 }
 
@@ -135,8 +135,8 @@ fn links_stay_links_and_permissions_stay() {
     assert_eq!(read(path, "link.vcut"), LOOSE);
 }
 
-/// One broken, one in foreign letters, one write-protected, one that is no file: the others are formatted all the same, whole,
-/// and the run ends with the worst that happened.
+/// One broken, one in foreign letters, one write-protected, one that is not a file: the others are formatted
+/// all the same, whole, and the run ends with the worst that happened.
 #[cfg(unix)]
 #[test]
 fn files_in_trouble_do_not_keep_others_from_being_formatted() {
@@ -162,14 +162,14 @@ fn files_in_trouble_do_not_keep_others_from_being_formatted() {
     ];
     let run = vcutc(path, &all);
     assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{}", run.stderr);
-    for told in [
+    for message in [
         "VC0101",
         "VC0107",
         "cannot format locked.vcut: it is write-protected",
         "cannot format dead.vcut: there is no such file",
         "formatted a.vcut\nformatted mark.vcut\n2 files formatted, 4 skipped (see above)\n",
     ] {
-        assert!(run.stderr.contains(told), "{told}: {}", run.stderr);
+        assert!(run.stderr.contains(message), "{message}: {}", run.stderr);
     }
     assert_eq!(read(path, "a.vcut"), TIDY);
     assert_eq!(read(path, "mark.vcut"), "let a = 1 mm\n\nlet b = 2\n");

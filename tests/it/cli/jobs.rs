@@ -1,4 +1,4 @@
-//! Jobs from the disk to the disk: what is written, what is told, and what stays as it was.
+//! Jobs from the disk to the disk: what is written, what is reported, and what stays as it was.
 
 use super::{Run, command, folder, json_lines, names, run, vcutc, vcutc_reading};
 use std::fs;
@@ -67,14 +67,18 @@ fn read(folder: &Path, name: &str) -> String {
 }
 
 #[test]
-fn a_program_is_written_and_told_of() {
+fn a_program_is_written_and_reported() {
     let shop = shop();
     let run = compile(shop.path(), "rib.vcut", &[]);
     assert_eq!((run.code, run.stdout.as_str()), (Some(0), ""), "{}", run.stderr);
     assert_eq!(names(&shop.path().join("out")), PROGRAM);
     for name in PROGRAM {
         let line = format!("wrote {}", Path::new("out").join(name).display());
-        assert!(run.stderr.lines().any(|told| told == line), "{}", run.stderr);
+        assert!(
+            run.stderr.lines().any(|printed| printed == line),
+            "{}",
+            run.stderr
+        );
     }
 }
 
@@ -116,7 +120,7 @@ fn who_replaces_the_program_of_another_job_says_so() {
 }
 
 #[test]
-fn a_name_that_is_shortened_is_told_and_is_no_other_jobs() {
+fn a_shortened_name_is_reported_and_does_not_belong_to_another_job() {
     let shop = shop();
     let text = read(shop.path(), "rib.vcut");
     for end in ["a", "b"] {
@@ -235,7 +239,7 @@ fn a_file_in_place_of_the_folder_is_trouble_not_a_fault_of_the_job() {
 }
 
 #[test]
-fn a_job_that_cannot_be_read_is_no_job_with_errors() {
+fn a_job_that_cannot_be_read_is_not_a_job_with_errors() {
     let shop = shop();
     for (job, why) in [
         ("none.vcut", "no such file"),
@@ -413,12 +417,12 @@ fn the_plan_has_a_row_for_each_cut() {
         header,
         "operation,layer,cut,kind,blade,x_mm,z_mm,swing_deg,lead_deg,left_mm,right_mm,bottom_mm,top_mm,origin"
     );
-    let told = run
+    let counted = run
         .stderr
         .split_once(" cuts in")
         .and_then(|(before, _)| before.rsplit(' ').next())
         .unwrap();
-    assert_eq!(rows.lines().count().to_string(), told);
+    assert_eq!(rows.lines().count().to_string(), counted);
 }
 
 #[test]
@@ -433,7 +437,7 @@ fn the_tree_is_shown_for_a_job_with_errors_too() {
 }
 
 #[test]
-fn a_reader_that_has_seen_enough_of_a_program_is_no_error() {
+fn a_reader_that_has_seen_enough_of_a_program_is_not_an_error() {
     let (reader, writer) = std::io::pipe().unwrap();
     drop(reader);
     let shop = shop();

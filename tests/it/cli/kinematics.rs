@@ -1,4 +1,4 @@
-//! `vcutc fk` and `vcutc ik`: known poses, all turns, and numbers that are none.
+//! `vcutc fk` and `vcutc ik`: known poses, all turns, and invalid numbers.
 
 use super::{Run, folder, json_lines, vcutc};
 use insta::assert_snapshot;
@@ -131,14 +131,14 @@ fn bad_numbers_are_refused_with_a_way_out() {
         &["ik", ULTRA, "--pose", "1,2,3,4,5,6", "--tool", "1"],
         &["fk", "kuka/kr210_r3100_ulta", "--joints", "0"],
     ];
-    let told = wrong
+    let refusals = wrong
         .iter()
         .map(|args| format!("$ vcutc {}\n{}\n", args.join(" "), refusal(args)));
-    assert_snapshot!("numbers_that_are_none", told.collect::<String>());
+    assert_snapshot!("numbers_that_are_none", refusals.collect::<String>());
 }
 
 #[test]
-fn a_place_nobody_reaches_has_no_way() {
+fn a_place_out_of_reach_has_no_way() {
     let text = answer(&["ik", ULTRA, "--pose", "9000,0,0,0,0,0"]);
     assert!(
         text.ends_with("out of reach: no axis values bring it there\n"),

@@ -122,12 +122,13 @@ fn the_sheet_of_the_manual_is_a_machine() {
 }
 
 #[test]
-fn what_is_no_machine_is_refused_with_what_was_meant() {
+fn what_is_not_a_machine_is_refused_with_what_was_meant() {
     let folder = folder();
     let run = vcutc(folder.path(), &["machines", "kuka/kr210_r3199"]);
     assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""));
-    let told = "error: there is no machine `kuka/kr210_r3199` in the catalogue\n  help: did you mean `kuka/";
-    assert!(run.stderr.starts_with(told), "{}", run.stderr);
+    let expected =
+        "error: there is no machine `kuka/kr210_r3199` in the catalogue\n  help: did you mean `kuka/";
+    assert!(run.stderr.starts_with(expected), "{}", run.stderr);
     let run = vcutc(folder.path(), &["machines", "none.toml"]);
     assert_eq!(run.code, Some(2));
     assert_snapshot!(run.stderr, @"error: cannot read `none.toml`: there is no such file");

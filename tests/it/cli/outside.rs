@@ -174,7 +174,8 @@ fn a_program_that_hangs_is_stopped_with_its_children() {
     assert_child_is_stopped(folder.path());
 }
 
-/// The program ends at once and its child keeps the pipe open: nobody can tell whether all of the reply is there.
+/// The program ends at once and its child keeps the pipe open: it is not known whether all of the reply is
+/// there.
 #[test]
 fn children_of_a_program_that_has_ended_are_stopped_with_the_time() {
     let folder = with_program("#!/bin/sh\nsleep 1000 &\necho $! > child\necho '{}'\nexit 0\n");
@@ -225,7 +226,7 @@ fn assert_child_is_stopped(folder: &Path) {
 }
 
 #[test]
-fn what_is_no_program_is_not_written() {
+fn what_is_not_a_program_is_not_written() {
     let ops = ops();
     let all = said(0..ops);
     let file =
@@ -381,7 +382,7 @@ fn programs_are_listed_by_name_and_run_only_to_be_described() {
 
 /// One job and several, written and compared; with a target that has a reader nothing is said.
 #[test]
-fn a_program_that_nobody_reads_back_is_said_to_be_so() {
+fn a_program_that_is_not_read_back_is_reported() {
     const NOTE: &str = "; not read back: target odd has no reader\n";
     let all = said(0..ops());
     let reply = format!(r#"{{"protocol":2,"files":[{{"name":"rib.txt","text":"x"}}],"said":[{all}]}}"#);

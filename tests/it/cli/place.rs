@@ -52,7 +52,8 @@ fn the_base_that_is_printed_makes_the_job_compile() {
     );
 }
 
-/// However far away the base is: where nothing is near and nobody asked for bounds, the search goes all around the robot.
+/// However far away the base is: where nothing is near and no bounds were given, the search goes all around
+/// the robot.
 #[test]
 fn a_base_far_away_is_brought_into_reach() {
     let out = folder();
@@ -72,7 +73,7 @@ fn a_base_far_away_is_brought_into_reach() {
     fs::write(out.path().join("moved.vcut"), moved).unwrap();
     let run = vcutc(out.path(), &["check", "moved.vcut"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    // Who asks for bounds gets no others.
+    // A search within given bounds uses no others.
     let run = vcutc(out.path(), &["place", "far.vcut", "--z", "600..700"]);
     assert_eq!(run.code, Some(1), "{}", run.stdout);
 }

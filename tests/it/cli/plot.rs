@@ -16,8 +16,8 @@ fn a_picture_goes_into_its_file_or_to_standard_output() {
         &["plot", EXAMPLE, "--what", "time", "-o", file.to_str().unwrap()],
     );
     assert_eq!((run.code, run.stdout.as_str()), (Some(0), ""), "{}", run.stderr);
-    let told = format!("wrote {}\n{EXAMPLE}: no errors\n", file.display());
-    assert_eq!(run.stderr, told);
+    let expected = format!("wrote {}\n{EXAMPLE}: no errors\n", file.display());
+    assert_eq!(run.stderr, expected);
     let drawn = fs::read_to_string(&file).unwrap();
     assert_eq!(drawn, read("docs/images/wavy_panel_time.svg"));
     for output in [&[][..], &["-o", "-"]] {

@@ -111,23 +111,23 @@ fn in_gcode_an_option_goes_before_the_profile() {
     an_option_goes_before_the_profile_and_that_before_the_default(&GCODE, "dialect = sinumerik");
 }
 
-/// Decimals that a dialect does not read are the fault of who gave them.
+/// Decimals that a dialect does not read are a fault of the text that gives them.
 #[test]
 #[cfg(feature = "gcode")]
-fn decimals_that_do_not_fit_are_told_where_they_come_from() {
-    let told = |own: &str| {
+fn decimals_that_do_not_fit_are_reported_where_they_come_from() {
+    let reported = |own: &str| {
         let block =
             format!("dialect = fanuc on_code = \"M50\" off_code = \"M51\" {own} profile = \"shop/arm.toml\"");
         let (_folder, run) = compiled(&GCODE, &block, "decimals = 5");
         assert_eq!(run.code, Some(1));
         run.stderr
     };
-    let of_profile = told("");
+    let of_profile = reported("");
     assert!(
         of_profile.contains("VC0604") && of_profile.contains("what the profile's `decimals` asks"),
         "{of_profile}"
     );
-    let of_option = told("decimals = 6");
+    let of_option = reported("decimals = 6");
     assert!(
         of_option.contains("VC0604") && of_option.contains("option `decimals` does not fit"),
         "{of_option}"
@@ -135,7 +135,7 @@ fn decimals_that_do_not_fit_are_told_where_they_come_from() {
 }
 
 #[test]
-fn a_profile_that_is_not_there_is_told_where_it_is_named() {
+fn a_profile_that_is_not_there_is_reported_where_it_is_named() {
     let (_folder, run) = compiled(&KRL, "profile = \"shop/leg.toml\"", "");
     assert_eq!(run.code, Some(1));
     assert!(

@@ -35,7 +35,7 @@ fn the_version_is_that_of_the_package() {
     assert_eq!(run.code, Some(0));
 }
 
-/// The line that tells what targets there are.
+/// The line that says which targets there are.
 fn known_targets() -> String {
     let ids: Vec<&str> = vcutc::registry::backends()
         .iter()
@@ -176,7 +176,7 @@ fn colours_come_when_asked_for_and_go_when_refused() {
 }
 
 #[test]
-fn a_reader_that_has_seen_enough_is_no_error() {
+fn a_reader_that_has_seen_enough_is_not_an_error() {
     let (reader, writer) = std::io::pipe().unwrap();
     drop(reader);
     let folder = folder();

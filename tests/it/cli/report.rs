@@ -63,7 +63,7 @@ pub(crate) fn hostile_rib() -> String {
 }
 
 fn written(folder: &Path) -> String {
-    // Which hints are found in a time is no matter of the page.
+    // Which hints are found in a given time is not what is tested here.
     let arguments = [
         "report",
         "-q",
@@ -161,7 +161,7 @@ fn a_job_with_errors_writes_nothing() {
 }
 
 #[test]
-fn what_is_no_page_or_cannot_be_written_is_refused() {
+fn what_is_not_a_page_or_cannot_be_written_is_refused() {
     let shop = shop(RIB);
     let run = vcutc(shop.path(), &["report", "rib.vcut", "-o", "rib.pdf"]);
     assert_eq!(run.code, Some(2));

@@ -1,4 +1,5 @@
-//! `--check` and `--option`: programs held against a folder, files that stay as they are, parts that stay behind.
+//! `--check` and `--option`: programs compared with a folder, files that stay as they are, parts that stay
+//! behind.
 
 use super::jobs::RIB;
 use super::{Run, folder, json_lines, names, vcutc};
@@ -131,15 +132,15 @@ fn files_with_the_same_bytes_are_left_alone() {
     let before = (changed("rib.src"), changed("rib.dat"));
     let run = compile(shop.path(), &[]);
     assert_eq!(run.code, Some(0));
-    let told: Vec<_> = run.stderr.lines().filter(|line| line.contains("rib.")).collect();
+    let lines: Vec<_> = run.stderr.lines().filter(|line| line.contains("rib.")).collect();
     let path = |name: &str| Path::new("out").join(name).display().to_string();
     assert!(
-        told.contains(&format!("unchanged: {}", path("rib.src")).as_str()),
-        "{told:?}"
+        lines.contains(&format!("unchanged: {}", path("rib.src")).as_str()),
+        "{lines:?}"
     );
     assert!(
-        told.contains(&format!("wrote {}", path("rib.dat")).as_str()),
-        "{told:?}"
+        lines.contains(&format!("wrote {}", path("rib.dat")).as_str()),
+        "{lines:?}"
     );
     assert_eq!(changed("rib.src"), before.0);
     assert_ne!(changed("rib.dat"), before.1);
@@ -197,7 +198,7 @@ fn wrong_options_are_told_in_their_own_text() {
         &["--option", "lines_per_part"],
         &["--option", "lines_per_part=0", "--option", "lines_per_part=1"],
     ];
-    let told: Vec<String> = cases
+    let messages: Vec<String> = cases
         .iter()
         .map(|options| {
             let run = compile(shop.path(), &[*options, &["-q"]].concat());
@@ -205,7 +206,7 @@ fn wrong_options_are_told_in_their_own_text() {
             run.stderr
         })
         .collect();
-    insta::assert_snapshot!(told.join("\n"));
+    insta::assert_snapshot!(messages.join("\n"));
 }
 
 #[test]

@@ -235,7 +235,7 @@ fn a_folder_that_cannot_be_written_is_named() {
     let folder = folder();
     let job = crate::repository::read("examples/block_cui.vcut");
     fs::write(folder.path().join("rib.vcut"), job).unwrap();
-    // Nobody can make files there, not even root.
+    // No files can be made there, not even by root.
     let run = vcutc(
         folder.path(),
         &["-q", "rib.vcut", "--target", "krl", "-o", "/proc/self"],

@@ -59,7 +59,7 @@ fn a_changed_program_fails_at_both_places() {
 }
 
 #[test]
-fn a_job_of_other_values_is_told_from_its_program() {
+fn a_job_of_other_values_is_distinguished_from_its_program() {
     let folder = bench();
     let text = fs::read_to_string(folder.path().join("bench.vcut")).unwrap();
     let text = text
@@ -76,7 +76,7 @@ fn a_job_of_other_values_is_told_from_its_program() {
 }
 
 #[test]
-fn json_tells_the_same() {
+fn json_says_the_same() {
     let folder = bench();
     edit(folder.path(), "bench.src", "WAIT SEC 0.8", "WAIT SEC 0.1");
     let run = vcutc(

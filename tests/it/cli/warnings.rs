@@ -180,7 +180,7 @@ fn json_has_the_parameters_as_numbers() {
             .find_map(|one| one.trim().strip_prefix("step = "))
     });
     assert_eq!(auto.unwrap(), format!("{} mm", of("step")["value"]));
-    // Nothing has more decimals than the planner tells apart.
+    // Nothing has more decimals than the planner distinguishes.
     for one in parameters.iter().filter_map(|one| one["value"].as_f64()) {
         assert!(
             one.to_string().split('.').nth(1).unwrap_or("").len() <= 3,

@@ -65,25 +65,25 @@ impl Watch {
         }
     }
 
-    /// Waits for a run that tells this, until it is over, and gives what it told. Runs before it are passed over: the system may
-    /// let a file be seen half written.
-    fn told(&self, wanted: &str) -> String {
-        let mut told = self.until(wanted);
+    /// Waits for a run that reports this, until it is over, and returns its report. Runs before it are passed
+    /// over: the system may let a file be seen half written.
+    fn report(&self, wanted: &str) -> String {
+        let mut report = self.until(wanted);
         if !wanted.contains("watching") {
-            told.extend(self.until("watching"));
+            report.extend(self.until("watching"));
         }
-        told.join("\n")
+        report.join("\n")
     }
 
-    /// What a run tells to a program, until it is over.
+    /// What a run reports to a program, until it is over.
     fn waiting(&self) -> String {
         self.until("\"kind\":\"waiting\"").join("\n")
     }
 
     /// The address under which it shows its page, when it has compiled for the first time.
     pub(crate) fn address(&self) -> String {
-        let told = self.told("watching");
-        let (_, rest) = told.split_once("http://").unwrap();
+        let report = self.report("watching");
+        let (_, rest) = report.split_once("http://").unwrap();
         rest.split('/').next().unwrap().to_owned()
     }
 
@@ -116,32 +116,32 @@ impl Drop for Watch {
 #[test]
 fn programs_follow_their_job_and_its_files() {
     let watch = Watch::start(&[]);
-    watch.told("watching 2 files");
+    watch.report("watching 2 files");
     let first = watch.program();
 
     // A file that the job uses, written in place.
     fs::write(watch.path().join("size.vcut"), "let width = 44 mm\n").unwrap();
-    watch.told("wrote");
+    watch.report("wrote");
     let second = watch.program();
     assert_ne!(first, second);
 
     // The same, renamed over it.
     fs::write(watch.path().join("size.new"), "let width = 40 mm\n").unwrap();
     fs::rename(watch.path().join("size.new"), watch.path().join("size.vcut")).unwrap();
-    watch.told("wrote");
+    watch.report("wrote");
     assert_eq!(watch.program(), first);
 
     // A comment changes nothing, and nothing is written.
     fs::write(watch.path().join("size.vcut"), "let width = 40 mm // as ever\n").unwrap();
-    let told = watch.told("unchanged");
-    assert!(!told.contains("wrote"), "{told}");
+    let report = watch.report("unchanged");
+    assert!(!report.contains("wrote"), "{report}");
 
-    // A mistake leaves the program as it was, and its mending is enough.
+    // A mistake leaves the program as it was, and fixing it is enough.
     fs::write(watch.path().join("size.vcut"), "let width = 44 mn\n").unwrap();
-    watch.told("VC0204");
+    watch.report("VC0204");
     assert_eq!(watch.program(), first);
     fs::write(watch.path().join("size.vcut"), "let width = 44 mm\n").unwrap();
-    watch.told("wrote");
+    watch.report("wrote");
     assert_eq!(watch.program(), second);
 
     // A file that is gone is waited for; the job itself as well.
@@ -149,9 +149,9 @@ fn programs_follow_their_job_and_its_files() {
         let path = watch.path().join(name);
         let text = fs::read(&path).unwrap();
         fs::remove_file(&path).unwrap();
-        watch.told("cannot read");
+        watch.report("cannot read");
         fs::write(&path, text).unwrap();
-        watch.told("no errors");
+        watch.report("no errors");
     }
     assert_eq!(watch.interrupt(), Some(0));
 }
@@ -198,7 +198,7 @@ fn the_report_is_served_to_this_machine_and_follows_the_job() {
         thread::spawn(move || get(&address, &target))
     };
     fs::write(watch.path().join("size.vcut"), "let width = 44 <b>\n").unwrap();
-    watch.told("VC0101");
+    watch.report("VC0101");
     let changes = asking.join().unwrap();
     let page = get(&address, "/");
     let second = version(&page);
@@ -248,7 +248,7 @@ fn the_report_is_served_to_this_machine_and_follows_the_job() {
 
     // A job that is gone has no page.
     fs::remove_file(watch.path().join("rib.vcut")).unwrap();
-    watch.told("cannot read the job");
+    watch.report("cannot read the job");
     let start = Instant::now();
     while !get(&address, "/").contains("cannot read the job") {
         assert!(start.elapsed() < LIMIT);
@@ -282,7 +282,7 @@ fn so_many_requests_are_answered_at_once_and_no_more() {
     }
     assert!(get(&address, "/").starts_with("HTTP/1.1 503 "));
 
-    // All of them are told of a change, and make room.
+    // All of them are notified of a change, and make room.
     fs::write(watch.path().join("size.vcut"), "let width = 44 mm\n").unwrap();
     for mut stream in waiting {
         let mut rest = String::new();
@@ -303,7 +303,7 @@ fn a_request_that_does_not_end_is_given_up() {
     let mut stream = TcpStream::connect(&address).unwrap();
     stream.set_read_timeout(Some(LIMIT)).unwrap();
     stream.write_all(b"GET / HTTP/1.1\r\nHost: ").unwrap();
-    // It is told so, though this side has not ended it.
+    // It is notified, though this side has not ended it.
     let mut answer = String::new();
     stream.read_to_string(&mut answer).unwrap();
     assert!(answer.starts_with("HTTP/1.1 408 "), "{answer}");
@@ -313,20 +313,20 @@ fn a_request_that_does_not_end_is_given_up() {
 #[test]
 fn what_cannot_be_watched_is_refused() {
     let folder = folder();
-    for (arguments, told) in [
+    for (arguments, report) in [
         (["watch", "none.vcut"], "there is no such file"),
         (["watch", "."], "it is not a file"),
         (["watch", "-"], "takes a job from a file"),
     ] {
         let run = super::vcutc(folder.path(), &arguments);
         assert_eq!(run.code, Some(2), "{}", run.stderr);
-        assert!(run.stderr.contains(told), "{}", run.stderr);
+        assert!(run.stderr.contains(report), "{}", run.stderr);
     }
 }
 
 /// A file lies where the folder of the program should be.
 #[test]
-fn what_could_not_be_written_is_told_and_tried_again() {
+fn what_could_not_be_written_is_reported_and_tried_again() {
     let folder = folder();
     fs::write(folder.path().join("rib.vcut"), RIB).unwrap();
     fs::write(folder.path().join("out"), "in the way").unwrap();
@@ -343,10 +343,10 @@ fn what_could_not_be_written_is_told_and_tried_again() {
         "json",
     ];
     let watch = Watch::of(command(folder.path(), &arguments), folder);
-    let told = watch.waiting();
-    let lines = json_lines(&told);
+    let report = watch.waiting();
+    let lines = json_lines(&report);
     let kinds: Vec<&str> = lines.iter().map(|line| line["kind"].as_str().unwrap()).collect();
-    assert_eq!(kinds, ["failure", "summary", "waiting"], "{told}");
+    assert_eq!(kinds, ["failure", "summary", "waiting"], "{report}");
     assert_eq!(lines[0]["message"], lines[1]["failure"]);
     assert_eq!(
         (&lines[1]["errors"], &lines[1]["files"]),
@@ -360,11 +360,11 @@ fn what_could_not_be_written_is_told_and_tried_again() {
 
     // Nothing of the job changes.
     fs::remove_file(watch.path().join("out")).unwrap();
-    let told = watch.waiting();
-    let lines = json_lines(&told);
-    assert_eq!(lines.len(), 2, "{told}");
-    assert_eq!(lines[0]["files"].as_array().unwrap().len(), 2, "{told}");
-    assert!(lines[0].get("failure").is_none(), "{told}");
+    let report = watch.waiting();
+    let lines = json_lines(&report);
+    assert_eq!(lines.len(), 2, "{report}");
+    assert_eq!(lines[0]["files"].as_array().unwrap().len(), 2, "{report}");
+    assert!(lines[0].get("failure").is_none(), "{report}");
     assert!(!watch.program().is_empty());
     assert!(!get(address, "/").contains("role=\"alert\""));
     assert_eq!(watch.interrupt(), Some(0));
@@ -375,10 +375,10 @@ fn a_job_that_is_gone_has_a_summary_that_says_so() {
     let watch = Watch::start(&["--message-format", "json"]);
     watch.waiting();
     fs::remove_file(watch.path().join("rib.vcut")).unwrap();
-    let told = watch.waiting();
-    let lines = json_lines(&told);
+    let report = watch.waiting();
+    let lines = json_lines(&report);
     let kinds: Vec<&str> = lines.iter().map(|line| line["kind"].as_str().unwrap()).collect();
-    assert_eq!(kinds, ["failure", "summary", "waiting"], "{told}");
+    assert_eq!(kinds, ["failure", "summary", "waiting"], "{report}");
     assert_eq!(
         lines[1]["failure"],
         "cannot read the job rib.vcut: there is no such file"
@@ -399,7 +399,7 @@ fn a_watch_writes_over_no_file_of_its_job() {
     fs::write(folder.path().join("rib.dat"), points).unwrap();
     let arguments = ["watch", "rib.vcut", "--target", "krl"];
     let watch = Watch::of(command(folder.path(), &arguments), folder);
-    watch.told("is an input of the job");
+    watch.report("is an input of the job");
     assert_eq!(fs::read_to_string(watch.path().join("rib.dat")).unwrap(), points);
 }
 
@@ -426,20 +426,20 @@ fn a_change_overtakes_the_run_under_way() {
     fs::write(folder.path().join("rib.vcut"), slow).unwrap();
     let arguments = ["watch", "rib.vcut", "--target", "krl", "-o", "out"];
     let watch = Watch::of(command(folder.path(), &arguments), folder);
-    // Long enough for the run to be in the midst of it; nothing is told of it.
+    // Long enough for the run to be in the midst of it; nothing is reported of it.
     thread::sleep(Duration::from_secs(2));
     fs::write(watch.path().join("rib.vcut"), RIB).unwrap();
-    let told = watch.told("watching");
+    let report = watch.report("watching");
     assert!(
-        told.contains("wrote ") && told.contains("rib.vcut: no errors"),
-        "{told}"
+        report.contains("wrote ") && report.contains("rib.vcut: no errors"),
+        "{report}"
     );
-    assert_eq!(told.matches("rib.vcut: ").count(), 1, "{told}");
+    assert_eq!(report.matches("rib.vcut: ").count(), 1, "{report}");
     assert_eq!(watch.interrupt(), Some(0));
 }
 
 #[test]
-fn a_watch_that_nobody_listens_to_ends() {
+fn a_watch_without_a_listener_ends() {
     let folder = folder();
     fs::write(folder.path().join("rib.vcut"), RIB).unwrap();
     let mut child = command(folder.path(), &["watch", "rib.vcut"])

@@ -22,7 +22,7 @@ fn written(raster: &Raster) -> String {
     files[0].text.replace("\r\n", "\n").replace(" C_DIS ; cut", "")
 }
 
-fn told(text: &str, words: Words<'_>) -> (Vec<Diagnostic>, SourceMap) {
+fn refused(text: &str, words: Words<'_>) -> (Vec<Diagnostic>, SourceMap) {
     let files = [ProgramFile {
         name: "raster.src".to_owned(),
         text: text.to_owned(),
@@ -37,7 +37,7 @@ fn told(text: &str, words: Words<'_>) -> (Vec<Diagnostic>, SourceMap) {
 /// A pass in the middle of the first row.
 const PASS: &str = "LIN {X 30.560,Y -3.000,Z 45.600,A 0.0,B 90.0,C 0.0}\n";
 
-/// A program with the numbers behind a word, such as `,Z `, so much larger.
+/// A program with the numbers after a word, such as `,Z `, so much larger.
 fn moved(program: &str, word: &str, by: f64) -> String {
     let mut parts = program.split(word);
     let mut out = parts.next().unwrap_or_default().to_owned();
@@ -498,10 +498,10 @@ fn cases() -> Vec<(&'static str, String, Words<'static>, Code)> {
 }
 
 #[test]
-fn what_is_no_raster_is_told_at_its_line() {
+fn what_is_not_a_raster_is_reported_at_its_line() {
     let mut shown = String::new();
     for (what, text, words, code) in cases() {
-        let (diagnostics, sources) = told(&text, words);
+        let (diagnostics, sources) = refused(&text, words);
         let codes: Vec<Code> = diagnostics.iter().map(|diagnostic| diagnostic.code).collect();
         assert!(codes.contains(&code), "{what}: {diagnostics:#?}");
         assert!(codes.iter().all(|&found| found == code), "{what}: {codes:?}");
@@ -515,7 +515,7 @@ fn what_is_no_raster_is_told_at_its_line() {
     insta::assert_snapshot!("refusals", shown);
 }
 
-/// Options that a help line tells to write, with their values; placeholders are in capitals.
+/// Options that a help line says to write, with their values; placeholders are in capitals.
 fn offered(help: &str) -> Vec<(&str, &str)> {
     let quoted = help.split('`').skip(1).step_by(2);
     let options = quoted.filter_map(|text| text.strip_prefix("--")?.split_once(' '));
@@ -543,19 +543,19 @@ fn with_offered<'a>(words: Words<'a>, options: &[(&'a str, &'a str)]) -> Words<'
     words
 }
 
-/// Whoever writes what a message tells to write has no error left.
+/// A job has no error left when everything is written that the messages say.
 #[test]
 fn options_that_messages_offer_work() {
     let mut counted = 0;
     for (what, text, words, _) in cases() {
-        let (diagnostics, _) = told(&text, words);
+        let (diagnostics, _) = refused(&text, words);
         for help in diagnostics.iter().flat_map(|diagnostic| &diagnostic.help) {
             let options = offered(help);
             if options.is_empty() {
                 continue;
             }
             counted += 1;
-            let (left, _) = told(&text, with_offered(words, &options));
+            let (left, _) = refused(&text, with_offered(words, &options));
             let messages: Vec<&str> = left.iter().map(|one| one.message.as_str()).collect();
             assert!(!has_errors(&left), "{what}: {help}: {messages:?}");
         }
@@ -568,7 +568,7 @@ fn options_that_messages_offer_work() {
 fn unclear_places_have_an_offer() {
     let unclear = cases().into_iter().filter(|(.., code)| *code == Code::Unclear);
     for (what, text, words, _) in unclear {
-        let (diagnostics, _) = told(&text, words);
+        let (diagnostics, _) = refused(&text, words);
         let helps = diagnostics.iter().flat_map(|diagnostic| &diagnostic.help);
         assert!(
             helps.flat_map(|help| offered(help)).next().is_some(),

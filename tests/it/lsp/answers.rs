@@ -14,12 +14,15 @@ fn rib() -> Editor {
 
 fn hover(editor: &mut Editor, piece: &str) -> String {
     let at = editor.at(PATH, piece);
-    let told = editor.ask("textDocument/hover", at).unwrap();
-    told["contents"]["value"].as_str().unwrap_or_default().to_owned()
+    let answer = editor.ask("textDocument/hover", at).unwrap();
+    answer["contents"]["value"]
+        .as_str()
+        .unwrap_or_default()
+        .to_owned()
 }
 
 #[test]
-fn hovering_tells_values_units_and_formulas() {
+fn hovering_shows_values_units_and_formulas() {
     let mut editor = rib();
     for (piece, parts) in [
         (
@@ -73,10 +76,10 @@ fn hovering_tells_values_units_and_formulas() {
         ("\"bla|des.vcut\"", vec!["The file `/shop/blades.vcut`"]),
         ("Ri|ppe", vec![]),
     ] {
-        let told = hover(&mut editor, piece);
-        assert_eq!(told.is_empty(), parts.is_empty(), "{piece}: {told}");
+        let shown = hover(&mut editor, piece);
+        assert_eq!(shown.is_empty(), parts.is_empty(), "{piece}: {shown}");
         for part in parts {
-            assert!(told.contains(part), "{piece}: {told}");
+            assert!(shown.contains(part), "{piece}: {shown}");
         }
     }
 }
@@ -291,8 +294,8 @@ fn definitions_lead_over_files() {
 fn places_are_counted_in_utf_16() {
     let mut editor = rib();
     editor.replace(PATH, "swing <= 45 deg", "/* 𝒳🔪ä */ swing <= 45");
-    let told = editor.diagnostics(PATH);
-    assert_eq!(told[0]["code"], "VC0203");
+    let diagnostics = editor.diagnostics(PATH);
+    assert_eq!(diagnostics[0]["code"], "VC0203");
     let line = editor
         .text(PATH)
         .lines()
@@ -300,14 +303,14 @@ fn places_are_counted_in_utf_16() {
         .unwrap();
     let column = "  limits { /* 𝒳🔪ä */ swing <= ".encode_utf16().count();
     assert_eq!(
-        told[0]["range"]["start"],
+        diagnostics[0]["range"]["start"],
         json!({ "line": line, "character": column })
     );
     let at = editor.at(PATH, "|// 𝒳 half of it");
     let _ = editor.ask("textDocument/hover", at).unwrap();
-    let range = json!({ "start": told[0]["range"]["start"], "end": told[0]["range"]["end"] });
+    let range = json!({ "start": diagnostics[0]["range"]["start"], "end": diagnostics[0]["range"]["end"] });
     let params = json!({
-        "textDocument": { "uri": uri(PATH) }, "range": range, "context": { "diagnostics": told },
+        "textDocument": { "uri": uri(PATH) }, "range": range, "context": { "diagnostics": diagnostics },
     });
     let actions = editor.ask("textDocument/codeAction", params).unwrap();
     assert_eq!(actions[0]["kind"], "quickfix");
@@ -320,8 +323,8 @@ fn places_are_counted_in_utf_16() {
 fn second_parties_are_related() {
     let mut editor = rib();
     editor.replace(PATH, "let half", "let slow = 3 mm\nlet half");
-    let told = editor.diagnostics(PATH);
-    let twice = told
+    let diagnostics = editor.diagnostics(PATH);
+    let twice = diagnostics
         .iter()
         .find(|diagnostic| diagnostic["code"] == "VC0202")
         .unwrap();
@@ -514,15 +517,15 @@ fn what_is_not_understood_is_refused() {
     assert_eq!(error["code"], -32602);
     let at = json!({ "textDocument": { "uri": "file:///nowhere.vcut" }, "position": { "line": 3, "character": 4 } });
     assert_eq!(editor.ask("textDocument/hover", at).unwrap(), Value::Null);
-    editor.tell("textDocument/didChange", json!({ "nonsense": true }));
-    let [told] = editor.log.as_slice() else {
+    editor.notify("textDocument/didChange", json!({ "nonsense": true }));
+    let [message] = editor.log.as_slice() else {
         panic!("{:?}", editor.log);
     };
     assert!(
-        told.starts_with("`textDocument/didChange` cannot be read: "),
-        "{told}"
+        message.starts_with("`textDocument/didChange` cannot be read: "),
+        "{message}"
     );
-    editor.tell("$/unheardOf", Value::Null);
+    editor.notify("$/unheardOf", Value::Null);
     assert_eq!(editor.ask("shutdown", Value::Null).unwrap(), Value::Null);
     let at = editor.at(PATH, "wi|dth");
     assert_eq!(editor.ask("textDocument/hover", at).unwrap_err()["code"], -32600);

@@ -35,9 +35,9 @@ impl Workspace for Memory {
 pub(crate) struct Editor {
     pub(crate) server: Server,
     pub(crate) files: Memory,
-    /// What was told of each document last: version and diagnostics.
-    pub(crate) told: BTreeMap<String, Value>,
-    /// What was told in the log.
+    /// What was reported last of each document: version and diagnostics.
+    pub(crate) published: BTreeMap<String, Value>,
+    /// What was written to the log.
     pub(crate) log: Vec<String>,
     texts: BTreeMap<String, (i64, String)>,
     requests: i64,
@@ -77,7 +77,7 @@ impl Editor {
         let mut editor = Self {
             server: Server::new(operations, &registry::backends()),
             files: Memory(files),
-            told: BTreeMap::new(),
+            published: BTreeMap::new(),
             log: Vec::new(),
             texts: BTreeMap::new(),
             requests: 0,
@@ -89,7 +89,7 @@ impl Editor {
             "workspaceFolders": [{ "uri": uri("/shop"), "name": "shop" }],
         });
         editor.ask("initialize", params).unwrap();
-        editor.tell("initialized", json!({}));
+        editor.notify("initialized", json!({}));
         editor
     }
 
@@ -111,7 +111,7 @@ impl Editor {
         }
     }
 
-    pub(crate) fn tell(&mut self, method: &str, params: Value) {
+    pub(crate) fn notify(&mut self, method: &str, params: Value) {
         let message = Incoming::Notification {
             method: method.to_owned(),
             params,
@@ -136,7 +136,7 @@ impl Editor {
             assert_eq!(message["method"], "textDocument/publishDiagnostics", "{message}");
             let params = &message["params"];
             let uri = params["uri"].as_str().unwrap().to_owned();
-            self.told.insert(uri, params.clone());
+            self.published.insert(uri, params.clone());
         }
     }
 
@@ -149,14 +149,14 @@ impl Editor {
     pub(crate) fn open_as(&mut self, path: &str, text: &str) {
         let document = json!({ "uri": uri(path), "languageId": "vcut", "version": 1, "text": text });
         self.texts.insert(path.to_owned(), (1, text.to_owned()));
-        self.tell("textDocument/didOpen", json!({ "textDocument": document }));
+        self.notify("textDocument/didOpen", json!({ "textDocument": document }));
         self.settle();
     }
 
     pub(crate) fn close(&mut self, path: &str) {
         self.texts.remove(path);
         let document = json!({ "uri": uri(path) });
-        self.tell("textDocument/didClose", json!({ "textDocument": document }));
+        self.notify("textDocument/didClose", json!({ "textDocument": document }));
         self.settle();
     }
 
@@ -174,7 +174,7 @@ impl Editor {
         let document = json!({ "uri": uri(path), "version": *version });
         let changes = json!([{ "range": range, "text": new }]);
         let params = json!({ "textDocument": document, "contentChanges": changes });
-        self.tell("textDocument/didChange", params);
+        self.notify("textDocument/didChange", params);
     }
 
     /// Replaces the only place of a text by another.
@@ -185,10 +185,10 @@ impl Editor {
         self.settle();
     }
 
-    /// What was told of a document: its diagnostics.
+    /// What was reported of a document: its diagnostics.
     pub(crate) fn diagnostics(&self, path: &str) -> Vec<Value> {
-        let told = self.told.get(&uri(path));
-        told.map_or(Vec::new(), |params| {
+        let published = self.published.get(&uri(path));
+        published.map_or(Vec::new(), |params| {
             params["diagnostics"].as_array().unwrap().clone()
         })
     }

@@ -1,5 +1,5 @@
-//! Ten thousand edits at random: after each the server tells what a check of the whole text tells, and answers whatever it is
-//! asked.
+//! Ten thousand edits at random: after each the server reports what a check of the whole text reports, and
+//! answers whatever it is asked.
 
 use super::editor::{BLADES, Editor, Memory, RIB, position, uri};
 use serde_json::{Value, json};
@@ -85,10 +85,10 @@ const PIECES: &[&str] = &[
 ];
 
 /// What is compared of a diagnostic.
-type Told = (String, u64, Value, Value, String);
+type Published = (String, u64, Value, Value, String);
 
-/// What is to be told of a text, by the compiler's own check of all of it.
-fn expected(path: &str, text: &str, part: Part) -> (Vec<Told>, bool) {
+/// What has to be reported of a text, by the compiler's own check of all of it.
+fn expected(path: &str, text: &str, part: Part) -> (Vec<Published>, bool) {
     let files = [
         (path.to_owned(), text.to_owned()),
         ("/shop/blades.vcut".to_owned(), BLADES.to_owned()),
@@ -113,7 +113,7 @@ fn expected(path: &str, text: &str, part: Part) -> (Vec<Told>, bool) {
         .iter()
         .any(|item| matches!(item, Item::Job { .. }));
     let of_text = |diagnostic: &&Diagnostic| sources.name(diagnostic.primary.span.file) == path;
-    let mut all: Vec<Told> = Vec::new();
+    let mut all: Vec<Published> = Vec::new();
     for diagnostic in found.iter().filter(of_text) {
         let span = diagnostic.primary.span;
         let place = |offset: u32| position(text, text.floor_char_boundary(offset as usize));
@@ -122,24 +122,24 @@ fn expected(path: &str, text: &str, part: Part) -> (Vec<Told>, bool) {
         } else {
             2
         };
-        let told = (
+        let published = (
             diagnostic.code.number().to_owned(),
             severity,
             place(span.start),
             place(span.end),
             diagnostic.message.clone(),
         );
-        if !all.contains(&told) {
-            all.push(told);
+        if !all.contains(&published) {
+            all.push(published);
         }
     }
     (all, is_job)
 }
 
-fn told(editor: &Editor, path: &str) -> Vec<Told> {
-    let mut all: Vec<Told> = Vec::new();
+fn published(editor: &Editor, path: &str) -> Vec<Published> {
+    let mut all: Vec<Published> = Vec::new();
     for diagnostic in editor.diagnostics(path) {
-        let told = (
+        let published = (
             diagnostic["code"].as_str().unwrap().to_owned(),
             diagnostic["severity"].as_u64().unwrap(),
             diagnostic["range"]["start"].clone(),
@@ -152,14 +152,14 @@ fn told(editor: &Editor, path: &str) -> Vec<Told> {
                 .unwrap()
                 .to_owned(),
         );
-        if !all.contains(&told) {
-            all.push(told);
+        if !all.contains(&published) {
+            all.push(published);
         }
     }
     all
 }
 
-/// A server that has seen nothing but the text tells the same, to the letter.
+/// A server that has seen nothing but the text reports the same, to the letter.
 fn as_a_fresh_server(editor: &Editor, path: &str) {
     let mut fresh = Editor::with(&[("rib.vcut", RIB), ("blades.vcut", BLADES)]);
     let text = editor.text(path);
@@ -236,18 +236,18 @@ fn ten_thousand_edits_leave_the_server_right() {
         editor.settle();
         let text = editor.text(path).to_owned();
         let (as_job, is_job) = expected(path, &text, Part::Job);
-        let told = told(&editor, path);
-        let is_right = told == as_job || !is_job && told == expected(path, &text, Part::Library).0;
+        let published = published(&editor, path);
+        let is_right = published == as_job || !is_job && published == expected(path, &text, Part::Library).0;
         assert!(
             is_right,
-            "edit {number}:\n{text}\ntold {told:#?}\nexpected {as_job:#?}"
+            "edit {number}:\n{text}\nreported {published:#?}\nexpected {as_job:#?}"
         );
-        assert_eq!(editor.told[&uri(path)]["version"].as_i64(), Some(number + 2));
+        assert_eq!(editor.published[&uri(path)]["version"].as_i64(), Some(number + 2));
         if compared % 20 == 0 {
             as_a_fresh_server(&editor, path);
         }
         compared += 1;
-        right += usize::from(told.is_empty());
+        right += usize::from(published.is_empty());
         ask_something(&mut editor, path, &mut dice);
     }
     assert!(

@@ -1,4 +1,4 @@
-//! Jobs that name drawings, and jobs beside a job: what is wrong there is told where it can be mended.
+//! Jobs that name drawings, and jobs beside a job: what is wrong there is reported where it can be fixed.
 
 use super::editor::{BLADES, RIB, position};
 use super::process::Process;
@@ -41,9 +41,12 @@ fn a_broken_file_is_marked_where_the_job_names_it() {
     ] {
         let text = with_profile(profile);
         process.show(NAME, &text);
-        let told = process.diagnostics(NAME);
-        let of_file: Vec<&Value> = told.iter().filter(|told| told["code"] == "VC0224").collect();
-        assert_eq!(of_file.len(), 1, "{profile}: {told:#?}");
+        let diagnostics = process.diagnostics(NAME);
+        let of_file: Vec<&Value> = diagnostics
+            .iter()
+            .filter(|diagnostic| diagnostic["code"] == "VC0224")
+            .collect();
+        assert_eq!(of_file.len(), 1, "{profile}: {diagnostics:#?}");
         assert_eq!(
             marked(&text, &of_file[0]["range"]),
             format!("\"{file}\""),
@@ -63,10 +66,10 @@ fn a_broken_file_is_marked_where_the_job_names_it() {
     ] {
         let text = with_profile(profile);
         process.show(NAME, &text);
-        let told = process.diagnostics(NAME);
-        assert_eq!(told[0]["code"], "VC0212", "{profile}: {told:#?}");
+        let diagnostics = process.diagnostics(NAME);
+        assert_eq!(diagnostics[0]["code"], "VC0212", "{profile}: {diagnostics:#?}");
         assert!(
-            marked(&text, &told[0]["range"]).starts_with("\"nowhere."),
+            marked(&text, &diagnostics[0]["range"]).starts_with("\"nowhere."),
             "{profile}"
         );
     }
@@ -81,7 +84,8 @@ fn rename(process: &mut Process, id: i64, text: &str, piece: &str, new: &str) ->
     process.ask(id, "textDocument/rename", &params)
 }
 
-/// Jobs that are wrong are no obstacle to renaming, wherever the mistake is: unless the name stands in what cannot be read.
+/// Jobs that are wrong do not prevent renaming, wherever the mistake is: unless the name stands in what
+/// cannot be read.
 #[test]
 fn jobs_with_mistakes_do_not_keep_a_name() {
     let mut process = Process::start();

@@ -1,4 +1,4 @@
-//! Documents that are no jobs of their own, and names over several files.
+//! Documents that are not jobs of their own, and names over several files.
 
 use super::editor::{BLADES, Editor, RIB, uri};
 use serde_json::{Value, json};
@@ -49,10 +49,13 @@ fn a_library_is_looked_at_from_a_job_that_uses_it() {
         "nobody asked about the job"
     );
     let at = editor.at(BLADES_AT, "let sl|ow");
-    let told = editor.ask("textDocument/hover", at).unwrap();
+    let answer = editor.ask("textDocument/hover", at).unwrap();
     assert!(
-        told["contents"]["value"].as_str().unwrap().contains("`200 mm/s`"),
-        "{told}"
+        answer["contents"]["value"]
+            .as_str()
+            .unwrap()
+            .contains("`200 mm/s`"),
+        "{answer}"
     );
 }
 
@@ -149,7 +152,7 @@ fn names_that_would_mean_something_else_are_refused() {
     }
 }
 
-/// A word that a field takes is no name, even where a name is spelt alike.
+/// A word that a field takes is not a name, even where a name is spelt alike.
 #[test]
 fn words_of_fields_are_not_renamed() {
     let mut editor = shop();

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 const NAME: &str = "rib.vcut";
 
-/// A job with values of several dimensions; what is tried out stands behind them.
+/// A job with values of several dimensions; what is tried out stands after them.
 const VALUES: &str = "job \"rib\"\nlet long = 30 mm\nlet wide = 20 deg\nlet share = 0.5\n";
 
 const ROBOT: &str = "machine m = robot \"kuka/kr210_r3100_ultra\"";
@@ -154,10 +154,13 @@ fn what_the_short_form_offers_can_be_read() {
         let form = item["textEdit"]["newText"].as_str().unwrap().to_owned();
         let text = format!("{VALUES}stock {{ size = (9 mm, 9 mm, 9 mm) }}\nprofile = {form}\n");
         tried.process.show(NAME, &text);
-        let told = tried.process.diagnostics(NAME);
-        let codes: Vec<&str> = told.iter().map(|told| told["code"].as_str().unwrap()).collect();
+        let diagnostics = tried.process.diagnostics(NAME);
+        let codes: Vec<&str> = diagnostics
+            .iter()
+            .map(|diagnostic| diagnostic["code"].as_str().unwrap())
+            .collect();
         // There is no operation, and the file is not there.
-        assert_eq!(codes, ["VC0208", "VC0212"], "{form}: {told:#?}");
+        assert_eq!(codes, ["VC0208", "VC0212"], "{form}: {diagnostics:#?}");
     }
     tried.process.end();
 }
@@ -189,7 +192,7 @@ fn pieces_of_a_profile_go_on_as_they_must() {
     tried.process.end();
 }
 
-/// The unit behind a number fits the key.
+/// The unit after a number fits the key.
 #[test]
 fn units_fit_the_dimension_of_their_place() {
     let mut tried = Tried::start();

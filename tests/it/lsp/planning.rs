@@ -38,19 +38,19 @@ fn auto_shows_what_it_became() {
     // The widest swing within the limit, and by [Cui 6, 7] the step that lets Vs just meet: 2 * 5 mm * tan(45 deg).
     assert_eq!(hints(&mut editor), ["= 45 deg", "= 10 mm"]);
     let at = editor.at(PATH, "step  = au|to");
-    let told = editor.ask("textDocument/hover", at).unwrap();
-    let text = told["contents"]["value"].as_str().unwrap();
+    let answer = editor.ask("textDocument/hover", at).unwrap();
+    let text = answer["contents"]["value"].as_str().unwrap();
     assert!(text.starts_with("`auto` is `10 mm`\n\nbound by "), "{text}");
     let at = editor.at(PATH, "job \"r|ib\"");
-    let told = editor.ask("textDocument/hover", at).unwrap();
+    let answer = editor.ask("textDocument/hover", at).unwrap();
     assert!(
-        told["contents"]["value"].as_str().unwrap().contains("rib: "),
-        "{told}"
+        answer["contents"]["value"].as_str().unwrap().contains("rib: "),
+        "{answer}"
     );
 }
 
 #[test]
-fn what_planning_finds_is_told_and_taken_back() {
+fn what_planning_finds_is_reported_and_taken_back() {
     let deep = RIB
         .replace("layer = 5 mm", "layer = 8 mm")
         .replace("swing = auto", "swing = 45 deg")
@@ -67,7 +67,7 @@ fn what_planning_finds_is_told_and_taken_back() {
 }
 
 #[test]
-fn a_refusal_is_told_before_help_is_looked_for() {
+fn a_refusal_is_reported_before_help_is_looked_for() {
     let deep = RIB
         .replace("layer = 5 mm", "layer = 8 mm")
         .replace("swing = auto", "swing = 45 deg")
@@ -76,7 +76,7 @@ fn a_refusal_is_told_before_help_is_looked_for() {
     editor.open(PATH);
     let task = editor.server.task().unwrap();
     let mut early = Vec::new();
-    let done = task.run_telling(
+    let done = task.run_reporting(
         &editor.files,
         &registry::backends(),
         &mut Memory::none(),
@@ -114,13 +114,13 @@ fn what_would_help_comes_after_the_plan() {
     editor.open(job);
     let task = editor.server.task().unwrap();
     let mut early = Vec::new();
-    let done = task.run_telling(
+    let done = task.run_reporting(
         &editor.files,
         &registry::backends(),
         &mut Memory::none(),
         (&mut Unhurried, &mut |done| early.push(done)),
     );
-    assert_eq!(early.len(), 1, "the plan is told before hints are looked for");
+    assert_eq!(early.len(), 1, "the plan is reported before hints are looked for");
     let at_once = editor.server.finish(early.remove(0));
     assert!(!serde_json::to_string(&at_once).unwrap().contains("saves"));
     let at = editor.at(job, "job \"rib|_dxf\"");
@@ -132,7 +132,7 @@ fn what_would_help_comes_after_the_plan() {
 
     let messages = editor.server.finish(done);
     editor.take(&messages);
-    let (uri, hint) = hint_told(&editor).expect("a hint");
+    let (uri, hint) = shown_hint(&editor).expect("a hint");
     assert_eq!(hint["severity"], 3, "information: {hint}");
     let params = json!({
         "textDocument": { "uri": uri },
@@ -148,13 +148,13 @@ fn what_would_help_comes_after_the_plan() {
     assert!(edit["newText"].as_str().unwrap().starts_with("frame("), "{edit}");
 
     editor.replace(job, "limits    { swing", "limits  { swing");
-    assert_eq!(hint_told(&editor), None, "of another text nothing is known");
+    assert_eq!(shown_hint(&editor), None, "of another text nothing is known");
 }
 
-/// The first hint that is told, and the file that it is told of.
-fn hint_told(editor: &Editor) -> Option<(String, Value)> {
-    editor.told.iter().find_map(|(uri, told)| {
-        let mut all = told["diagnostics"].as_array()?.iter();
+/// The first hint that is shown, and the file that it is about.
+fn shown_hint(editor: &Editor) -> Option<(String, Value)> {
+    editor.published.iter().find_map(|(uri, params)| {
+        let mut all = params["diagnostics"].as_array()?.iter();
         let hint = all.find(|one| {
             one["message"]
                 .as_str()
@@ -164,7 +164,7 @@ fn hint_told(editor: &Editor) -> Option<(String, Value)> {
     })
 }
 
-/// An answer for a text that has changed meanwhile is nobody's answer.
+/// An answer for a text that has changed meanwhile is dropped.
 #[test]
 fn stale_plans_are_not_shown() {
     let mut editor = Editor::with(&[("rib.vcut", RIB), ("blades.vcut", BLADES)]);
@@ -232,19 +232,19 @@ fn a_text_that_has_changed_is_planned_no_further() {
     assert_eq!(hints(&mut editor).len(), 2);
 }
 
-/// Saving, and changes of files that say nothing new, are no reason to begin again.
+/// Saving, and changes of files that say nothing new, do not restart the work.
 #[test]
 fn what_says_the_same_is_planned_on() {
     let mut editor = Editor::with(&[("rib.vcut", RIB), ("blades.vcut", BLADES)]);
     editor.open(PATH);
     let task = editor.server.task().unwrap();
     let saved = json!({ "textDocument": { "uri": uri(PATH) } });
-    editor.tell("textDocument/didSave", saved.clone());
+    editor.notify("textDocument/didSave", saved.clone());
     editor.settle();
     assert!(editor.server.task().is_none(), "it is being planned");
     assert_ne!(reads(&mut editor, task), 0);
     assert_eq!(hints(&mut editor).len(), 2);
-    editor.tell("textDocument/didSave", saved);
+    editor.notify("textDocument/didSave", saved);
     editor.settle();
     assert_eq!(hints(&mut editor).len(), 2, "it stays planned");
     assert!(editor.server.task().is_none());
@@ -252,7 +252,7 @@ fn what_says_the_same_is_planned_on() {
     let longer = BLADES.replace("20 mm", "21 mm");
     assert_ne!(longer, BLADES);
     editor.files.0.insert("/shop/blades.vcut".to_owned(), longer);
-    editor.tell("workspace/didChangeWatchedFiles", json!({ "changes": [] }));
+    editor.notify("workspace/didChangeWatchedFiles", json!({ "changes": [] }));
     editor.settle();
     assert!(editor.server.task().is_some());
 }
@@ -271,8 +271,8 @@ fn the_job_that_was_changed_last_is_planned_first() {
         let task = editor.server.task().unwrap();
         assert_ne!(reads(&mut editor, task), 0);
         let at = editor.at(path, "step  = au|to");
-        let told = editor.ask("textDocument/hover", at).unwrap();
-        let text = told["contents"]["value"].as_str().unwrap();
+        let answer = editor.ask("textDocument/hover", at).unwrap();
+        let text = answer["contents"]["value"].as_str().unwrap();
         assert!(text.starts_with("`auto` is `"), "{path}: {text}");
     }
     assert!(editor.server.task().is_none());

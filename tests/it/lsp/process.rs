@@ -91,9 +91,9 @@ impl Process {
     /// The codes of the next diagnostics for a version of the job.
     pub(super) fn codes_of(&mut self, version: i64) -> Vec<String> {
         loop {
-            let told = self.wait_for("textDocument/publishDiagnostics");
-            if told["params"]["version"] == json!(version) {
-                let diagnostics = told["params"]["diagnostics"].as_array().unwrap();
+            let message = self.wait_for("textDocument/publishDiagnostics");
+            if message["params"]["version"] == json!(version) {
+                let diagnostics = message["params"]["diagnostics"].as_array().unwrap();
                 return diagnostics
                     .iter()
                     .map(|found| found["code"].as_str().unwrap().to_owned())
@@ -144,13 +144,13 @@ impl Process {
         answer["result"].clone()
     }
 
-    /// The diagnostics that are told of a document next, of its latest version.
+    /// The diagnostics that are reported next of a document, of its latest version.
     pub(super) fn diagnostics(&mut self, name: &str) -> Vec<Value> {
         let uri = self.uri(name);
         loop {
-            let told = self.wait_for("textDocument/publishDiagnostics");
-            if told["params"]["uri"] == json!(uri) && told["params"]["version"] == json!(self.version) {
-                return told["params"]["diagnostics"].as_array().unwrap().clone();
+            let message = self.wait_for("textDocument/publishDiagnostics");
+            if message["params"]["uri"] == json!(uri) && message["params"]["version"] == json!(self.version) {
+                return message["params"]["diagnostics"].as_array().unwrap().clone();
             }
         }
     }

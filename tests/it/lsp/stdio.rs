@@ -23,7 +23,7 @@ fn a_whole_conversation() {
     process.notify("textDocument/didOpen", &json!({ "textDocument": document }));
     assert_eq!(process.codes_of(1), [""; 0]);
 
-    // Behind an umlaut, a knife and a letter of two units.
+    // After an umlaut, a knife and a letter of two units.
     let first = "// Eine Rippe für den Flügel 🔪 𝒳".encode_utf16().count();
     let change = |version: i64, line: usize, from: usize, to: usize, text: &str| {
         let range =
@@ -35,14 +35,14 @@ fn a_whole_conversation() {
     process.notify("textDocument/didChange", &change(3, 1, 0, 1, ""));
     assert_eq!(process.codes_of(3), [""; 0]);
 
-    // What is no message is answered, and the conversation goes on.
+    // What is not a message is answered, and the conversation goes on.
     write!(process.input, "Content-Length: 9\r\n\r\n{{nonsense").unwrap();
     assert_eq!(process.wait_for("")["error"]["code"], -32700);
     process.send(&json!([1, 2, 3]));
     assert_eq!(process.wait_for("")["error"]["code"], -32600);
     assert_eq!(process.ask(3, "no/such", &json!({}))["error"]["code"], -32601);
 
-    // Many edits without waiting: the last version is told of.
+    // Many edits without waiting: the last version is reported.
     for version in 4..304 {
         let text = if version % 2 == 0 { "1" } else { "" };
         let to = usize::from(version % 2 == 1);
@@ -70,7 +70,7 @@ fn a_whole_conversation() {
 }
 
 #[test]
-fn an_end_without_a_word_is_told_by_the_exit_status() {
+fn an_end_without_a_message_shows_in_the_exit_status() {
     let mut process = Process::start();
     process.notify("exit", &Value::Null);
     assert_eq!(process.child.wait().unwrap().code(), Some(1));
@@ -78,10 +78,10 @@ fn an_end_without_a_word_is_told_by_the_exit_status() {
     let mut process = Process::start();
     process.input.write_all(b"GET / HTTP/1.1\r\n\r\n").unwrap();
     assert_eq!(process.child.wait().unwrap().code(), Some(1));
-    let told = said(&mut process);
+    let log = said(&mut process);
     assert!(
-        told.contains("the conversation cannot continue: headers without a length"),
-        "{told}"
+        log.contains("the conversation cannot continue: headers without a length"),
+        "{log}"
     );
 
     let Process { mut child, input, .. } = Process::start();
@@ -89,7 +89,7 @@ fn an_end_without_a_word_is_told_by_the_exit_status() {
     assert_eq!(child.wait().unwrap().code(), Some(1));
 }
 
-/// What a server that has ended said to nobody in particular.
+/// What a server that has ended wrote to its log.
 fn said(process: &mut Process) -> String {
     let mut said = String::new();
     let mut stderr = process.child.stderr.take().unwrap();
@@ -98,24 +98,24 @@ fn said(process: &mut Process) -> String {
 }
 
 #[test]
-fn what_is_no_message_is_told_in_the_log() {
+fn what_is_not_a_message_is_reported_in_the_log() {
     let mut process = Process::start();
     process.introduce(&json!({}));
     write!(process.input, "Content-Length: 9\r\n\r\n{{nonsense").unwrap();
     assert_eq!(process.wait_for("")["error"]["code"], -32700);
     process.notify("textDocument/didOpen", &json!({ "textDocument": 7 }));
-    let told = process.wait_for("window/logMessage");
-    let text = told["params"]["message"].as_str().unwrap();
+    let message = process.wait_for("window/logMessage");
+    let text = message["params"]["message"].as_str().unwrap();
     assert!(
         text.starts_with("`textDocument/didOpen` cannot be read: "),
         "{text}"
     );
     process.notify("exit", &Value::Null);
     process.child.wait().unwrap();
-    let told = said(&mut process);
+    let log = said(&mut process);
     assert!(
-        told.contains("a message of the editor cannot be read: key must be"),
-        "{told}"
+        log.contains("a message of the editor cannot be read: key must be"),
+        "{log}"
     );
 }
 
@@ -129,8 +129,8 @@ fn uris_are_taken_as_the_client_spells_them() {
     process.write("Flügel 2 [neu]/rib.vcut", RIB);
     let wrong = RIB.replace("layer = 5 mm", "layer = 5 mn");
     process.show("Flügel 2 [neu]/rib.vcut", &wrong);
-    let told = process.diagnostics("Flügel 2 [neu]/rib.vcut");
-    assert_eq!(told.len(), 1, "{told:?}");
+    let diagnostics = process.diagnostics("Flügel 2 [neu]/rib.vcut");
+    assert_eq!(diagnostics.len(), 1, "{diagnostics:?}");
     process.show("Flügel 2 [neu]/rib.vcut", RIB);
     assert_eq!(process.diagnostics("Flügel 2 [neu]/rib.vcut"), [Value::Null; 0]);
     process.end();
@@ -168,8 +168,11 @@ fn a_text_does_not_wait_for_the_plan_of_the_one_before() {
     let at = RIB.find("step  = auto").unwrap() + "step  = a".len();
     let mut text = String::new();
     for _ in 0..400 {
-        let told = process.about("hover", "rib.vcut", RIB, at);
-        text = told["contents"]["value"].as_str().unwrap_or_default().to_owned();
+        let answer = process.about("hover", "rib.vcut", RIB, at);
+        text = answer["contents"]["value"]
+            .as_str()
+            .unwrap_or_default()
+            .to_owned();
         if text.starts_with("`auto` is `10 mm`") {
             break;
         }

@@ -27,21 +27,22 @@ fn positions_are_counted_as_agreed() {
         let can = process.introduce(&json!({ "general": { "positionEncodings": offered } }));
         assert_eq!(can["positionEncoding"], agreed);
         process.show(NAME, &text);
-        let told = process.diagnostics(NAME);
-        assert_eq!(told[0]["code"], "VC0203");
+        let diagnostics = process.diagnostics(NAME);
+        assert_eq!(diagnostics[0]["code"], "VC0203");
         let start = json!({ "line": line, "character": column });
-        assert_eq!(told[0]["range"]["start"], start, "{agreed}");
+        assert_eq!(diagnostics[0]["range"]["start"], start, "{agreed}");
         let at = json!({ "textDocument": { "uri": process.uri(NAME) }, "position": start });
-        let told = process.ask(5, "textDocument/hover", &at);
-        let text = told["result"]["contents"]["value"].as_str().unwrap_or_default();
-        assert!(text.contains("`45`"), "{agreed}: {told}");
+        let answer = process.ask(5, "textDocument/hover", &at);
+        let text = answer["result"]["contents"]["value"].as_str().unwrap_or_default();
+        assert!(text.contains("`45`"), "{agreed}: {answer}");
         process.end();
     }
 }
 
-/// A client that asks for diagnostics is not sent any of what is open, and is told when planning has found more.
+/// A client that asks for diagnostics is not sent any of what is open, and is notified when planning has
+/// found more.
 #[test]
-fn diagnostics_are_told_on_request() {
+fn diagnostics_are_reported_on_request() {
     let asking = json!({
         "textDocument": { "diagnostic": {} },
         "workspace": { "diagnostics": { "refreshSupport": true } },
@@ -66,7 +67,7 @@ fn diagnostics_are_told_on_request() {
     process.end();
 }
 
-/// Clients that cannot be told to ask again are sent everything.
+/// Clients that cannot be asked to ask again are sent everything.
 #[test]
 fn diagnostics_are_sent_to_all_others() {
     let mut process = Process::start();

@@ -1,6 +1,7 @@
 //! What LinuxCNC's interpreter makes of a program: its canonical functions, as `rs274` prints them, a line each.
 //!
-//! Every function is known here by name. One that is not fails the test, for nobody would have looked at what it does.
+//! Every function is known here by name. One that is not fails the test: what it does would not have been
+//! looked at.
 
 /// Axis values in the order X Y Z A B C, in mm and degrees.
 pub(super) type Position = [f64; 6];
@@ -197,7 +198,7 @@ fn arc(numbers: &[f64], plane: Option<[usize; 3]>, rate: f64) -> Option<Canon> {
     let (mut to, mut centre, mut axis) = ([0.0, 0.0, 0.0, a, b, c], [0.0; 3], [0.0; 3]);
     (to[on_first], to[on_second], to[along]) = (to_first, to_second, to_along);
     (centre[on_first], centre[on_second], centre[along]) = (first, second, to_along);
-    // More turns than one are no arc of ours.
+    // More turns than one are not an arc of ours.
     axis[along] = if turns == 1.0 || turns == -1.0 {
         turns
     } else {
@@ -216,7 +217,7 @@ fn output(number: f64, on: bool) -> Canon {
     Canon::Output { number, on }
 }
 
-/// The kinematics behind the value of their output.
+/// The kinematics that a value of their output selects.
 fn kinematics(value: f64) -> Option<Kinematics> {
     match value {
         0.0 => Some(Kinematics::Axes),

@@ -45,7 +45,7 @@ pub(super) enum Deed {
     Wait(f64),
     /// Another blade is put in.
     Change {
-        /// From this place of the changer; by a person where there is none.
+        /// From this place of the changer; by a person where there is no place.
         place: Option<u32>,
         /// Its length, in mm.
         length: f64,

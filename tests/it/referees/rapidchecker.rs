@@ -47,7 +47,7 @@ fn complaints(modules: &[Module]) -> Result<(), String> {
 
 /// A module without the statements and comments that differ from one before in nothing but digits: to a grammar they say
 /// nothing new, and this one takes 15 ms a line. Targets of arcs go on on the next line.
-fn telling(module: &[u8]) -> Vec<u8> {
+fn shortened(module: &[u8]) -> Vec<u8> {
     let mut seen = BTreeSet::new();
     let text = str::from_utf8(module).unwrap();
     let mut kept = String::new();
@@ -104,11 +104,11 @@ fn modules_of_examples_are_right() {
     }
     let programs = programs();
     for (name, modules) in &programs {
-        let telling: Vec<_> = modules
+        let shortened: Vec<_> = modules
             .iter()
-            .map(|(name, text)| (name.clone(), telling(text)))
+            .map(|(name, text)| (name.clone(), shortened(text)))
             .collect();
-        assert_eq!(complaints(&telling), Ok(()), "{name}");
+        assert_eq!(complaints(&shortened), Ok(()), "{name}");
     }
     let size = |modules: &[Module]| modules.iter().map(|(_, text)| text.len()).sum::<usize>();
     let (name, shortest) = programs.iter().min_by_key(|(_, modules)| size(modules)).unwrap();

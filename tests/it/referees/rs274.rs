@@ -35,7 +35,7 @@ const BLADE: f64 = 160.0;
 /// That blade and one of 130 mm; `rs274` counts in inches.
 const TOOL_TABLE: &str = "T1 P1 Z6.299213\nT2 P2 Z5.118110\n";
 
-/// The subroutine behind one of the M codes.
+/// The subroutine that one of the M codes calls.
 fn choice_of_kinematics(name: &str, number: u32) -> String {
     format!("o<{name}> sub\nM68 E{KINEMATICS} Q{number}\nM66 E0 L0\no<{name}> endsub\nM2\n")
 }
@@ -57,8 +57,8 @@ fn carry_out(files: &[(String, Vec<u8>)]) -> Result<Vec<Canon>, String> {
     carry_out_with(TOOL_TABLE, files)
 }
 
-/// A line for each place of a cell up to the last that holds a tool: `rs274` tells which line of the table a change takes, not
-/// which place that is. It counts in inches.
+/// A line for each place of a cell up to the last that holds a tool: `rs274` says which line of the table a
+/// change takes, not which place that is. It counts in inches.
 fn tool_table(cell: &Cell) -> String {
     let in_places = (1..).zip(cell.tools.iter()).map(|(number, (_, tool))| {
         let length = tool.frame.frame.origin.z / 25.4;

@@ -1,4 +1,4 @@
-//! On what a run was made, as far as the system tells.
+//! What a run was made on, as far as the system says.
 
 use std::fs;
 use std::process::Command;

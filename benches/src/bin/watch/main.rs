@@ -3,7 +3,7 @@
 //! `cargo run --release --bin watch -- target/release/vcutc` prints the table of `docs/benchmarks.md`. The examples are copied; a
 //! number in a copy is changed again and again, never twice to the same value, so that no answer of before is the whole
 //! answer. The clock runs from the moment before the file is written to the line that says that all is done; beside it
-//! stands the time of the processors (on Linux), which on a machine with other work tells more.
+//! stands the time of the processors (on Linux), which says more on a machine with other work.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -209,7 +209,7 @@ impl Taken {
     }
 }
 
-/// Puts a new file in the place of the old one, as editors do: nobody sees half of it.
+/// Replaces the old file by a new one, as editors do: half a file is never seen.
 fn save(path: &Path, text: &str) {
     let new = path.with_extension("new");
     fs::write(&new, text).expect("files can be written");
