@@ -63,7 +63,7 @@ pub(super) struct Asking<'a> {
     pub(super) keeper: Option<&'a Keeper>,
 }
 
-/// What came of a run.
+/// The result of a run.
 pub(super) struct Ran {
     pub(super) exit: Exit,
     /// The figures of the programs that were made.

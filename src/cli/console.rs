@@ -201,7 +201,7 @@ impl Console {
         }
     }
 
-    /// Prints what came of several programs: a line for people, an object for programs.
+    /// Prints the result of several programs: a line for people, an object for programs.
     pub(super) fn total<T: Serialize>(&self, text: &str, body: T) {
         self.note("total", text, body);
     }
@@ -292,7 +292,7 @@ impl Console {
         }
     }
 
-    /// Prints what came of a job.
+    /// Prints the result of a job.
     pub(super) fn summary(&self, summary: &Summary<'_>) {
         match self.format {
             MessageFormat::Json => self.json_line("summary", summary.body(None, self.shows_everything())),

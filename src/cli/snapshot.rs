@@ -31,7 +31,7 @@ pub(super) struct Differences {
     pub(super) same: usize,
 }
 
-/// What came of a program.
+/// The result for a program.
 #[derive(Default)]
 pub(super) struct Made {
     /// Further diagnostics.

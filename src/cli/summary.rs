@@ -1,4 +1,4 @@
-//! What came of one job, as people and programs get to see it.
+//! The result of one job, as people and programs see it.
 
 use super::output::Placed;
 use serde::Serialize;
@@ -20,7 +20,7 @@ use vcutc_motion::summary as reach_summary;
 /// Most written files that are listed one by one.
 const MOST_FILES_LISTED: usize = 8;
 
-/// What came of one job.
+/// The result of one job.
 #[derive(Default)]
 pub(super) struct Summary<'a> {
     /// The job's path as given.

@@ -62,7 +62,7 @@ pub struct Asked {
     pub tolerance: Length,
 }
 
-/// The tolerance where none is said: programs are printed with two or three decimals.
+/// The tolerance where none is given: programs are printed with two or three decimals.
 pub(super) const TOLERANCE: Length = Length::mm(0.01);
 
 /// The largest tolerance: steps of passes are longer.

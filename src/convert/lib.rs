@@ -51,7 +51,7 @@ use vcutc_geometry::grid;
 use vcutc_vcut::plan::blade_reach::Flanks;
 use write::{Blade, JobText, Material, Part, ProfileFile};
 
-/// Half the apex angle of the blade of [Cui 2020], table 1, for a blade of which nothing is said.
+/// Half the apex angle of the blade of [Cui 2020], table 1, for a blade that is not described.
 pub(crate) const HALF_APEX: Angle = Angle::deg(7.13);
 
 /// What to convert.
@@ -442,7 +442,7 @@ fn safe_plane(
         .offering([anyway]))
 }
 
-/// The blade: one of the shop's, or what is said of it, with the shortest edge that frees all chips.
+/// The blade: one of the shop's, or its description, with the shortest edge that frees all chips.
 fn blade(request: Request<'_>, raster: &Raster, blank: Blank, inferences: &mut Vec<Inference>) -> Blade {
     if let Some(name) = request.blade {
         return Blade::Named(name.to_owned());

@@ -36,7 +36,7 @@ pub struct Pass {
     pub z: f64,
     /// From the least y to the greatest.
     pub y: [f64; 2],
-    /// Where it is said: its first motion and its last.
+    /// Where it is stated: its first motion and its last.
     pub places: [Span; 2],
     /// The speed that holds for it.
     pub speed: Option<Written>,

@@ -10,8 +10,8 @@ use vcutc_dynamics::modes::cells::{Cells, Met, cells};
 use vcutc_job::{CheckedJob, Sourced};
 use vcutc_motion::describe::site_words;
 
-/// Compares the cells of a job that states their size with the modes of its arm, adds what came of it to the summary, and returns what
-/// there is to warn of.
+/// Compares the cells of a job that states their size with the modes of its arm, adds the result to the
+/// summary, and returns what there is to warn of.
 pub(crate) fn compare(job: &CheckedJob, compiled: &mut Compiled) -> Vec<Diagnostic> {
     let Some(size) = job.cell_size else {
         return Vec::new();

@@ -109,7 +109,7 @@ impl Check {
     }
 }
 
-/// What came of a check. A check that was made found nothing wrong: otherwise there is no program.
+/// The result of a check. A check that was made found nothing wrong: otherwise there is no program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     Made,
@@ -149,11 +149,11 @@ pub enum Reason {
     NoHome,
 }
 
-/// A check, and what came of it.
+/// A check, and its result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checked {
     pub check: Check,
-    /// What came of it.
+    /// Its result.
     pub outcome: Outcome,
 }
 

@@ -26,7 +26,7 @@ use vcutc_simulation::prove::{CutFault, Finding};
 /// How far the flanks of compensated operations may be pushed into the part at most.
 type Yields = BTreeMap<OperationId, Length>;
 
-/// What came of a checked job, where it is not known yet, with its tips offset where it asks for that.
+/// The result of a checked job, where it is not known yet, with its tips offset where it asks for that.
 pub(super) fn ended<'j>(
     known: Option<Made>,
     job: &'j CheckedJob,

@@ -2,8 +2,8 @@
 //!
 //! A refusal is known as soon as a plan, a proof or the machine has failed, and is reported then
 //! ([`Patience::refused`]). Changes that help are looked for afterwards, for as long as they are wanted: each costs a plan, and
-//! mostly a proof of the whole program. What is offered for a job with a machine has been compiled as the text that comes of it
-//! ([`super::trials`]).
+//! mostly a proof of the whole program. What is offered for a job with a machine has been compiled as the
+//! text that results ([`super::trials`]).
 
 use super::target::{self, Objection};
 use vcutc_cancellation::Wanted;

@@ -294,7 +294,7 @@ impl<'j> Search<'j, '_, '_> {
     }
 }
 
-/// What came of a narrower swing.
+/// The result of a narrower swing.
 enum Narrower {
     Faster(Made),
     /// It takes as long or longer, or there is no such plan.

@@ -164,7 +164,7 @@ fn with_tool(
     }))
 }
 
-/// What comes of a text, or what is wrong with it.
+/// The result of a text, or what is wrong with it.
 fn compiled(asked: &Asked<'_>, text: &str) -> Result<driver::Outcome, (Vec<Diagnostic>, SourceMap)> {
     let texts = BTreeMap::from([(asked.path.to_owned(), text)]);
     let draft = Overlay {

@@ -321,7 +321,7 @@ fn against(estimate: Duration, planned: Duration, why: impl FnOnce(f64) -> Strin
     format!(" ({:.1} % too {way}{why})", percent.abs())
 }
 
-/// From so many percent on it is said why model and program differ.
+/// From this many percent on the summary says why model and program differ.
 const FAR_APART: f64 = 20.0;
 
 /// What the mean-value model does not see of a plan, where it is so many percent too high: where the part and the sides of the stock

@@ -131,7 +131,7 @@ fn named(diagnostic: &Diagnostic) -> (Code, String) {
     (diagnostic.code, diagnostic.message.clone())
 }
 
-/// The texts that come of a change, by the paths of their files.
+/// The texts after a change, by the paths of their files.
 fn edited(sources: &SourceMap, edits: &[(Span, String)]) -> Option<BTreeMap<String, String>> {
     let edits: Vec<Edit> = edits
         .iter()

@@ -34,7 +34,7 @@ pub struct ComparedWay {
     pub came: Came,
 }
 
-/// What came of a way.
+/// The result of a way.
 #[derive(Clone, Debug)]
 pub enum Came {
     /// It compiles.
@@ -57,7 +57,7 @@ pub struct WayFigures {
 pub(super) struct Decided {
     pub(super) job: CheckedJob,
     pub(super) comparisons: Vec<Comparison>,
-    /// What came of it; none where it does not compile.
+    /// Its result; none where it does not compile.
     pub(super) made: Option<Made>,
 }
 

@@ -301,7 +301,7 @@ impl Spine {
 /// What rounding of places and postures moves an edge by, in mm.
 const ROUNDED: f64 = 0.003;
 
-/// A way beyond the stock, in mm, on which a blade turns as good as not at all over the length of its edge.
+/// A way beyond the stock, in mm, on which a blade hardly turns over the length of its edge.
 const ENDLESS: f64 = 1e7;
 
 /// By how much of its change a slope may be off a linear one between two stations: the edge reaches as far along y at both, but for

@@ -1,4 +1,4 @@
-//! A job without the places where it is written: what comes of it is the same wherever that is.
+//! A job without the places where it is written: its result is the same wherever that is.
 //!
 //! All places become one; which values were given and which are defaults stays. Tips keep their places: there are as many of
 //! them as cuts.

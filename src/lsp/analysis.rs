@@ -42,7 +42,7 @@ pub(super) struct Analysis {
     pub(super) diagnostics: Vec<Diagnostic>,
     /// Trees, names and the job.
     pub(super) study: Study,
-    /// What came of planning.
+    /// The result of planning.
     pub(super) planning: Planning,
 }
 
@@ -62,7 +62,7 @@ pub(super) enum Planning {
     Done(Box<Planned>),
 }
 
-/// What came of planning and proving.
+/// The result of planning and proving.
 #[derive(Clone, Debug)]
 pub(super) struct Planned {
     /// All texts, as they were planned.
@@ -208,7 +208,7 @@ pub struct Done {
     pub(super) result: Finding,
 }
 
-/// What came of a task.
+/// The result of a task.
 #[derive(Debug)]
 pub(super) enum Finding {
     /// The job was planned.
@@ -287,7 +287,7 @@ struct Early<'e> {
 }
 
 impl Early<'_> {
-    /// What came of a job, with changes that make it faster where its machine made it slow.
+    /// The result of a job, with changes that make it faster where its machine made it slow.
     fn helped(&mut self, outcome: Outcome, wanted: &Wanted) -> Finding {
         let Outcome {
             sources,

@@ -3,7 +3,7 @@
 use super::analysis::Analysis;
 use super::sites::Site;
 
-/// What came of a field that was left open.
+/// The result for a field that was left open.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Chosen {
     /// This, and why.

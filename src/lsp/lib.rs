@@ -9,8 +9,8 @@
 //! 1. `documents` keeps the open texts, `text` counts in UTF-16 as the protocol does;
 //! 2. `analysis` reads a root file with everything it uses, open texts standing for files: trees, names, values, and what is
 //!    wrong with them. That takes as long as reading the text, so it is done whenever no more messages wait;
-//! 3. for a job that is right so far, a task plans it and proves the plan. What comes of it is shown with the text it was made
-//!    from, or not at all.
+//! 3. for a job that is right so far, a task plans it and proves the plan. The result is shown with the text
+//!    it was made from, or not at all.
 //!
 //! Questions about a place are answered by a file each, from [`sites`], the row of all places of a tree.
 

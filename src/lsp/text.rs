@@ -1,8 +1,9 @@
 //! The text of a document, and positions in it as the protocol counts them.
 //!
 //! Positions are lines and units within a line, both from 0; a line ends with `\n`, `\r\n` or a lone `\r`. What a unit is, client
-//! and server agree upon: UTF-16 code units if nothing is said. The compiler counts bytes. A position after the end of its line means that end, one within a character its beginning, and a line after the
-//! last one the end of the text: clients that lag by a step are served, too.
+//! and server agree upon: UTF-16 code units by default. The compiler counts bytes. A position after the end
+//! of its line means that end, one within a character its beginning, and a line after the last one the end of
+//! the text: clients that lag by a step are served, too.
 
 use lsp_types::{Position, Range, TextDocumentContentChangeEvent};
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! What came of placing, for people and for programs.
+//! The result of placing, for people and for programs.
 
 use crate::search::Bounds;
 use crate::spot::Spot;
@@ -167,7 +167,7 @@ struct MapBody<'a> {
     margins: Vec<&'a [Option<f64>]>,
 }
 
-/// What came of placing, for programs.
+/// The result of placing, for programs.
 #[must_use]
 pub fn body(placement: &Placement) -> PlacementBody<'_> {
     let map = &placement.map;

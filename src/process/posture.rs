@@ -222,7 +222,7 @@ fn peaks(from: DQuat, to: DQuat, edge: DVec3) -> [Range<u32>; 4] {
     let angle = 2.0 * libm::atan2(sine, turn.w);
     let on_cosine = along_y.dot(edge) - along_y.dot(axis) * axis.dot(edge);
     let on_sine = along_y.dot(axis.cross(edge));
-    // Where next to nothing moves, rounding says which step is the farthest.
+    // Where almost nothing moves, rounding says which step is the farthest.
     let is_plain = angle > 0.01 && libm::hypot(on_cosine, on_sine) > 1e-4;
     if !is_plain {
         return [1..TURN_STEPS, 0..0, 0..0, 0..0];

@@ -76,7 +76,7 @@ pub enum RegionFault {
         /// Where the next begins.
         beginning: Place,
     },
-    /// A loop goes forth and back and encloses nothing.
+    /// A loop goes back and forth and encloses nothing.
     Flat {
         /// The loop.
         ring: usize,

@@ -47,7 +47,8 @@ impl<'c> Case<'c> {
         self.confirmed(found)
     }
 
-    /// A change, if the text that comes of it compiles: as soon as it is found, so that none is lost when time is over.
+    /// A change, if the resulting text compiles: as soon as it is found, so that none is lost when time is
+    /// over.
     pub(crate) fn confirmed(&mut self, change: Change) -> Option<Change> {
         (change.edits.is_empty() || self.compiles(&change)).then_some(change)
     }

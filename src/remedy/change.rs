@@ -9,7 +9,7 @@ use vcutc_job::operation::Variant;
 use vcutc_job::setup::SpeedField as Field;
 use vcutc_job::{CheckedJob, Direction, Machine, Setup, Sourced};
 
-/// A change of a job: in words, as edits of its text, and as the job that comes of it.
+/// A change of a job: in words, as edits of its text, and as the resulting job.
 #[derive(Clone, Debug)]
 pub struct Change {
     /// What to do, in the imperative, with the value.

@@ -1,4 +1,5 @@
-//! What has to be put right before a program runs, as names and values: the same on the page and on the set-up sheet.
+//! What has to be set up before a program runs, as names and values: the same on the page and on the set-up
+//! sheet.
 
 use super::Material;
 use vcutc_backend_api::geometry::Frame;

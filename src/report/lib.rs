@@ -15,7 +15,7 @@ use vcutc_driver::{Compiled, Outcome};
 use vcutc_job::CheckedJob;
 use vcutc_job::PlannedJob;
 
-/// What a report is made from: a job that compiled, with all that came of it.
+/// What a report is made from: a job that compiled, with its whole result.
 #[derive(Clone, Copy, Debug)]
 pub struct Material<'a> {
     pub job: &'a CheckedJob,

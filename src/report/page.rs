@@ -1,9 +1,10 @@
 //! The page of a report: one HTML text that holds all there is to see of a job and asks for nothing from outside.
 //!
-//! Its parts are functions from what came of the job to a piece of HTML, put in their order here. Style and script stand
-//! in `src/report/assets` and are copied into the page. Its policy ([`policy`]) names every script by its hash and forbids
-//! all requests, so that a name in a job that got past the escaping would still be no more than text. There is no date and no path
-//! but the job's own in it: the same job gives the same bytes.
+//! Its parts are functions from the result of the job to a piece of HTML, put in their order here. Style and
+//! script stand in `src/report/assets` and are copied into the page. Its policy ([`policy`]) names every
+//! script by its hash and forbids all requests, so that a name in a job that got past the escaping would
+//! still be no more than text. There is no date and no path but the job's own in it: the same job gives the
+//! same bytes.
 
 mod ansi;
 mod cross_section;
@@ -52,7 +53,7 @@ struct Subject<'a> {
 pub struct Further<'a> {
     /// The files of the program, with their bytes.
     pub files: &'a [(&'a str, &'a [u8])],
-    /// What came of reading them again, where there are some.
+    /// The result of reading them again, where there are some.
     pub read_back: Option<ReadBack>,
     /// Changes that were found to make the job faster.
     pub hints: &'a [Hint],

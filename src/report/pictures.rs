@@ -1,4 +1,4 @@
-//! The pictures of a report, each from what came of a job: plain numbers for the modules of `picture`.
+//! The pictures of a report, each from the result of a job: plain numbers for the modules of `picture`.
 //!
 //! Chips and the machined contour are those of the proof: the program's cuts are replayed, and each chip is what the surface
 //! before it loses.

@@ -1,8 +1,8 @@
 //! The set-up sheet of a job: one page of paper for the person at the machine.
 //!
-//! It holds what has to be put right by hand before the first run: blade, frames, stock, generator, and a list of what the
-//! compiler does not check. Long lists are folded so that it stays on one page of A4. Like the report it loads nothing, and
-//! the same job gives the same bytes.
+//! It holds what has to be set up by hand before the first run: blade, frames, stock, generator, and a list
+//! of what the compiler does not check. Long lists are folded so that it stays on one page of A4. Like the
+//! report it loads nothing, and the same job gives the same bytes.
 
 use super::Material;
 use super::digest::hexadecimal;
@@ -24,8 +24,8 @@ const MOST_LAYERS: usize = 12;
 /// Most files of the program that are named one by one.
 const MOST_FILES: usize = 4;
 
-/// The sheet of an outcome, with the files of its program and what came of reading them again, if it was written for a target;
-/// none while its job has errors.
+/// The sheet of an outcome, with the files of its program and the result of reading them again, if it was
+/// written for a target; none while its job has errors.
 #[must_use]
 pub fn sheet(outcome: &Outcome, files: &[(&str, &[u8])], read_back: Option<ReadBack>) -> Option<String> {
     let material = Material::of(outcome)?;

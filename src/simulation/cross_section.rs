@@ -77,7 +77,7 @@ impl CrossSection {
         }
     }
 
-    /// The surface, to ask it. Cuts go through the section, or cracks are not heeded.
+    /// The surface, to ask it. Cuts go through the section, or cracks are ignored.
     pub const fn surface(&mut self) -> &mut Surface {
         &mut self.surface
     }

@@ -368,7 +368,7 @@ impl<'t> Builder<'t> {
         })
     }
 
-    /// Reports a statement that cannot be read, unless a guess of ours may be to blame.
+    /// Reports a statement that cannot be read, unless a guess of ours may be the cause.
     fn bad(&mut self, pair: &Pair<'_, Rule>, rule: Rule) {
         let range = pair.as_span().start()..pair.as_span().end();
         if self.is_doubtful(&range) {

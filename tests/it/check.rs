@@ -45,7 +45,7 @@ impl Loader for Folder {
     }
 }
 
-/// What came of checking a file.
+/// The result of checking a file.
 struct Outcome {
     sources: SourceMap,
     diagnostics: Vec<Diagnostic>,

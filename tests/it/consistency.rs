@@ -90,7 +90,7 @@ impl Sample {
     }
 }
 
-/// What comes of a job.
+/// The result of a job.
 #[derive(Clone, Copy, Debug)]
 struct Made {
     seconds: f64,

@@ -281,7 +281,7 @@ fn absurd_values() {
     }
 }
 
-/// A V of next to no width has no extension that could be said.
+/// A V of almost no width has no extension that could be stated.
 #[test]
 fn swings_of_next_to_nothing_are_out_of_range() {
     let sound = sound();

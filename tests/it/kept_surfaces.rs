@@ -11,7 +11,7 @@ use vcutc::registry;
 
 const PART: &str = "surface { mesh \"hill.stl\" { unit = mm } }";
 
-/// What comes of a job, the surfaces being known.
+/// The result of a job when the surfaces are known.
 fn checked(
     text: &str,
     mesh: Vec<u8>,

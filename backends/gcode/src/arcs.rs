@@ -130,8 +130,8 @@ fn is_faithful(is: &CircularArc, should: &CircularArc, lengths: FixedDecimal) ->
     let radius = should.radius().to_mm();
     let middle = |arc: &CircularArc| arc.at(0.5 * arc.sweep().to_rad());
     let ways = middle(is).into_iter().zip(middle(should));
-    // The direction of an arc as small as its decimals is a matter of chance; an end that is printed on the start makes a full
-    // circle; a point of an arc beside one of its ends says little of how far it bends.
+    // The direction of an arc as small as its decimals is random; an end that is printed on the start makes a
+    // full circle; a point of an arc beside one of its ends says little of how far it bends.
     radius > within
         && is_near(is.length().to_mm(), should.length().to_mm())
         && ways.into_iter().all(|(is, should)| is_near(is, should))

@@ -1,8 +1,8 @@
-//! The machine's axes as the words of a block, and the frame in which the tip is said.
+//! The machine's axes as the words of a block, and the frame in which the tip is stated.
 //!
 //! The words X, Y, Z of a tip with tool-centre-point control are seen from the work offset: a frame parallel to the machine's
-//! axes (all rotary axes at zero) whose origin is that of the workpiece frame W. Rotary axes are said by their values, as the
-//! controller counts them and never wrapped.
+//! axes (all rotary axes at zero) whose origin is that of the workpiece frame W. Rotary axes are stated by
+//! their values, as the controller counts them and never wrapped.
 
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{Axis, AxisKind, AxisValues, Cell};

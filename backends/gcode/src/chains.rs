@@ -3,8 +3,8 @@
 //! A chain goes on without a stop under a word that states a distance: `G64 P` of LinuxCNC keeps the tip within P of the programmed
 //! way [L-GC]; `G641 ADIS=` of Sinumerik leaves a piece no farther than ADIS from its end, so the tip stays within ADIS of that
 //! end, and passes a joint without a corner as it is [S-B1]; cycle 32 of Heidenhain keeps it within T [H-620]. Fanuc's `G64`
-//! and `G05.1 Q1` state none: how far the tip leaves its way is a matter of parameters and speeds [F-30]; so there a chain has one
-//! piece.
+//! and `G05.1 Q1` state none: how far the tip leaves its way depends on parameters and speeds [F-30]; so
+//! there a chain has one piece.
 //!
 //! Sinumerik stops before a block without motion [S-B1]. So the plane of an arc, and the stop at the end of a chain, are words of
 //! the block of the motion itself; cycle 32 has no place there.

@@ -291,7 +291,7 @@ impl GcodeDialect<'_, '_, '_> {
         Ok(())
     }
 
-    /// Where the meaning of F is a matter of tool-centre-point control, it has only one without.
+    /// Where the meaning of F depends on tool-centre-point control, it has only one without.
     fn feed_mode_without_tcp(&mut self, mode: FeedMode) -> Written {
         match self.job.settings.facts().feed_mode_of_tcp {
             Some(_) => Ok(()),

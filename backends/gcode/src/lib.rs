@@ -22,13 +22,13 @@
 //! | wait | `G4 P` | `G4 X` | `G4 F` | `CYCL DEF 9` |
 //! | part | `o<name> call` | `M98 P` | its name | `CALL PGM` |
 //!
-//! # How an op is said
+//! # How an op is written
 //!
 //! | op | blocks |
 //! |---|---|
 //! | `Home`, `AxisTravel` | tip control off, then one block with the positions of all axes as the machine counts them |
 //! | `Travel`, `Approach`, `Retract`, `Cut` | tip control on, then `G1` with the tip, all rotary axes and `F` in mm/min |
-//! | `Follow` | the same, or an arc (the module `arcs`); what makes it go on is said before the first (the module `chains`) |
+//! | `Follow` | the same, or an arc (the module `arcs`); what makes it continue is written before the first (the module `chains`) |
 //! | `Turn` | the same with the tip of the block before, and `F` as inverse time |
 //! | `Ultrasonic`, `AwaitReady`, `Dwell` | as in the table above |
 //! | `Spin` | `S n M3`, `M5`; Heidenhain `TOOL CALL S n` and `M3`; or the spindle's output |
@@ -42,7 +42,8 @@
 //! motion: continuous, never wrapped, so that no control has to choose a way round.
 //!
 //! F says exactly the time that the proof of reach assumed for a motion (the module `pace`). Where the tip moves that is its
-//! way divided by the time. A turn about the still tip has no such way: under a speed its time would be a matter of the control.
+//! way divided by the time. A turn about the still tip has no such way: under a speed its time would depend
+//! on the control.
 //!
 //! # Machines
 //!

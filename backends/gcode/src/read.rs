@@ -71,7 +71,7 @@ impl Reader for GcodeReader {
         Frames::OnMachine
     }
 
-    /// Rotary axes are said by their values, so nothing is left open.
+    /// Rotary axes are stated by their values, so nothing is left open.
     fn configuration(&self, _: Branch, _: AxisValues) -> Option<Configuration> {
         None
     }

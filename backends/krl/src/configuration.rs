@@ -15,11 +15,12 @@
 //!
 //! # At the borders
 //!
-//! With the wrist centre on axis 1, with A3 at phi and with A5 at zero two ways meet, and S would be a matter of rounding.
-//! These are singular poses, from which a program keeps away. An axis at zero is not such a pose. A1 is often
-//! there, and the bit in T of an axis within rounding of zero could be either; controllers are reported to
-//! ignore the bits of axes within some 2 deg of zero [K-TURN], and an axis that cannot make a revolution
-//! leaves them no choice. [`AT_ZERO`] keeps the text from depending on the last digits of a computation.
+//! With the wrist centre on axis 1, with A3 at phi and with A5 at zero two ways meet, and S would depend on
+//! rounding. These are singular poses, from which a program keeps away. An axis at zero is not such a pose.
+//! A1 is often there, and the bit in T of an axis within rounding of zero could be either; controllers are
+//! reported to ignore the bits of axes within some 2 deg of zero [K-TURN], and an axis that cannot make a
+//! revolution leaves them no choice. [`AT_ZERO`] keeps the text from depending on the last digits of a
+//! computation.
 //!
 //! # Sources
 //!

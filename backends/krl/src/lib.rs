@@ -17,7 +17,7 @@
 //! the job asks for it, and only where the shortcut stays beside the stock. `$OUT[n]=TRUE` stops the advance run, so
 //! the output switches where it stands; `CONTINUE`, which would let it switch early, is never written.
 //!
-//! # How an op is said
+//! # How an op is written
 //!
 //! | op | KRL |
 //! |---|---|

@@ -63,7 +63,8 @@ impl Turns {
         self.of.get(index).copied().flatten()
     }
 
-    /// How many lines stand before the op at a place. A part says its first rates whatever was said before it.
+    /// How many lines stand before the op at a place. A part states its first rates whatever was stated
+    /// before it.
     pub(crate) fn lines(&self, index: usize, lead: Lead) -> u64 {
         let changes = self.changes.get(index).copied().unwrap_or(false);
         let of_chain = self.of_chains.get(index).copied().unwrap_or(0);

@@ -14,7 +14,7 @@
 //! ([`vcutc_backend_api::motion::Waypoint`]), each a `MoveL` of its own. With `SingArea\Off` it stops rather than bend the
 //! way of the blade.
 //!
-//! # How an op is said
+//! # How an op is written
 //!
 //! | op | RAPID |
 //! |---|---|

@@ -81,7 +81,7 @@ fn is_plain(name: &str) -> bool {
         && !is_device
 }
 
-/// Every op is said once, at a line that there is.
+/// Every op is named once, at a line that exists.
 fn check_ops(said: &[Said], files: &[ProgramFile], ops: usize) -> Result<(), Fault> {
     let lines: Vec<usize> = files.iter().map(|file| file.text.lines().count()).collect();
     let mut seen = vec![false; ops];

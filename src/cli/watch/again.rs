@@ -39,7 +39,7 @@ pub(super) struct Means<'m> {
 pub(super) enum Seen<'s> {
     /// The job cannot be read.
     Unreadable(&'s Failure),
-    /// What came of it, and what keeps its program from being written.
+    /// The result, and what keeps its program from being written.
     Outcome(&'s Outcome, Option<&'s Failure>),
 }
 
@@ -85,7 +85,7 @@ impl<'a> Watched<'a> {
         &self.args.job
     }
 
-    /// Compiles the job once more. `see` gets to see what came of it before it is reported.
+    /// Compiles the job once more. `see` gets the result before it is reported.
     pub(super) fn run(&self, means: Means<'_>, see: &dyn Fn(&Seen<'_>)) -> Came {
         let Means {
             asked,

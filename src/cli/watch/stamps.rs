@@ -3,7 +3,7 @@
 //! Stamps are looked at again and again, instead of asking the system to report changes: that also works on shares of a
 //! network, where systems do not report changes; it does not matter whether an editor writes a file, renames
 //! another one over it or makes a new one; and a file that is not there yet has a stamp as well. A job has a
-//! handful of files, so that looking costs next to nothing; where it is slow it is done less often
+//! handful of files, so that looking costs almost nothing; where it is slow it is done less often
 //! ([`Pause`]).
 
 use std::collections::BTreeMap;

@@ -112,7 +112,7 @@ fn set_by(word: &str) -> Option<&'static str> {
         .find_map(|(name, what)| is_same_name(word, name).then_some(what))
 }
 
-/// Puts what was said last in the place of what was said before.
+/// Replaces what was stated before by what was stated last.
 fn put(said: &mut Said, what: &str, part: &str, value: String) {
     if part.is_empty() {
         said.retain(|known, _| known.split('.').next() != Some(what));

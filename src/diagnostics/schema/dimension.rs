@@ -64,17 +64,17 @@ impl Dimension {
         ))
     }
 
-    /// Of a product; none when an exponent grows out of all sense.
+    /// Of a product; none when an exponent becomes too large.
     pub fn times(self, other: Self) -> Option<Self> {
         self.zip(other, i8::checked_add)
     }
 
-    /// Of a quotient; none when an exponent grows out of all sense.
+    /// Of a quotient; none when an exponent becomes too large.
     pub fn over(self, other: Self) -> Option<Self> {
         self.zip(other, i8::checked_sub)
     }
 
-    /// Of a whole power; none when an exponent grows out of all sense.
+    /// Of a whole power; none when an exponent becomes too large.
     pub fn power(self, exponent: i8) -> Option<Self> {
         self.zip(Self::new(exponent, exponent, exponent, exponent), i8::checked_mul)
     }

@@ -103,7 +103,7 @@ fn request<'a>(text: &'a Text, targets: &'a [&'static dyn Backend]) -> Request<'
     }
 }
 
-/// All that comes of a job, and its files, as text.
+/// The whole result of a job, and its files, as text.
 fn all_of(outcome: &crate::Outcome) -> (String, String) {
     let files = registry::backends()
         .iter()
@@ -170,7 +170,7 @@ proptest! {
                 if entered > stage
                     && let Some(interest) = interest.take()
                 {
-                    // In the midst of the stage, wherever that is.
+                    // In the middle of the stage, wherever that is.
                     scope.spawn(move || {
                         std::thread::sleep(core::time::Duration::from_micros(micros));
                         drop(interest);

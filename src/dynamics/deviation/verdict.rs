@@ -62,7 +62,7 @@ pub fn above_limit(
 #[derive(Clone, Copy, Debug)]
 pub struct Needs {
     code: Code,
-    /// What comes of it where they are not.
+    /// The consequence where they are not.
     what: &'static str,
     place: Span,
     label: &'static str,

@@ -122,8 +122,8 @@ fn what_is_reported_of_lines() {
     assert!((found.left.uncut - 10.58).abs() < 0.1, "{}", found.left.uncut);
 }
 
-/// Programs have whole micrometres. Of smooth passes next to no joint turns by more than half a degree when its pieces are
-/// rounded; without longer arcs every third does.
+/// Programs have whole micrometres. Of smooth passes almost no joint turns by more than half a degree when
+/// its pieces are rounded; without longer arcs every third does.
 #[test]
 fn rounded_passes_stay_smooth() {
     let round = |place: Place| {

@@ -39,7 +39,7 @@ pub enum RouteSet {
 }
 
 impl RouteSet {
-    /// What is considered next where the machine cannot carry out what came of this.
+    /// What is considered next where the machine cannot carry out this result.
     #[must_use]
     pub const fn narrower(self) -> Option<Self> {
         match self {

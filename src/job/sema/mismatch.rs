@@ -65,7 +65,7 @@ impl Mismatch<'_> {
         diagnostic.help(format!("give it as `--set \"{name}={number} {unit}\"`"))
     }
 
-    /// The value is a calculation, which only its author can put right.
+    /// The value is a calculation, which only its author can correct.
     fn of_expression(&self, diagnostic: Diagnostic) -> Diagnostic {
         let unit = self.wanted.unit();
         let diagnostic = if self.found.dimension == Dimension::PURE && !unit.contains(['*', '^']) {

@@ -138,7 +138,7 @@ fn is_shaped(axes: &[JointAxis; MOST_AXES]) -> bool {
 /// The foot of the model in the root: z along axis 1 and upwards, the origin at the height of the root's, x as near to the
 /// root's as can be.
 fn foot(one: &JointAxis) -> Pose {
-    // An axis that lies level has no upwards; then the way it counts is as good as the other.
+    // A level axis has no upward direction; then both ways of counting are equally good.
     let z = one.direction * sign(one.direction.z + STRAIGHT);
     let ahead = if z.x.abs() < 0.9 { DVec3::X } else { DVec3::Y };
     let x = (ahead - z * ahead.dot(z)).normalize_or_zero();

@@ -2,7 +2,7 @@
 //!
 //! The block says what both processes share; blocks `vcut` and `rect` within it say what else one of them
 //! needs, or has otherwise. Each process is then read as if it had a block of its own with all of that, so it
-//! takes the fields that it takes elsewhere and gives the same messages. What comes of it are two operations,
+//! takes the fields that it takes elsewhere and gives the same messages. The result is two operations,
 //! between which the job leaves the choice (`src/job/ways.rs`); the compiler compiles both and takes the
 //! faster (`src/driver/ways.rs`).
 

@@ -29,7 +29,7 @@ pub struct FinishDisc {
     pub limits: Limits,
 }
 
-/// Bounds on what may be chosen, and on what comes of it.
+/// Bounds on what may be chosen, and on the result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// The most material that may stay on the part, with the allowance.

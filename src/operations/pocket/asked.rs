@@ -35,7 +35,7 @@ pub struct ClearPocket {
     pub limits: Limits,
 }
 
-/// Bounds on what comes of it.
+/// Bounds on the result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// How much ground may stay uncut in a layer, of what the crusher reaches. Default 1 mm2.

@@ -39,7 +39,7 @@ pub struct RoughRect {
     pub limits: Limits,
 }
 
-/// Bounds on what may be chosen, and on what comes of it.
+/// Bounds on what may be chosen, and on the result.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
     /// Height of layers.

@@ -73,7 +73,7 @@ pub struct Wish {
 /// The share of a layer that is worth a strip at the part. As for V-cuts a judgement, from no source.
 pub const WORTH: f64 = 0.05;
 
-/// Bounds on what is chosen, and on what comes of it.
+/// Bounds on what is chosen, and on the result.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
     pub layer: Span,

@@ -43,7 +43,7 @@ pub(crate) fn explain(planned: &Planned, finding: Finding, count: usize) -> Diag
 /// A share of the material to cut away that is much, where a body keeps it from being cut.
 const MUCH: f64 = 0.1;
 
-/// By how many mm the body of the straight blade is raised to see what would come of it.
+/// By how many mm the body of the straight blade is raised to see the effect.
 const RAISED: [f64; 4] = [5.0, 10.0, 20.0, 40.0];
 
 /// A change is offered if it leaves no more than this share of what stays now.

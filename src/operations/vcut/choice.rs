@@ -169,7 +169,7 @@ impl From<Refusal> for Unplanned {
     }
 }
 
-/// A way to cut an operation, and what came of it.
+/// A way to cut an operation, and its result.
 struct Contender {
     laid: LaidOut,
     standing: Standing,

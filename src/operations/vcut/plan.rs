@@ -146,7 +146,7 @@ pub struct LaidOut {
     pub vcut: PlannedVcut,
     /// What it leaves of the stock.
     pub after: Surface,
-    /// Whether another residual strategy would have come to other cuts.
+    /// Whether another residual strategy would have given other cuts.
     pub strategies: Strategies,
 }
 

@@ -34,7 +34,8 @@ pub fn open(corners: &[[f64; 2]]) -> Pass {
     Pass { level: 0, pieces }
 }
 
-/// Passes around the inside of a rectangle, from the wall to the middle: the last one forth and back where it has no width.
+/// Passes around the inside of a rectangle, from the wall to the middle: the last one back and forth where it
+/// has no width.
 pub fn rings(width: f64, height: f64, first: f64, step: f64) -> Vec<Pass> {
     let mut passes = Vec::new();
     for level in 0.. {

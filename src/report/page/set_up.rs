@@ -1,5 +1,5 @@
-//! What has to be put right before the program runs: the program itself, stock and zero, blade, frames, home and generator. The
-//! set-up sheet (`vcutc report --sheet`) has the same facts for paper.
+//! What has to be set up before the program runs: the program itself, stock and zero, blade, frames, home and
+//! generator. The set-up sheet (`vcutc report --sheet`) has the same facts for paper.
 
 use super::figure::{Zoom, framed};
 use super::{Section, Subject};

@@ -8,7 +8,7 @@ use vcutc_backend_api::units::Angle;
 /// Added to boxes in mm, for the rounding of places.
 const ROUNDING: f64 = 1e-9;
 
-/// The least height of the tip of an axis on its way. Below it the bound is as good as none.
+/// The least height of the tip of an axis on its way. Below it the bound is useless.
 const LEAST_RISE: f64 = 1e-3;
 
 /// A cylinder about the axis of a disc, or its face, which has no height. In mm.

@@ -426,7 +426,7 @@ fn a_change_overtakes_the_run_under_way() {
     fs::write(folder.path().join("rib.vcut"), slow).unwrap();
     let arguments = ["watch", "rib.vcut", "--target", "krl", "-o", "out"];
     let watch = Watch::of(command(folder.path(), &arguments), folder);
-    // Long enough for the run to be in the midst of it; nothing is reported of it.
+    // Long enough for the run to be in the middle of it; nothing is reported of it.
     thread::sleep(Duration::from_secs(2));
     fs::write(watch.path().join("rib.vcut"), RIB).unwrap();
     let report = watch.report("watching");

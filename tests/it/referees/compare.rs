@@ -268,8 +268,8 @@ impl Machine {
         }
     }
 
-    /// Whether this changes nothing but what the machine is set to. The length of the blade is a matter of the tip's kinematics,
-    /// so with these on the axes would jump at another.
+    /// Whether this changes nothing but what the machine is set to. The length of the blade belongs to the
+    /// tip's kinematics, so with these on the axes would jump at another.
     fn takes_aside(&self, did: &Canon) -> bool {
         match *did {
             Canon::Feed { to, .. } | Canon::Traverse { to } => self.at.is_some_and(|(at, kinematics)| {

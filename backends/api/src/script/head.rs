@@ -1,8 +1,8 @@
 //! What stands at the head of a program for people: what it was made from, for which blade and stock, and how long it takes.
 //!
 //! Each line is short enough for every control whose comments this workspace writes, and says nothing that a reader of programs
-//! has to heed. The compiler's version is not among them: a version that writes the same motions would change every program
-//! that a shop has under version control.
+//! has to follow. The compiler's version is not among them: a version that writes the same motions would
+//! change every program that a shop has under version control.
 
 use crate::ir::{
     Action, Crusher, CutKind, Disc, Flank, Head, Op, Program, Purpose, Shape, Site, Straight, ToolId,

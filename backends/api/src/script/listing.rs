@@ -42,7 +42,7 @@ pub struct Lead {
 }
 
 impl Modal {
-    /// What the op needs, given what was said before; then it is said.
+    /// What the op needs, given what was written before; then it is written.
     pub fn lead(&mut self, op: &Op) -> Lead {
         let (layer, cut) = place(op.site);
         let (feed, rate) = (op.action.feed(), op.action.rate());
@@ -68,7 +68,7 @@ impl Modal {
         lead
     }
 
-    /// The speeds that these ops run at first, as far as they have not been said; then they are said.
+    /// The speeds that these ops run at first, as far as they have not been written; then they are written.
     pub fn first_speeds(&mut self, ops: &[Op]) -> (Option<FeedId>, Option<RateId>) {
         let feed = ops.iter().find_map(|op| op.action.feed());
         let rate = ops.iter().find_map(|op| op.action.rate());

@@ -152,7 +152,7 @@ impl<'a, 'd, D: Dialect> PartWriter<'a, 'd, D> {
 
     fn write(mut self, part: &Part) -> Written {
         let ops = self.source.ops(part);
-        // Both speeds are said at the head of a part, because its first motion may set only one of them.
+        // Both speeds are written at the head of a part, because its first motion may set only one of them.
         let (feed, rate) = self.modal.first_speeds(ops);
         if let Some(feed) = feed {
             self.dialect.feed(feed)?;

@@ -182,7 +182,7 @@ fn g(code: u32, words: &mut Block, order: &mut Order<'_>) -> Parsed<()> {
             order.set(Mode::Work(more.saturating_add(6)))
         }
         610 => order.set(Mode::Stop(Some(End::Exact))),
-        // How far is a matter of parameters.
+        // How far depends on parameters.
         640 => order.set(Mode::Stop(None)),
         _ if american_g_code(code, order)? => Ok(()),
         _ => Err(ReadError::Unknown),

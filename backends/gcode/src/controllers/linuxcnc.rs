@@ -1,10 +1,11 @@
 //! LinuxCNC 2.9.
 //!
 //! Tool-centre-point control is a property of the kinematics module: while one is active that is not the identity, X, Y, Z are
-//! those of the tip. Which M codes switch between the two is a matter of each configuration (in the sample configurations
-//! M428 and M429, in either order), so the job has to say them [L-SW, L-BC]. The kinematics takes the tool offset at hand for
-//! the tool's length, so the offset changes only while the identity is active: `G43` stands before the switch
-//! and `G49` after the switch back, for otherwise the axes would have to jump.
+//! those of the tip. Which M codes switch between the two depends on the configuration (in the sample
+//! configurations M428 and M429, in either order), so the job has to say them [L-SW, L-BC]. The kinematics
+//! takes the tool offset at hand for the tool's length, so the offset changes only while the identity is
+//! active: `G43` stands before the switch and `G49` after the switch back, for otherwise the axes would have
+//! to jump.
 //!
 //! `G53` moves in machine coordinates with `G0` and `G1`, without the tool offset; with inverse time the whole block takes the
 //! time that F says. `M64` and `M65` wait for the motion before them. `M66` gives up after the time Q, with -1 in `#5399`, and goes

@@ -5,7 +5,7 @@ use super::variables::Context;
 use crate::syntax::{Span, Statement, Statements, statements};
 use vcutc_backend_api::readback::{ProgramFile, stem};
 
-/// The way through a program. Nothing is entered until somebody says so.
+/// The way through a program. Nothing is entered until the caller does so.
 #[derive(Debug)]
 pub struct Execution<'t> {
     files: &'t [ProgramFile],

@@ -267,7 +267,8 @@ impl<'a> Controller<'a> {
         }
     }
 
-    /// A motion on an arc. How the blade is held at its auxiliary point, where that is said, must be how it gets there.
+    /// A motion on an arc. How the blade is held at its auxiliary point, where that is stated, must be how it
+    /// gets there.
     fn arc(&mut self, context: Context<'_>, arc: &Arc<'_>) -> Result<Command, MotionError> {
         let coordinates = |target| self.state.coordinates(context, target);
         let [through, target] = [&arc.through, &arc.target].map(coordinates);

@@ -14,7 +14,7 @@ pub(super) fn phrase<'t>(word: &str, cursor: &mut Cursor<'t>) -> Option<Parsed<P
         return Some(motion(kind, cursor));
     }
     let kind = meaning(word, &ARCS)?;
-    // How an arc is said in other ways than this is not described.
+    // Other ways to write an arc are not described.
     Some(arc(kind, cursor).map_err(|_| ParseError::Other))
 }
 

@@ -386,7 +386,7 @@ pub struct Tail<'t> {
     pub approximation: Option<Approximation>,
     /// A second such word: after `PTP` the way back to a straight line, `C_PTP C_DIS`.
     pub second: Option<Approximation>,
-    /// The directions of a motion that is relative, where they are said.
+    /// The directions of a motion that is relative, where they are stated.
     pub directions: Option<Directions>,
     /// `WITH`: values that hold for this motion only.
     pub with: Vec<Setting<'t>>,

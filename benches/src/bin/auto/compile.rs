@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-/// What comes of a job.
+/// The result of a job.
 #[derive(Clone)]
 pub(crate) struct Found {
     /// The planned time of its program, in s.

@@ -2,7 +2,7 @@
 //!
 //! Programs write lines twice: as a LINE and once more within a polyline, one way and the other, once for each of two
 //! areas that they bound. A stroke all of whose segments are those of other strokes counts once ([`without_repeats`]).
-//! Lines that lie on each other in part cannot be put right that way: it is not known which of them was
+//! Lines that lie on each other in part cannot be corrected that way: it is not known which of them was
 //! meant; they are looked for when strokes form no outline, so that people learn why ([`drawn_over`]).
 
 use super::join::SAME;

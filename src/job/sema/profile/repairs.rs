@@ -1,6 +1,7 @@
 //! What was repaired in a file of an airfoil, in words: one warning with a label for each place.
 //!
-//! Lengths are said in mm of the job, for its chord. A repair that would change the shape is refused with the same figures.
+//! Lengths are stated in mm of the job, for its chord. A repair that would change the shape is refused with
+//! the same figures.
 
 use crate::sema::quantity::{mm, number};
 use crate::sema::report::Checked;

@@ -184,7 +184,7 @@ fn same(link: &Link, masses: &[Mass]) -> Result<(), TestCaseError> {
 fn nothing_is_assumed() {
     assert!(read(&text(KR210)).masses.is_none());
     assert!(read(&kuka(&[])).masses.is_some());
-    // Of one link nothing is said.
+    // One link is not described.
     let without = kuka(&[]).replacen(BODY, "", 1);
     assert!(read(&without).masses.is_none());
     // What is fixed to a link does not stand for it.

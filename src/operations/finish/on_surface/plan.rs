@@ -457,7 +457,7 @@ impl Planner<'_, '_, '_> {
 
 /// So many more tracks where so many times the limit stays: what stays grows with the square of the step.
 fn closer(count: f64, over: f64) -> f64 {
-    // What is many times the limit does not come of the step alone.
+    // An excess of many times the limit is not caused by the step alone.
     let factor = if over > 4.0 { 1.05 } else { over.max(1.0).sqrt() };
     (count * factor).floor().max(count + 1.0)
 }

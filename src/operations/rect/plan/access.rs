@@ -28,7 +28,7 @@ pub(crate) struct Access<'a> {
     pub(crate) bound: &'a Profile,
 }
 
-/// What came of ordering the strips of a layer.
+/// The result of ordering the strips of a layer.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Ordered {
     /// Those that come out, in order.

@@ -96,8 +96,8 @@ impl Layout {
         Self::of(ground, levels, pieces)
     }
 
-    /// Without the strips of which operations before have left next to nothing, if there are any. What stands of such a strip comes
-    /// out with the one below it.
+    /// Without the strips of which operations before have left almost nothing, if there are any. What stands
+    /// of such a strip comes out with the one below it.
     pub(crate) fn without_scraps(&self, ground: &Ground<'_>) -> Option<Self> {
         let mut standing = ground.before();
         if standing.is_level() {

@@ -173,7 +173,7 @@ impl<'j> Bench<'j> {
             .is_some_and(|program| body::bodies(&program, &[bound_of(&level)]).contact.is_none())
     }
 
-    /// What comes of an operation.
+    /// The result of an operation.
     pub(super) fn weigh(&self, laid: LaidOut) -> Contender {
         let vcut = &laid.vcut;
         let cuts = vcut.cuts.len();
@@ -214,14 +214,14 @@ impl<'j> Bench<'j> {
         }
     }
 
-    /// What comes of an operation, held to the limits of what is asked for.
+    /// The result of an operation, judged by the limits of what is asked for.
     pub(super) fn judged(&self, laid: LaidOut, asked: &RoughVcut) -> Contender {
         let limit = asked.limits.scallop.map(|limit| limit.value);
         self.weigh(laid).held_to(limit, asked)
     }
 
-    /// How long an operation takes, and what comes of it, on the machine where plans are compared on it; none where the compiler is at
-    /// fault, which the proof of the whole then shows.
+    /// How long an operation takes, and its result, on the machine where plans are compared on it; none where
+    /// the compiler is at fault, which the proof of the whole then shows.
     pub(super) fn timed(&self, vcut: &PlannedVcut) -> Option<(Standing, Duration)> {
         let program = program(&self.job, &vcut.level())?;
         Some(self.timed_as(vcut, &program))

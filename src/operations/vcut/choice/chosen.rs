@@ -4,9 +4,9 @@
 //! that leaves swing or layer open and sets no limit is to be cut down to the profile all the same: its limit is a share of
 //! the mean depth of what is to go. Of a few shares the widest is taken under which at most a tenth of that stays.
 //!
-//! The limit that comes of it is a plain one, on a tenth of a millimetre. The operation is planned under it as if the job had
-//! set it, so that writing it down gives the same program; or a faster one that leaves more, where redundant
-//! Vs were kept to leave little.
+//! The resulting limit is a plain one, on a tenth of a millimetre. The operation is planned under it as if
+//! the job had set it, so that writing it down gives the same program; or a faster one that leaves more,
+//! where redundant Vs were kept to leave little.
 
 use super::bench::{Bench, LITTLE};
 use super::{Unplanned, within_limits};

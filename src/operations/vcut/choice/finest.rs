@@ -100,7 +100,7 @@ fn as_asked(mut laid: LaidOut, asked: &RoughVcut) -> LaidOut {
     laid
 }
 
-/// What comes of parameters along the fastest route.
+/// The result of parameters along the fastest route.
 fn planned(bench: &Bench<'_>, asked: &RoughVcut, found: VcutParameters) -> Option<Contender> {
     let laid = lay_out(&bench.job, asked, found, bench.work()).ok()?;
     if laid.vcut.cuts.len() > MOST_CUTS_COMPARED {
@@ -167,7 +167,7 @@ impl Search<'_> {
         Some((found.laid.vcut.parameters, kept))
     }
 
-    /// The best that come of changing parameters, with what they came up against: the limits that the job sets.
+    /// The best results of changing parameters, with what bounds them: the limits that the job sets.
     fn changed(self, assumed: &RoughVcut, start: VcutParameters) -> VcutParameters {
         let objective = self.asked.objective.value;
         let is_assumed = |bound: Bound| match objective {

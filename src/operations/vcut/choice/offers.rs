@@ -53,7 +53,7 @@ pub(super) fn diagnostics(
         .collect()
 }
 
-/// What came of a change.
+/// The result of a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Attempt {
     Works,

@@ -73,7 +73,7 @@ pub(super) struct Found {
     /// The best.
     pub(super) parameters: VcutParameters,
     pub(super) by: FoundBy,
-    /// What came of the formulas' parameters, where others are better.
+    /// The result of the formulas' parameters, where others are better.
     pub(super) by_formulas: Option<Standing>,
     /// How far it went; none where nothing was searched.
     pub(super) searched: Option<Searched>,
@@ -155,7 +155,7 @@ pub(super) fn any(
     (found, trials.effort)
 }
 
-/// The best that come of changing parameters, for as long as they become better by the objective.
+/// The best results of changing parameters, for as long as they become better by the objective.
 pub(super) fn from(
     bench: &Bench<'_>,
     asked: &RoughVcut,
@@ -220,7 +220,7 @@ pub(super) fn freest(bench: &Bench<'_>, asked: &RoughVcut, lattice: Lattice) -> 
     parameters::resolve_on(&bench.job, &assumed, vec![lattice]).ok()
 }
 
-/// Whether the same cuts come of both.
+/// Whether both give the same cuts.
 fn alike(one: &VcutParameters, two: &VcutParameters) -> bool {
     (one.lattice, one.swing, one.layer, one.step) == (two.lattice, two.swing, two.layer, two.step)
 }
@@ -232,7 +232,7 @@ struct Sound {
     model: Duration,
 }
 
-/// Parameters that were planned, and what came of them.
+/// Parameters that were planned, and their result.
 struct Tried {
     parameters: VcutParameters,
     standing: Standing,
@@ -242,7 +242,7 @@ struct Tried {
 /// of the search is the same as one after the other.
 const AHEAD: usize = 2;
 
-/// What comes of parameters when they are planned.
+/// The result of planning parameters.
 #[derive(Clone, Copy)]
 enum Outcome {
     /// There are no cuts, or too many.
@@ -318,7 +318,7 @@ impl<'t> Trials<'t> {
         }
     }
 
-    /// The whole search; what came of the formulas' parameters.
+    /// The whole search. Returns the result of the formulas' parameters.
     fn search(&mut self, by_bound: Option<&VcutParameters>) -> Option<Standing> {
         let first = by_bound.and_then(|found| self.weigh(found.clone()));
         let parts: &[fn(&mut Self)] = if self.is_fitted() {
@@ -391,7 +391,7 @@ impl<'t> Trials<'t> {
         self.plans_left != Some(0) && !self.is_answered()
     }
 
-    /// What comes of parameters; none where no more plans may be made or none can be.
+    /// The result of parameters; none where no more plans may be made, or none can be made.
     fn weigh(&mut self, found: VcutParameters) -> Option<Standing> {
         let known = self.tried.iter().find(|tried| alike(&tried.parameters, &found));
         if let Some(known) = known {
@@ -518,8 +518,8 @@ impl<'t> Trials<'t> {
         cuts > most * MOST_CUTS_COMPARED as f64 || self.effort.is_less_than(cuts)
     }
 
-    /// What comes of an operation along its usual route, or along the fastest one where its time is limited and something else made
-    /// small.
+    /// The result of an operation along its usual route, or along the fastest one where its time is limited
+    /// and something else made small.
     fn weighed(&self, laid: LaidOut) -> Contender {
         match (self.goal, self.asked.objective.value, self.asked.limits.time) {
             (Goal::Any, _, Some(_))

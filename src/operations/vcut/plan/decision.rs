@@ -18,11 +18,11 @@ pub struct Decision {
 pub struct Candidate {
     /// As a person would write it: `boustrophedon by point`.
     pub what: String,
-    /// What came of it.
+    /// Its result.
     pub standing: Standing,
 }
 
-/// What came of a way to cut an operation.
+/// The result of a way to cut an operation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Standing {
     /// It takes this time, and nothing is wrong with it.

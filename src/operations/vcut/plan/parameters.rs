@@ -2,7 +2,7 @@
 //!
 //! This is the one place where `auto` is decided: lattice, swing, layer, step and overlap by optimisation
 //! ([`optimum`]), its result rounded to the grid ([`search`]); extension and standoff from the blade. What
-//! a job gives is kept as it is, whatever comes of it: the proof says what is wrong with it.
+//! a job gives is kept as it is, whatever the result: the proof says what is wrong with it.
 
 mod complaints;
 mod grid_forms;

@@ -25,7 +25,7 @@ const TIGHTER: [f64; 2] = [0.6, 0.35];
 /// A change is offered if it leaves no more than this share of what stays now.
 const WORTH: f64 = 0.8;
 
-/// Plans of more cuts are not changed to see what would come of it.
+/// Plans of more cuts are not changed on trial.
 const MOST_CUTS: usize = 2_000;
 
 /// Whether the compiler decides what stays.

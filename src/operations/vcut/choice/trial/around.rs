@@ -1,4 +1,5 @@
-//! Parameters around the best ones: changed by factors, the coarse ones first, for as long as something better comes of it.
+//! Parameters around the best ones: changed by factors, the coarse ones first, for as long as the result
+//! improves.
 
 use super::{AHEAD, MOST_OVERLAP, Trials, alike, thousandths};
 use crate::choice::MOST_CUTS_COMPARED;
@@ -39,7 +40,7 @@ const APART: f64 = 1.02;
 const TEETH_PLANNED: [(usize, usize); 3] = [(500, 10), (2_000, 5), (MOST_CUTS_COMPARED, 1)];
 
 impl Trials<'_> {
-    /// From the best ones on, changes swing, layer and overlap for as long as something better comes of it.
+    /// From the best ones on, changes swing, layer and overlap for as long as the result improves.
     pub(super) fn wander(&mut self) {
         let starts: Vec<VcutParameters> = self
             .sound

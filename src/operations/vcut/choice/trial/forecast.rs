@@ -2,7 +2,7 @@
 //!
 //! The mean-value model reckons with the mean depth and with a turn of the blade at every V. Thick layers of close columns, cut
 //! layer by layer, it sees as slow, and the plans that may be made are then spent on others. Counting the visits of every
-//! column costs next to nothing, and distinguishes such lattices. Where redundant Vs are skipped, the
+//! column costs almost nothing, and distinguishes such lattices. Where redundant Vs are skipped, the
 //! distance of the tips counts as well ([`SHARE`]).
 
 use super::Trials;

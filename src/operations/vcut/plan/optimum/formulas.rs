@@ -482,7 +482,7 @@ impl Model {
         }
     }
 
-    /// What comes of a shape.
+    /// The result of a shape.
     pub(super) fn outcome<N: Scalar>(&self, shape: Shape<N>, tooth: Tooth, keeping: Keeping) -> Outcome<N> {
         let bounds = self.bounds(shape, tooth);
         let cost = self.cost(shape, &bounds, keeping);

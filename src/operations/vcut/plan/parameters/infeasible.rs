@@ -36,7 +36,7 @@ struct Party {
     words: String,
 }
 
-/// Where a bound is said, in the order in which people would change it.
+/// Where a bound is stated, in the order in which people would change it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Said {
     Operation,
