@@ -146,13 +146,13 @@ impl View<'_> {
     }
 
     /// The runs of circles that touch the same wall, from places evenly apart and from these.
-    fn runs(&mut self, tolerance: f64, besides: &[f64]) -> Result<Vec<Run>, AxisError> {
+    fn runs(&mut self, tolerance: f64, further: &[f64]) -> Result<Vec<Run>, AxisError> {
         let mut runs: Vec<Run> = Vec::new();
         let Some(count) = self.count(tolerance) else {
             return Ok(runs);
         };
         let even = (0..=count).map(|index| index as f64 / count as f64);
-        let mut shares: Vec<f64> = even.chain(besides.iter().copied()).collect();
+        let mut shares: Vec<f64> = even.chain(further.iter().copied()).collect();
         shares.sort_by(f64::total_cmp);
         let mut last: Option<Sample> = None;
         for t in shares {
@@ -239,22 +239,22 @@ fn branches(boundary: &Boundary, tolerance: f64) -> Result<Vec<Branch>, AxisErro
     let owners = 0..boundary.walls.len() + boundary.corners.len();
     let mut left = MOST_CIRCLES;
     // Between places evenly apart a wall may be touched that none of them sees. It sees them.
-    let mut besides: Vec<Vec<f64>> = owners.clone().map(|_| Vec::new()).collect();
+    let mut further: Vec<Vec<f64>> = owners.clone().map(|_| Vec::new()).collect();
     for own in owners.clone() {
         let mut view = View { boundary, own, left };
         for run in view.runs(tolerance, &[])? {
-            let seen = seen(boundary, &run).and_then(|(other, share)| Some((besides.get_mut(other)?, share)));
-            if let Some((besides, share)) = seen {
-                besides.push(share);
+            let seen = seen(boundary, &run).and_then(|(other, share)| Some((further.get_mut(other)?, share)));
+            if let Some((further, share)) = seen {
+                further.push(share);
             }
         }
         left = view.left;
     }
     let mut branches = Vec::new();
     let mut pieces = 0;
-    for (own, besides) in owners.zip(&besides) {
+    for (own, further) in owners.zip(&further) {
         let mut view = View { boundary, own, left };
-        for run in view.runs(tolerance, besides)? {
+        for run in view.runs(tolerance, further)? {
             let touched = run.first().map(|sample| sample.circle.touched);
             if !matches!(touched, Some(Touched::Wall(other)) if own < other) {
                 continue;

@@ -63,9 +63,9 @@ impl Refused<'_> {
             Why::TooNarrow { wide, at: [x, y] } => {
                 let radius = asked.crusher.radius.value.to_mm();
                 // Passes keep what a control may cut off at joints, and what rounding takes.
-                let besides = (asked.allowance.value + BLEND + ROUNDING_ROOM).to_mm();
-                let needs = 2.0 * (radius + besides);
-                let largest = down(wide / 2.0 - besides);
+                let margin = (asked.allowance.value + BLEND + ROUNDING_ROOM).to_mm();
+                let needs = 2.0 * (radius + margin);
+                let largest = down(wide / 2.0 - margin);
                 Diagnostic::new(
                     Code::PocketTooNarrow,
                     format!(

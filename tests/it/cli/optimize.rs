@@ -259,7 +259,7 @@ fn what_relaxing_a_bound_saves_is_saved_by_the_changed_job() {
 }
 
 #[test]
-fn jobs_with_errors_are_told_of_as_ever() {
+fn jobs_with_errors_are_reported_as_usual() {
     let run = vcutc(root(), &["optimize", "examples/too_deep.vcut"]);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
     assert!(

@@ -183,7 +183,7 @@ fn class(selector: &str) -> Option<&str> {
     (is_name && !name.is_empty()).then_some(name)
 }
 
-/// A block up to the brace that closes it, and what is after.
+/// A block up to the brace that closes it, and what follows.
 fn block(text: &str) -> (&str, &str) {
     let mut depth: usize = 1;
     for (at, brace) in text.match_indices(['{', '}']) {
