@@ -1,5 +1,5 @@
 //! From the result of a job to its air cut: the program that cuts is compiled and proven first, then lifted,
-//! and what comes of that takes its place.
+//! and the result takes its place.
 
 use super::{Compiled, Finished, Outcome, Stage, internal, motions_broken, paced, rules_broken};
 use crate::air_cut::{least_gap, least_lift, lifted};

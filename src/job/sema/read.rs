@@ -58,8 +58,8 @@ impl<'s> Reader<'s> {
         Self { scope, reports }
     }
 
-    /// The value of an expression within a range, in mm, rad, s, kg. `taker` names what takes it: `` `rake`
-    /// ``.
+    /// The value of an expression within a range, in mm, rad, s, kg. `taker` names what takes it,
+    /// such as `` `rake` ``.
     pub fn within(
         &mut self,
         expr: &Spanned<Expr>,

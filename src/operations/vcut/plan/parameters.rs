@@ -265,7 +265,7 @@ pub enum Refusal {
     Contradiction(Vec<Refused>),
     /// No parameters keep the limits of this problem.
     Conflict(Box<Problem>),
-    /// Nothing bounds the objective from below.
+    /// Nothing stops the objective from falling.
     Unbounded,
     /// Some do, but none on the grid.
     OffGrid,

@@ -180,7 +180,7 @@ pub enum Infeasible {
         /// there is one.
         nearest: Vec<Option<f64>>,
     },
-    /// Nothing bounds the objective from below: a scallop or an edge in use becomes the smaller the thinner
+    /// Nothing stops the objective from falling: a scallop or an edge in use becomes the smaller the thinner
     /// the layer, and no time, cuts, least layer or least step is asked for.
     Unbounded,
 }

@@ -218,7 +218,7 @@ pub(super) fn choose(
     })
 }
 
-/// Whether a bound limits what was open; of a given value that needs no message.
+/// Whether a bound limits what was open. A given value needs no message.
 const fn is_open(asked: &RoughVcut, bound: Bound) -> bool {
     const fn open<T>(value: &Auto<T>) -> bool {
         matches!(value, Auto::Auto)
