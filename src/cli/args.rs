@@ -9,6 +9,7 @@ mod inner_form;
 mod optimize;
 mod overrides;
 mod pictures;
+mod place;
 mod tools;
 
 #[cfg(feature = "krl")]
@@ -18,6 +19,7 @@ pub(super) use air::AirArgs;
 pub(super) use optimize::OptimizeArgs;
 pub(super) use overrides::Overrides;
 pub(super) use pictures::{PlotArgs, ReportArgs, What};
+pub(super) use place::PlaceArgs;
 pub(super) use tools::{ToolForm, ToolsArgs};
 
 use super::patience::{HelpBudget, help_budget};
@@ -185,10 +187,11 @@ pub(super) enum Command {
     /// With --robot the job has that machine, with a tool, a base and a home, and is compiled before it is written.
     /// Existing files are not overwritten.
     Init(InitArgs),
-    /// Find the base frame with the largest margin
+    /// Find the base frame with the largest margin, or with the smallest deviation
     ///
     /// Searches for the position of the work (and its rotation about z) with the largest minimum margin over the whole
-    /// job, proves the whole program there, and prints the frame to paste. The job file is not changed.
+    /// job, proves the whole program there, and prints the frame to paste. With --objective deviation, the position where the
+    /// forces of the blade push its cuts off least. The job file is not changed.
     Place(PlaceArgs),
     /// Show what `auto` chose, which limits are active, and the cost of a finer surface
     ///
@@ -522,37 +525,6 @@ pub(super) struct BuildArgs {
 
     #[command(flatten)]
     pub(super) warnings: WarningArgs,
-}
-
-#[derive(Debug, Args)]
-pub(super) struct PlaceArgs {
-    /// The job file (.vcut), or - to read it from standard input
-    pub(super) job: String,
-
-    /// The range for x of the base, in the machine's root [default: within 500 mm of its present value]
-    ///
-    /// A range such as 1000..2500 (in mm) or 1 m..2.5 m, or a single fixed value.
-    #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
-    pub(super) x: Option<String>,
-
-    /// The range for y of the base [default: within 500 mm of its present value]
-    #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
-    pub(super) y: Option<String>,
-
-    /// The range for z of the base [default: within 300 mm of its present value]
-    #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
-    pub(super) z: Option<String>,
-
-    /// The range of rotation of the work about the root's z, relative to its present value [default: -90..90 deg]
-    #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
-    pub(super) yaw: Option<String>,
-
-    /// Draw a map of the margin over x and y into this file
-    #[arg(short, long, value_name = "FILE.svg")]
-    pub(super) output: Option<String>,
-
-    #[command(flatten)]
-    pub(super) overrides: Overrides,
 }
 
 /// What the command line says to the target, over what the machine's block says.

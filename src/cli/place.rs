@@ -1,4 +1,4 @@
-//! `vcutc place JOB`: the base frame that leaves the machine the most room.
+//! `vcutc place JOB`: the base frame that leaves the machine the most room, or with which its cuts deviate least.
 
 use super::args::PlaceArgs;
 use super::console::{Console, Failure};
@@ -19,6 +19,7 @@ pub(super) fn place(args: &PlaceArgs, targets: &Targets, console: &Console) -> E
         y: args.y.as_deref(),
         z: args.z.as_deref(),
         yaw: args.yaw.as_deref(),
+        objective: args.objective.into(),
     };
     if let Some(path) = args.output.as_deref()
         && !path.to_ascii_lowercase().ends_with(".svg")

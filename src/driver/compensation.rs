@@ -105,7 +105,7 @@ fn compensated<'j>(
 fn refused<'j>(plan: PlannedJob, warnings: Vec<Diagnostic>, why: Diagnostic) -> Ended<'j> {
     Ended::Refused(Refused::ByTarget(Box::new(NotTaken {
         plan,
-        told: warnings,
+        warnings,
         objections: vec![why.into()],
     })))
 }

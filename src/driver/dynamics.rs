@@ -133,19 +133,49 @@ pub(crate) fn offset(
     report: &Report,
     operation: OperationId,
 ) -> Result<Offset, deviation::Unknown> {
+    deviating(job, machine, reached, report, |deviations| {
+        let into_part = deviations.into_part_with_any_edge(operation);
+        Ok(Offset {
+            by: deviations.compensation(operation)?,
+            into_part: into_part.ok_or(deviation::Unknown::ClosedForm)?,
+        })
+    })?
+}
+
+/// What comes of the deviations of a program with this report.
+///
+/// # Errors
+/// Why they are not known.
+pub fn deviating<T>(
+    job: &CheckedJob,
+    machine: &Machine,
+    reached: &Reached,
+    report: &Report,
+    work: impl FnOnce(&Deviations<'_>) -> T,
+) -> Result<T, deviation::Unknown> {
     let is_weighed = machine.gravity.map(|gravity| gravity.value) == Some(Gravity::Uncompensated);
     let found = cutting(job, machine, reached, report, |_, arms, cuts| {
         let deviations = Deviations::of(cuts?, arms.ok()).ok_or(deviation::Unknown::Elasticity)?;
         if is_weighed && arms.is_err() {
             return Err(deviation::Unknown::Weight);
         }
-        let into_part = deviations.into_part_with_any_edge(operation);
-        Ok(Offset {
-            by: deviations.compensation(operation)?,
-            into_part: into_part.ok_or(deviation::Unknown::ClosedForm)?,
-        })
+        Ok(work(&deviations))
     });
     found.unwrap_or(Err(deviation::Unknown::ClosedForm))
+}
+
+/// How far the forces of its blades push the cuts of a program off, proven on all of them, with the weight of the arm where that
+/// counts.
+///
+/// # Errors
+/// Why that is not known.
+pub fn deviation(
+    job: &CheckedJob,
+    machine: &Machine,
+    reached: &Reached,
+    report: &Report,
+) -> Result<DeviationFigures, deviation::Unknown> {
+    found(job, machine, reached, report).deviation
 }
 
 /// What pushes the blades of these cuts.

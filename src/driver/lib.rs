@@ -360,7 +360,7 @@ fn plan_and_prove(
             } else {
                 Ended::Refused(Refused::ByTarget(Box::new(NotTaken {
                     plan: *made.plan,
-                    told: made.warnings,
+                    warnings: made.warnings,
                     objections,
                 })))
             }
@@ -391,9 +391,9 @@ fn plan_and_prove(
         }
         Ended::Refused(refused) => {
             let before = (&outcome.sources, outcome.diagnostics.as_slice());
-            let told = helped(job, &refused, before, request, run, progress);
+            let found = helped(job, &refused, before, request, run, progress);
             outcome.plan = refused.into_plan();
-            outcome.diagnostics.extend(told);
+            outcome.diagnostics.extend(found);
         }
     }
 }
@@ -420,18 +420,18 @@ fn helped(
     };
     let mut trials = Trials::of(request, sources, &at_once, machine, &wanted);
     let works = &mut |edits: &[(Span, String)]| trials.works(edits);
-    let told = match with_limits_that_are_kept(job, (refused, &at_once), &wanted) {
-        Some(told) => told,
+    let found = match with_limits_that_are_kept(job, (refused, &at_once), &wanted) {
+        Some(found) => found,
         None => refused.with_help(job, &wanted, works),
     };
-    let mut told = refusal::tried(told, &at_once, works);
+    let mut found = refusal::tried(found, &at_once, works);
     if wanted.is_needless()
         && let Some(words) = run.patience.cut_short()
-        && let Some(first) = told.iter_mut().find(|one| one.severity() == Severity::Error)
+        && let Some(first) = found.iter_mut().find(|one| one.severity() == Severity::Error)
     {
         first.notes.push(words);
     }
-    told
+    found
 }
 
 /// The message about a limit that no plan keeps offers what the fastest plan keeps; but its machine may follow only a slower one.
@@ -447,7 +447,7 @@ fn with_limits_that_are_kept(
     };
     let free = plan::without_plan_limits(job).filter(|free| is_of_limits && free.machine.is_some())?;
     let plan = compile_checked(&free, wanted).map(|(plan, _)| plan)?;
-    Some(verdict::broken_limits(job, &plan)).filter(|told| !told.is_empty())
+    Some(verdict::broken_limits(job, &plan)).filter(|found| !found.is_empty())
 }
 
 fn compiled(

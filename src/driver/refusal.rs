@@ -94,7 +94,7 @@ pub(super) struct NotCarriedOut {
 pub(super) struct NotTaken {
     pub(super) plan: PlannedJob,
     /// Further diagnostics.
-    pub(super) told: Vec<Diagnostic>,
+    pub(super) warnings: Vec<Diagnostic>,
     pub(super) objections: Vec<Objection>,
 }
 
@@ -114,7 +114,7 @@ impl Refused<'_> {
             Self::ByTarget(refused) => {
                 let objections = refused.objections.iter();
                 let objections = objections.map(|objection| objection.diagnostic.clone());
-                refused.told.iter().cloned().chain(objections).collect()
+                refused.warnings.iter().cloned().chain(objections).collect()
             }
         }
     }
@@ -136,7 +136,7 @@ impl Refused<'_> {
             Self::ByTarget(refused) => {
                 let objections = refused.objections.iter();
                 let helped = objections.map(|objection| target::with_help(objection, works));
-                refused.told.iter().cloned().chain(helped).collect()
+                refused.warnings.iter().cloned().chain(helped).collect()
             }
         }
     }

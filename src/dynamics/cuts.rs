@@ -6,6 +6,7 @@ use crate::peaks::Whole;
 use crate::push::{Posture, Push, Sides};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
+use vcutc_backend_api::geometry::Frame;
 use vcutc_backend_api::ir::{Action, Blade, Op, OpId, OperationId, Program, Site, ToolId};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::segments::{LinearSegment, Segment};
@@ -72,6 +73,11 @@ pub(crate) struct Cut<'p> {
 }
 
 impl Cut<'_> {
+    /// The blade frame in the work where so much of it is done.
+    pub(crate) fn frame_at(&self, program: &Program, done: f64) -> Option<Frame> {
+        self.line.line.frame_at(program, done)
+    }
+
     /// The controller's axes on a part of it.
     pub(crate) fn axes_on(&self, part: Part) -> Option<[Along; JOINTS]> {
         self.moving.axes_on(part)

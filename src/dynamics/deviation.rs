@@ -7,6 +7,7 @@
 pub mod compensation;
 pub mod each;
 pub mod figures;
+pub mod moved_base;
 pub mod verdict;
 
 use crate::arms::Arms;
@@ -172,6 +173,20 @@ impl<'c> Deviations<'c> {
             tip: 1000.0 * (shares.iter().map(|share| share.tip).sum::<f64>() + offset),
             end: 1000.0 * (shares.iter().map(|share| share.end).sum::<f64>() + offset),
         })
+    }
+
+    /// How far an edge is off at most either way in that place, with forces and joints anywhere within what is stated.
+    fn most_in_place(&self, op: OpId, done: f64, joints: &Joints) -> Option<Length> {
+        let cut = self.cuts.get(op)?;
+        let push = self.cuts.push_at(cut, done)?;
+        let columns = self.cuts.columns_on(cut.tool, joints.map(Along::constant));
+        let [here, _] = push.shifts(&columns, &self.springs);
+        let offset = self.cuts.offset_along_normal(cut).unwrap_or(Interval::ZERO);
+        let Ways {
+            into_waste,
+            into_part,
+        } = Ways::of(here + offset, push.sides);
+        Some(Length::m(into_waste.max(into_part)))
     }
 
     /// How far the edge of a cut is off in the middle of a part, and everywhere on it. None where it is too long to say.

@@ -176,11 +176,11 @@ fn failures(survey: &Survey<'_>, station: &Station, branches: &[Branch]) -> Vec<
 const MOST_WEIGHED: usize = 256;
 
 /// Of the failures of a branch, the motion that lacks most, if it lacks notably more than the one that is told of.
-fn hardest(survey: &Survey<'_>, failures: &[Failure], branch: Branch, told: &Failure) -> Option<Failing> {
-    let notably = 1.05 * lack(survey, &failing_on(survey, told, branch));
+fn hardest(survey: &Survey<'_>, failures: &[Failure], branch: Branch, reported: &Failure) -> Option<Failing> {
+    let notably = 1.05 * lack(survey, &failing_on(survey, reported, branch));
     let (_, hardest) = weighed(survey, failures, branch).max_by(|(a, _), (b, _)| a.total_cmp(b))?;
     Some(failing_on(survey, hardest, branch))
-        .filter(|failing| failing.op != told.op && lack(survey, failing) > notably)
+        .filter(|failing| failing.op != reported.op && lack(survey, failing) > notably)
 }
 
 /// How much some failures of a branch lack, by a rough look.

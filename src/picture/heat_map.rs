@@ -1,4 +1,4 @@
-//! A heat map of places for the base: the plane of x and y from above, each cell in the colour of its margin.
+//! A heat map of places for the base: the plane of x and y from above, each cell in the colour of its margin or of its deviation.
 //!
 //! Cells out of reach are hatched, not coloured.
 
@@ -20,23 +20,75 @@ pub struct HeatMap<'a> {
     pub xs: &'a [i32],
     /// y of the middles of the cells, in mm, growing.
     pub ys: &'a [i32],
-    /// Margins from 0 to 1, row by row from the least y, each from the least x; none where something is out of reach.
-    pub margins: &'a [Option<f64>],
+    /// What the values are.
+    pub measure: Measure,
+    /// Row by row from the least y, each from the least x; none where something is out of reach.
+    pub values: &'a [Option<f64>],
     /// Where the base is now: x and y in mm.
     pub now: [f64; 2],
     /// Where it is best, when anywhere.
     pub best: Option<[f64; 2]>,
 }
 
+/// What the values of a map are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Margins from 0 to 1; the greater the better.
+    Margin,
+    /// Deviations in mm; the smaller the better.
+    Deviation,
+}
+
+impl Measure {
+    const fn word(self) -> &'static str {
+        match self {
+            Self::Margin => "margin",
+            Self::Deviation => "deviation",
+        }
+    }
+
+    const fn unit(self) -> &'static str {
+        match self {
+            Self::Margin => "%",
+            Self::Deviation => "um",
+        }
+    }
+
+    /// A value in the smallest width of a class.
+    fn in_steps(self, value: f64) -> f64 {
+        match self {
+            Self::Margin => value.min(1.0) * 100.0,
+            // A metre is more than any arm yields.
+            Self::Deviation => value.min(1000.0) * 10_000.0,
+        }
+    }
+
+    /// So many of these steps, in the unit.
+    fn words(self, steps: u32) -> String {
+        match self {
+            Self::Margin => steps.to_string(),
+            Self::Deviation => number(f64::from(steps) / 10.0),
+        }
+    }
+
+    /// What a cell without a value is.
+    const fn without(self) -> &'static str {
+        match self {
+            Self::Margin => "out of reach",
+            Self::Deviation => "out of reach, or too small a margin",
+        }
+    }
+}
+
 const HATCHED: &str = "fill=\"url(#hatch)\" shape-rendering=\"crispEdges\"";
-/// Widths of a class of margins, in percent.
-const CLASSES: [u32; 5] = [1, 2, 5, 10, 20];
+/// Widths of a class, in steps; wider ones are ten times, a hundred times as wide.
+const CLASSES: [u32; 3] = [1, 2, 5];
 
 /// Writes the map as SVG.
 #[must_use]
 pub fn draw(map: &HeatMap<'_>) -> String {
     let heading = Heading::alone(map.title, map.subtitle);
-    let classes = Classes::of(map.margins);
+    let classes = Classes::of(map.measure, map.values);
     let (columns, rows) = (edges(map.xs), edges(map.ys));
     let tiles = Tiles {
         columns: &columns,
@@ -58,15 +110,19 @@ pub fn draw(map: &HeatMap<'_>) -> String {
 
 /// The map in words.
 fn description(map: &HeatMap<'_>, classes: Classes) -> String {
-    let reached = map.margins.iter().flatten().count();
-    let whole = map.margins.len();
+    let reached = map.values.iter().flatten().count();
+    let whole = map.values.len();
     let best = map.best.map_or(String::new(), |[x, y]| {
         format!(" The best place is at x {} mm, y {} mm.", number(x), number(y))
     });
+    let [least, most] = classes.ends().map(|steps| map.measure.words(steps));
+    let values = match map.measure {
+        Measure::Margin => format!("margins up to {most} percent"),
+        Measure::Deviation => format!("deviations from {least} to {most} um"),
+    };
     format!(
-        "{}: {reached} of {whole} places reach everything, with margins up to {} percent.{best}",
-        map.subtitle,
-        classes.count * classes.width
+        "{}: {reached} of {whole} places reach everything, with {values}.{best}",
+        map.subtitle
     )
 }
 
@@ -83,46 +139,101 @@ fn edges(middles: &[i32]) -> Vec<f64> {
     edges
 }
 
-/// Margins in classes of so many percent.
+/// Values in classes of so many steps.
 #[derive(Clone, Copy)]
 struct Classes {
+    measure: Measure,
     width: u32,
+    /// How many classes from zero on have no values and are left out.
+    skipped: u32,
     count: u32,
 }
 
 impl Classes {
-    fn of(margins: &[Option<f64>]) -> Self {
-        let largest = margins.iter().flatten().copied().fold(0.0, f64::max).min(1.0);
-        let percent = ((largest * 100.0).ceil() as u32).max(1);
-        let fits = |width: &u32| percent.div_ceil(*width) <= MOST_CLASSES;
-        let width = CLASSES.into_iter().find(fits).unwrap_or(20);
-        Self {
-            width,
-            count: percent.div_ceil(width),
-        }
+    fn of(measure: Measure, values: &[Option<f64>]) -> Self {
+        let in_steps = || values.iter().flatten().map(|&value| measure.in_steps(value));
+        let most = in_steps().fold(0.0, f64::max);
+        let least = match measure {
+            Measure::Margin => 0.0,
+            Measure::Deviation => in_steps().fold(most, f64::min),
+        };
+        let widths = (0..8).flat_map(|power| CLASSES.map(|width| width * 10_u32.pow(power)));
+        let classes = widths.map(|width| {
+            let skipped = (least / f64::from(width)) as u32;
+            let last = (most / f64::from(width)).ceil() as u32;
+            Self {
+                measure,
+                width,
+                skipped,
+                count: last.saturating_sub(skipped).max(1),
+            }
+        });
+        let widest = Self {
+            measure,
+            width: u32::MAX,
+            skipped: 0,
+            count: 1,
+        };
+        classes
+            .into_iter()
+            .find(|classes| classes.count <= MOST_CLASSES)
+            .unwrap_or(widest)
     }
 
-    fn class(self, margin: f64) -> u32 {
-        ((margin * 100.0 / f64::from(self.width)) as u32).min(self.count - 1)
+    fn class(self, value: f64) -> u32 {
+        let class = (self.measure.in_steps(value) / f64::from(self.width)) as u32;
+        class.saturating_sub(self.skipped).min(self.count - 1)
+    }
+
+    /// From where to where all classes go, in steps.
+    const fn ends(self) -> [u32; 2] {
+        let from = self.skipped.saturating_mul(self.width);
+        [from, from.saturating_add(self.count.saturating_mul(self.width))]
     }
 
     fn words(self, class: u32) -> String {
-        format!("{} to {} %", class * self.width, (class + 1) * self.width)
+        let edge = |class: u32| {
+            self.measure
+                .words((self.skipped + class).saturating_mul(self.width))
+        };
+        format!(
+            "{} {} to {} {}",
+            self.measure.word(),
+            edge(class),
+            edge(class + 1),
+            self.measure.unit()
+        )
+    }
+
+    /// Better classes have the colours of higher ones.
+    fn paint(self, class: u32) -> String {
+        let rank = match self.measure {
+            Measure::Margin => class,
+            Measure::Deviation => self.count - 1 - class,
+        };
+        tiles::paint(rank, self.count)
+    }
+
+    /// The best first.
+    fn from_the_best(self) -> Vec<u32> {
+        match self.measure {
+            Measure::Margin => (0..self.count).rev().collect(),
+            Measure::Deviation => (0..self.count).collect(),
+        }
     }
 }
 
 /// Cells of one class are one series.
 fn cells(map: &HeatMap<'_>, tiles: Tiles<'_>, classes: Classes) -> Vec<Series> {
-    let class = |margin: &Option<f64>| margin.map(|margin| classes.class(margin));
-    let mut boxes = tiles.by_class(&map.margins.iter().map(class).collect::<Vec<_>>());
+    let class = |value: &Option<f64>| value.map(|value| classes.class(value));
+    let mut boxes = tiles.by_class(&map.values.iter().map(class).collect::<Vec<_>>());
     let out_of_reach = boxes.remove(&None).unwrap_or_default();
-    let coloured = (0..classes.count).rev().map(|class| {
+    let coloured = classes.from_the_best().into_iter().map(|class| {
         let boxes = boxes.remove(&Some(class)).unwrap_or_default();
-        Series::new(Shape::Boxes(boxes), tiles::paint(class, classes.count))
-            .named(format!("margin {}", classes.words(class)))
+        Series::new(Shape::Boxes(boxes), classes.paint(class)).named(classes.words(class))
     });
     let coloured: Vec<Series> = coloured.collect();
-    let hatched = Series::new(Shape::Boxes(out_of_reach), HATCHED).named("out of reach");
+    let hatched = Series::new(Shape::Boxes(out_of_reach), HATCHED).named(map.measure.without());
     coloured.into_iter().chain([hatched]).collect()
 }
 
@@ -165,7 +276,8 @@ mod tests {
             subtitle: "z 650 mm, turned by 15 deg",
             xs: &xs,
             ys: &ys,
-            margins: &margins,
+            measure: Measure::Margin,
+            values: &margins,
             now: [1100.5, -200.0],
             best: Some([1900.0, 250.0]),
         });
@@ -185,7 +297,8 @@ mod tests {
                 subtitle: "",
                 xs,
                 ys,
-                margins,
+                measure: Measure::Margin,
+                values: margins,
                 now: [1e9, f64::MIN],
                 best: None,
             });
@@ -196,10 +309,24 @@ mod tests {
 
     #[test]
     fn a_margin_falls_into_the_class_that_names_it() {
-        let classes = Classes::of(&[Some(0.231), None, Some(0.1)]);
+        let classes = Classes::of(Measure::Margin, &[Some(0.231), None, Some(0.1)]);
         assert_eq!((classes.width, classes.count), (5, 5));
-        assert_eq!(classes.words(classes.class(0.1)), "10 to 15 %");
-        assert_eq!(classes.words(classes.class(0.0)), "0 to 5 %");
-        assert_eq!(classes.words(classes.class(0.231)), "20 to 25 %");
+        assert_eq!(classes.words(classes.class(0.1)), "margin 10 to 15 %");
+        assert_eq!(classes.words(classes.class(0.0)), "margin 0 to 5 %");
+        assert_eq!(classes.words(classes.class(0.231)), "margin 20 to 25 %");
+    }
+
+    #[test]
+    fn classes_of_deviations_begin_at_the_least() {
+        let classes = Classes::of(Measure::Deviation, &[Some(0.0213), None, Some(0.0349)]);
+        assert_eq!((classes.width, classes.skipped, classes.count), (20, 10, 8));
+        assert_eq!(classes.words(classes.class(0.0213)), "deviation 20 to 22 um");
+        assert_eq!(classes.words(classes.class(0.0349)), "deviation 34 to 36 um");
+        // The smallest deviation has the colour of the largest margin.
+        assert_eq!(classes.paint(0), tiles::paint(7, 8));
+        for value in [f64::MAX, 0.0, 1e-300] {
+            let classes = Classes::of(Measure::Deviation, &[Some(value)]);
+            assert!(classes.class(value) < classes.count);
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! Where the base may stand, as people write it: `1000..2500`, `-0.5 m .. 0.5 m`, `650 mm`.
 
 use crate::Placement;
+use crate::score::Objective;
 use crate::search::Bounds;
 use crate::spot::Spot;
 use core::f64::consts::PI;
@@ -19,6 +20,8 @@ pub struct Asked<'a> {
     pub z: Option<&'a str>,
     /// Turn about z against now.
     pub yaw: Option<&'a str>,
+    /// What the place is to be best in.
+    pub objective: Objective,
 }
 
 /// How far from now the base may go where the user sets no bounds: mm in x, y and z.
@@ -267,6 +270,7 @@ mod tests {
             y: Some("0..1"),
             z: Some("0..1"),
             yaw: Some("0"),
+            objective: Objective::Margin,
         };
         let kept = all_given.bounds(&base).unwrap();
         assert_eq!(all_given.widened(&kept, kept.most), None);

@@ -1,4 +1,4 @@
-//! `vcutc place`: the base frame that leaves the machine the most room, from a job's text.
+//! `vcutc place`: the base frame that leaves the machine the most room, or with which its cuts deviate least, from a job's text.
 //!
 //! The job is planned and proven as for a compilation, because the cuts do not depend on where the work
 //! stands. Then [`mod@search`] looks for places by the critical poses, as far as the axes follow the critical
@@ -9,6 +9,7 @@ mod bounds;
 mod map;
 pub mod report;
 mod room;
+pub mod score;
 pub mod search;
 pub mod spot;
 #[cfg(test)]
@@ -16,8 +17,10 @@ mod tests;
 
 pub use bounds::{AROUND, Asked, BadBounds, TURN_AROUND};
 pub use map::Map;
-pub use room::Room;
+pub use room::{Deviation, Room};
+pub use score::Objective;
 
+use crate::score::Scorer;
 use crate::search::{Bounds, Criteria, Placed, search};
 use crate::spot::Spot;
 use vcutc_backend_api::ir::PlacedFrame;
@@ -25,6 +28,9 @@ use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_diagnostics::{Code, Diagnostic, has_errors};
 use vcutc_driver::{self as driver, Request, Stage, internal, rules_broken};
+use vcutc_dynamics::deviation::Unknown;
+use vcutc_dynamics::deviation::moved_base::MovedBase;
+use vcutc_dynamics::deviation::verdict::{Needs, compensated_elsewhere, not_known};
 use vcutc_job::PlannedJob;
 use vcutc_job::search::{RouteSet, SearchSpace};
 use vcutc_job::sema;
@@ -54,7 +60,7 @@ pub struct Placement {
     pub best: Option<Best>,
     /// Why better places by the taught poses did not pass, the first of them first.
     pub refused: Vec<String>,
-    /// Margins over x and y.
+    /// Margins or deviations over x and y.
     pub map: Map,
 }
 
@@ -121,13 +127,57 @@ pub fn place(
             let base = ready.machine.base.value.frame;
             let bounds = asked.bounds(&base).map_err(Refusal::BadBounds)?;
             progress(Stage::Placing);
-            let placement = placed(&ready, asked, bounds);
-            match asked.farther(&ready.machine, &placement) {
-                Some(all_around) => Ok(placed(&ready, asked, all_around)),
-                None => Ok(placement),
+            match asked.objective {
+                Objective::Margin => Ok(by_margin(&ready, asked, bounds)),
+                Objective::Deviation => by_deviation(&ready, asked, bounds)
+                    .map_err(|why| Refusal::Diagnostics(vec![why], sources)),
             }
         }
     }
+}
+
+/// The place with the largest margin; where nothing is reached and no bounds are given, all around the machine.
+fn by_margin(ready: &Ready, asked: &Asked<'_>, bounds: Bounds) -> Placement {
+    let placement = placed(ready, asked, bounds, None);
+    match asked.farther(&ready.machine, &placement) {
+        Some(all_around) => placed(ready, asked, all_around, None),
+        None => placement,
+    }
+}
+
+/// The place with the smallest deviation. The cuts are the same everywhere, but the arm has to get to them once before it is known what
+/// pushes it: now, or in the place with the largest margin.
+fn by_deviation(ready: &Ready, asked: &Asked<'_>, bounds: Bounds) -> Result<Placement, Diagnostic> {
+    let Ready {
+        job,
+        machine,
+        plan,
+        proven,
+    } = ready;
+    let needs = Needs::placement(job.name_span);
+    if proven.report.compensations.iter().any(Option::is_some) {
+        return Err(compensated_elsewhere(needs));
+    }
+    // Without these it is not known anywhere.
+    if driver::dynamics::forces(job).is_empty() {
+        return Err(not_known(Unknown::Forces, needs, machine));
+    }
+    if machine.model.elasticity.is_none() {
+        return Err(not_known(Unknown::Elasticity, needs, machine));
+    }
+    let by_margin = by_margin(ready, asked, bounds);
+    let (base, bounds) = match (&by_margin.now.room, &by_margin.best) {
+        (Ok(_), _) => (by_margin.now.base, bounds),
+        (Err(_), Some(best)) => (best.base, by_margin.bounds),
+        (Err(_), None) => return Ok(by_margin),
+    };
+    let Ok(reached) = carried_out(plan, &moved(machine, base), &Wanted::ALWAYS) else {
+        return Ok(by_margin);
+    };
+    let found = driver::dynamics::deviating(job, machine, &reached, &proven.report, |deviations| {
+        placed(ready, asked, bounds, Some(&MovedBase::of(deviations)))
+    });
+    found.map_err(|why| not_known(why, needs, machine))
 }
 
 /// A job whose cuts are proven.
@@ -216,12 +266,15 @@ fn without_machine(job: &CheckedJob) -> Diagnostic {
     )
 }
 
-fn placed(ready: &Ready, asked: &Asked<'_>, mut bounds: Bounds) -> Placement {
+/// The best place within bounds: by the deviation, where it is known, else by the margin.
+fn placed(
+    ready: &Ready,
+    asked: &Asked<'_>,
+    mut bounds: Bounds,
+    deviations: Option<&MovedBase<'_, '_>>,
+) -> Placement {
     let Ready {
-        job,
-        machine,
-        plan,
-        proven,
+        job, machine, proven, ..
     } = ready;
     let base = machine.base.value;
     let poses = TaughtPoses::of(&proven.program);
@@ -229,13 +282,18 @@ fn placed(ready: &Ready, asked: &Asked<'_>, mut bounds: Bounds) -> Placement {
     let motions = CriticalMotions::of(proven.program.program());
     let judge = |spread| Judge::new(&rig, poses.outermost(spread));
     let (rough, fine) = (judge(SPREAD.0), judge(SPREAD.1));
+    let scorer = |judge| Scorer {
+        judge,
+        moved: deviations,
+    };
+    let objective = scorer(&fine).objective();
     let now = Standing {
         base,
-        room: tried(plan, machine, base),
+        room: tried(ready, objective, base),
     };
     let criteria = Criteria {
-        rough: &rough,
-        fine: &fine,
+        rough: scorer(&rough),
+        fine: scorer(&fine),
         admits: &|spot: Spot| motions.are_followed(&rig.with_work(spot.work_in_root(&base.frame))),
     };
     let best_within = |bounds: &Bounds| {
@@ -244,7 +302,7 @@ fn placed(ready: &Ready, asked: &Asked<'_>, mut bounds: Bounds) -> Placement {
             .into_iter()
             .filter(|place| place.score.reached().is_some())
             .take(MOST_PROOFS)
-            .find_map(|place| prove(plan, machine, place, &mut refused));
+            .find_map(|place| prove(ready, objective, place, &mut refused));
         (best, refused)
     };
     let (mut best, mut refused) = best_within(&bounds);
@@ -257,7 +315,7 @@ fn placed(ready: &Ready, asked: &Asked<'_>, mut bounds: Bounds) -> Placement {
         let is_worse = |best: &Best| {
             found
                 .as_ref()
-                .is_none_or(|found| found.room.margin < best.room.margin)
+                .is_none_or(|found| best.room.is_better_than(&found.room))
         };
         if best.as_ref().is_some_and(is_worse) {
             break;
@@ -270,7 +328,7 @@ fn placed(ready: &Ready, asked: &Asked<'_>, mut bounds: Bounds) -> Placement {
         machine: machine.name.clone(),
         model: machine.model.name.clone(),
         bounds,
-        map: Map::draw(&fine, &base.frame, &bounds, shown),
+        map: Map::draw(&criteria.fine, &base.frame, &bounds, shown),
         now,
         best,
         refused,
@@ -278,13 +336,13 @@ fn placed(ready: &Ready, asked: &Asked<'_>, mut bounds: Bounds) -> Placement {
 }
 
 /// Puts a place to the whole proof.
-fn prove(plan: &PlannedJob, machine: &Machine, place: Placed, refused: &mut Vec<String>) -> Option<Best> {
-    let now = machine.base.value;
+fn prove(ready: &Ready, objective: Objective, place: Placed, refused: &mut Vec<String>) -> Option<Best> {
+    let now = ready.machine.base.value;
     let base = PlacedFrame {
         frame: wording::rounded(&place.spot.frame(&now.frame)),
         ..now
     };
-    match tried(plan, machine, base) {
+    match tried(ready, objective, base) {
         Ok(room) => Some(Best {
             spot: place.spot,
             base,
@@ -298,10 +356,28 @@ fn prove(plan: &PlannedJob, machine: &Machine, place: Placed, refused: &mut Vec<
 }
 
 /// What room the whole program leaves with the base there; in words, why it is not carried out.
-fn tried(plan: &PlannedJob, machine: &Machine, base: PlacedFrame) -> Result<Room, String> {
+fn tried(ready: &Ready, objective: Objective, base: PlacedFrame) -> Result<Room, String> {
+    let Ready {
+        job,
+        machine,
+        plan,
+        proven,
+    } = ready;
+    let moved = moved(machine, base);
+    let reached = carried_out(plan, &moved, &Wanted::ALWAYS)
+        .map_err(|unreached| room::why_not(&unreached, &machine.model))?;
+    let deviation = match objective {
+        Objective::Margin => None,
+        Objective::Deviation => driver::dynamics::deviation(job, &moved, &reached, &proven.report)
+            .ok()
+            .and_then(|figures| Deviation::of(&figures)),
+    };
+    Ok(Room::of(&reached, deviation))
+}
+
+/// The machine with the base there.
+fn moved(machine: &Machine, base: PlacedFrame) -> Machine {
     let mut moved = machine.clone();
     moved.base.value = base;
-    carried_out(plan, &moved, &Wanted::ALWAYS)
-        .map(|reached| Room::of(&reached))
-        .map_err(|unreached| room::why_not(&unreached, &machine.model))
+    moved
 }

@@ -1,13 +1,14 @@
-//! Margins over x and y, at one height and one turn of the work.
+//! Margins or deviations over x and y, at one height and one turn of the work.
 
-use crate::search::{Bounds, evenly, judge};
+use crate::score::{Objective, Scorer};
+use crate::search::{Bounds, evenly, scored};
 use crate::spot::Spot;
 use vcutc_backend_api::geometry::Frame;
+use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::show;
-use vcutc_motion::critical::margin::Judge;
-use vcutc_picture::heat_map::{HeatMap, draw};
+use vcutc_picture::heat_map::{HeatMap, Measure, draw};
 
-/// Margins by the taught poses, over the bounds of x and y.
+/// Margins by the taught poses, or deviations by a few places of the cuts, over the bounds of x and y.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
     /// x of the places, in mm.
@@ -16,17 +17,20 @@ pub struct Map {
     pub ys: Vec<i32>,
     /// The height and turn at which the map is drawn; x and y say nothing.
     pub at: Spot,
-    /// Margins row by row from the least y; none where something is out of reach.
-    pub margins: Vec<Option<f64>>,
+    /// What the values are.
+    pub objective: Objective,
+    /// Margins from 0 to 1, or deviations in mm, row by row from the least y; none where something is out of reach, and where the margin
+    /// is too small for deviations.
+    pub values: Vec<Option<f64>>,
 }
 
 /// Cells along the longer side.
 const CELLS: i32 = 40;
 
 impl Map {
-    /// Judges all places of the map.
+    /// Scores all places of the map.
     #[must_use]
-    pub fn draw(by: &Judge<'_>, base: &Frame, bounds: &Bounds, at: Spot) -> Self {
+    pub fn draw(by: &Scorer<'_, '_>, base: &Frame, bounds: &Bounds, at: Spot) -> Self {
         let widths = [bounds.most.x - bounds.least.x, bounds.most.y - bounds.least.y];
         let longest = widths.into_iter().max().unwrap_or_default().max(1);
         let cells = |width: i32| (f64::from(CELLS) * f64::from(width) / f64::from(longest)).round() as i32;
@@ -36,18 +40,30 @@ impl Map {
             .iter()
             .flat_map(|&y| xs.iter().map(move |&x| Spot { x, y, ..at }))
             .collect();
-        let margins = judge(by, base, spots)
-            .into_iter()
-            .map(|placed| placed.score.reached())
-            .collect();
-        Self { xs, ys, at, margins }
+        let objective = by.objective();
+        let scores = scored(by, base, spots).into_iter().map(|placed| placed.score);
+        let values = scores.map(|score| match objective {
+            Objective::Margin => score.reached(),
+            Objective::Deviation => score.deviation.map(Length::to_mm),
+        });
+        Self {
+            xs,
+            ys,
+            at,
+            objective,
+            values: values.collect(),
+        }
     }
 
     /// The map as SVG.
     #[must_use]
     pub fn svg(&self, title: &str, now: &Frame, best: Option<Spot>) -> String {
+        let (measure, by) = match self.objective {
+            Objective::Margin => (Measure::Margin, "the taught poses"),
+            Objective::Deviation => (Measure::Deviation, "a few places of the cuts"),
+        };
         let subtitle = format!(
-            "z {} mm, work turned by {} deg against now; by the taught poses",
+            "z {} mm, work turned by {} deg against now; by {by}",
             self.at.z,
             show(self.at.turn().to_deg())
         );
@@ -56,7 +72,8 @@ impl Map {
             subtitle: &subtitle,
             xs: &self.xs,
             ys: &self.ys,
-            margins: &self.margins,
+            measure,
+            values: &self.values,
             now: [now.origin.x, now.origin.y],
             best: best.map(|spot| [f64::from(spot.x), f64::from(spot.y)]),
         })

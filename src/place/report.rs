@@ -2,11 +2,13 @@
 
 use crate::search::Bounds;
 use crate::spot::Spot;
-use crate::{Best, Placement, Room, Standing};
+use crate::{Best, Deviation, Objective, Placement, Room, Standing};
 use serde::Serialize;
 use std::fmt::Write;
 use vcutc_backend_api::ir::PlacedFrame;
+use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::show;
+use vcutc_dynamics::deviation::figures::millimetres;
 use vcutc_remedy::wording::frame_text;
 
 /// Most places without room that the report lists.
@@ -36,7 +38,12 @@ pub fn text(placement: &Placement) -> String {
         Some(best) if !is_better(best, now) => {
             row(
                 "best",
-                "where it is now: no place within these bounds has a larger margin",
+                match placement.map.objective {
+                    Objective::Margin => "where it is now: no place within these bounds has a larger margin",
+                    Objective::Deviation => {
+                        "where it is now: no place within these bounds was found with a smaller deviation"
+                    }
+                },
             );
         }
         Some(best) => {
@@ -71,7 +78,7 @@ fn none_found(now: &Standing) -> &'static str {
 fn is_better(best: &Best, now: &Standing) -> bool {
     now.room
         .as_ref()
-        .map_or(true, |room| best.room.margin > room.margin)
+        .map_or(true, |room| best.room.is_better_than(room))
 }
 
 fn standing(now: &Standing) -> String {
@@ -82,11 +89,18 @@ fn standing(now: &Standing) -> String {
 }
 
 fn room(room: &Room) -> String {
-    format!(
+    let margin = format!(
         "margin {} %, least {}",
         show((room.margin * 1000.0).floor() / 10.0),
         room.least
-    )
+    );
+    match &room.deviation {
+        Some(Deviation { most, at, axis }) => format!(
+            "deviation {}, most of it by {axis}, {at}; {margin}",
+            millimetres(most.to_mm())
+        ),
+        None => margin,
+    }
 }
 
 /// `x 1820 mm, y -40 mm, z 700 mm, turned by 12.5 deg`.
@@ -155,6 +169,9 @@ struct BaseBody<'a> {
     turn: f64,
     margin: Option<f64>,
     least: Option<&'a str>,
+    /// Of the cuts, in mm; only where places are compared by it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    deviation: Option<f64>,
     trouble: Option<&'a str>,
 }
 
@@ -164,13 +181,21 @@ struct MapBody<'a> {
     y: &'a [i32],
     z: i32,
     turn: f64,
-    margins: Vec<&'a [Option<f64>]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    margins: Option<Vec<&'a [Option<f64>]>>,
+    /// In mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    deviations: Option<Vec<&'a [Option<f64>]>>,
 }
 
 /// The result of placing, for programs.
 #[must_use]
 pub fn body(placement: &Placement) -> PlacementBody<'_> {
     let map = &placement.map;
+    let rows = |objective| {
+        let rows = map.values.chunks(map.xs.len().max(1));
+        (map.objective == objective).then(|| rows.collect())
+    };
     PlacementBody {
         job: &placement.job,
         machine: &placement.machine,
@@ -190,7 +215,8 @@ pub fn body(placement: &Placement) -> PlacementBody<'_> {
             y: &map.ys,
             z: map.at.z,
             turn: map.at.turn().to_deg(),
-            margins: map.margins.chunks(map.xs.len().max(1)).collect(),
+            margins: rows(Objective::Margin),
+            deviations: rows(Objective::Deviation),
         },
     }
 }
@@ -203,6 +229,10 @@ fn base_body<'a>(base: &PlacedFrame, turn: f64, room: Result<&'a Room, &'a str>)
         turn,
         margin: room.ok().map(|room| room.margin),
         least: room.ok().map(|room| room.least.as_str()),
+        deviation: room
+            .ok()
+            .and_then(|room| Some(room.deviation.as_ref()?.most))
+            .map(Length::to_mm),
         trouble: room.err(),
     }
 }

@@ -1,6 +1,9 @@
 //! What room a program leaves its machine, or why it is not carried out, in a few words.
 
+use crate::score::LEAST_MARGIN;
 use vcutc_backend_api::ir::{OpId, Program, Site};
+use vcutc_backend_api::units::Length;
+use vcutc_dynamics::deviation::figures::DeviationFigures;
 use vcutc_machine::Model;
 use vcutc_motion::describe::site_words;
 use vcutc_motion::figures::{AxisFigure, figures};
@@ -15,10 +18,22 @@ pub struct Room {
     pub margin: f64,
     /// What it is the margin of, and where: `A5 at -34.25 deg, layer 3, cut 14`.
     pub least: String,
+    /// How far the forces of its blades push the cuts off, where the place is chosen for that.
+    pub deviation: Option<Deviation>,
+}
+
+/// How far the forces of the blades push the cuts of a program off: proven, nowhere more.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deviation {
+    pub most: Length,
+    /// Where: `layer 3, cut 14, right flank`.
+    pub at: String,
+    /// The axis that yields most there.
+    pub axis: String,
 }
 
 impl Room {
-    pub(super) fn of(reached: &Reached) -> Self {
+    pub(super) fn of(reached: &Reached, deviation: Option<Deviation>) -> Self {
         let figures = figures(reached);
         let least = &figures.least;
         let what = match figures.axes.iter().find(|axis| axis.name == least.of) {
@@ -31,7 +46,36 @@ impl Room {
         Self {
             margin: figures.margin,
             least: format!("{what}, {}", least.at.words),
+            deviation,
         }
+    }
+
+    /// Whether it is better than another one.
+    pub(super) fn is_better_than(&self, other: &Self) -> bool {
+        match (&self.deviation, &other.deviation) {
+            (Some(one), Some(other_one)) => match (self.margin >= LEAST_MARGIN, other.margin >= LEAST_MARGIN)
+            {
+                (true, true) => one.most < other_one.most,
+                (has_room, _) => has_room || self.margin > other.margin,
+            },
+            (Some(_) | None, _) => self.margin > other.margin,
+        }
+    }
+}
+
+impl Deviation {
+    /// The largest of all operations, into the waste or into the part.
+    pub(super) fn of(figures: &DeviationFigures) -> Option<Self> {
+        let ways = figures
+            .operations
+            .iter()
+            .flat_map(|of| [&of.into_waste, &of.into_part]);
+        let worst = ways.max_by(|one, other| one.most.total_cmp(&other.most))?;
+        Some(Self {
+            most: Length::mm(worst.most),
+            at: worst.at.words.clone(),
+            axis: worst.axis.clone(),
+        })
     }
 }
 

@@ -3,12 +3,13 @@
 //! Everything happens on the lattice of [`Spot`]s, so that what is found is what people paste, and in an order that does not
 //! depend on threads: the places of a round are judged in parallel, gathered in their order, and the first of equals wins.
 
+use crate::score::{Score, Scorer};
 use crate::spot::Spot;
 use core::cmp::Ordering;
 use rayon::prelude::*;
 use vcutc_backend_api::geometry::Frame;
 use vcutc_motion::critical::ask_all;
-use vcutc_motion::critical::margin::{Effort, Judge, Score};
+use vcutc_motion::critical::margin::Effort;
 
 /// Where the base may stand: the least and the greatest spot, each coordinate by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +24,7 @@ pub struct Bounds {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
     pub spot: Spot,
-    /// How good it is by the poses asked.
+    /// How good it is by the poses and cuts asked.
     pub score: Score,
 }
 
@@ -105,10 +106,10 @@ pub fn evenly(least: i32, most: i32, steps: i32) -> Vec<i32> {
 /// What a search goes by.
 #[derive(Clone, Copy)]
 pub struct Criteria<'c, 'm> {
-    /// Judges the grid.
-    pub rough: &'c Judge<'m>,
-    /// Judges the climbs.
-    pub fine: &'c Judge<'m>,
+    /// Scores the grid.
+    pub rough: Scorer<'c, 'm>,
+    /// Scores the climbs.
+    pub fine: Scorer<'c, 'm>,
     /// Whether the axes are fast enough with the work in a place; asked of places that are good otherwise.
     pub admits: &'c (dyn Fn(Spot) -> bool + Sync),
 }
@@ -116,7 +117,7 @@ pub struct Criteria<'c, 'm> {
 /// The best places within bounds, best first; those that are not admitted come last. `base` is where the work stands now.
 #[must_use]
 pub fn search(criteria: &Criteria<'_, '_>, base: &Frame, bounds: &Bounds) -> Vec<Placed> {
-    let mut grid = judge(criteria.rough, base, bounds.grid(criteria.rough.effort()));
+    let mut grid = scored(&criteria.rough, base, bounds.grid(criteria.rough.effort()));
     // Stable, so that of equals the first stays first.
     grid.sort_by(|a, b| b.score.better(&a.score));
     let mut starts = admitted(criteria, &grid);
@@ -159,14 +160,14 @@ fn admitted(criteria: &Criteria<'_, '_>, grid: &[Placed]) -> Vec<Spot> {
     spots
 }
 
-/// Judges spots, in parallel and in their order.
+/// Scores spots, in parallel and in their order.
 #[must_use]
-pub fn judge(judge: &Judge<'_>, base: &Frame, spots: Vec<Spot>) -> Vec<Placed> {
+pub fn scored(scorer: &Scorer<'_, '_>, base: &Frame, spots: Vec<Spot>) -> Vec<Placed> {
     spots
         .into_par_iter()
         .map(|spot| Placed {
             spot,
-            score: judge.score(&spot.work_in_root(base)),
+            score: scorer.score(&spot.work_in_root(base)),
         })
         .collect()
 }
@@ -175,7 +176,7 @@ pub fn judge(judge: &Judge<'_>, base: &Frame, spots: Vec<Spot>) -> Vec<Placed> {
 /// coordinate and each pair of them: the smallest of many margins has ridges that lead anywhere. Steps halve where none is
 /// better, down to a millimetre and a tenth of a degree.
 fn climb(criteria: &Criteria<'_, '_>, base: &Frame, bounds: &Bounds, start: Spot) -> Option<Placed> {
-    let mut best = judge(criteria.fine, base, vec![start]).pop()?;
+    let mut best = scored(&criteria.fine, base, vec![start]).pop()?;
     let keeps = (criteria.admits)(start);
     let mut step = SPACING.map(|spacing| spacing / 2);
     let rounds = match criteria.fine.effort() {
@@ -186,7 +187,7 @@ fn climb(criteria: &Criteria<'_, '_>, base: &Frame, bounds: &Bounds, start: Spot
         let around: Vec<Spot> = neighbours(best.spot, step)
             .filter(|&spot| bounds.contain(spot))
             .collect();
-        let mut better: Vec<Placed> = judge(criteria.fine, base, around)
+        let mut better: Vec<Placed> = scored(&criteria.fine, base, around)
             .into_iter()
             .filter(|next| next.score.better(&best.score) == Ordering::Greater)
             .collect();

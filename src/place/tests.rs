@@ -1,5 +1,6 @@
 //! The search against judging every place of a coarse grid in another way.
 
+use crate::score::{Score as PlaceScore, Scorer};
 use crate::search::{Bounds, Criteria, search};
 use crate::spot::Spot;
 use core::f64::consts::TAU;
@@ -7,7 +8,7 @@ use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 use vcutc_backend_api::geometry::{Frame, Orientation, Point3, Zyx};
 use vcutc_backend_api::motion::Branch;
-use vcutc_backend_api::units::Angle;
+use vcutc_backend_api::units::{Angle, Length};
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_machine::{Model, catalogue};
 use vcutc_motion::axis_range::axis_margin;
@@ -53,8 +54,8 @@ fn judge(model: &Model) -> Judge<'_> {
 /// By margins alone.
 fn anywhere<'c, 'm>(judge: &'c Judge<'m>) -> Criteria<'c, 'm> {
     Criteria {
-        rough: judge,
-        fine: judge,
+        rough: Scorer::by_margin(judge),
+        fine: Scorer::by_margin(judge),
         admits: &|_| true,
     }
 }
@@ -138,7 +139,7 @@ fn the_best_place_is_no_worse_than_any_of_a_coarse_grid() {
     let winner = found[0];
     assert!(bounds.contain(winner.spot));
     let proven = margin_by_definition(&model, &winner.spot.work_in_root(&base)).unwrap();
-    assert!((winner.score.margin - proven).abs() < 1e-9);
+    assert!((winner.score.room.margin - proven).abs() < 1e-9);
     assert!(proven >= best, "{proven} found, {best} on the grid");
 }
 
@@ -218,6 +219,18 @@ fn fewer_missed_poses_are_better_than_any_margin() {
     assert!(score(1, 0.0).better(&score(2, 0.9)).is_gt());
     assert!(score(1, 0.2).better(&score(1, 0.1)).is_gt());
     assert!(score(9, -5.0).better(&Score::WORST).is_gt());
+}
+
+#[test]
+fn a_smaller_deviation_is_better_than_any_margin() {
+    let score = |deviation: Option<f64>, margin| PlaceScore {
+        room: Score { missed: 0, margin },
+        deviation: deviation.map(Length::mm),
+    };
+    assert!(score(Some(0.02), 0.1).better(&score(Some(0.03), 0.5)).is_gt());
+    assert!(score(Some(0.9), 0.1).better(&score(None, 0.09)).is_gt());
+    assert!(score(Some(0.02), 0.4).better(&score(Some(0.02), 0.3)).is_gt());
+    assert!(score(None, 0.05).better(&score(None, 0.04)).is_gt());
 }
 
 #[test]

@@ -95,6 +95,18 @@ impl Needs {
         }
     }
 
+    /// A place of the work that is to be chosen for them.
+    #[must_use]
+    pub const fn placement(place: Span) -> Self {
+        Self {
+            code: Code::LimitNotChecked,
+            what: "no place can be chosen for its deviation",
+            place,
+            label: "this job",
+            instead: "place it by the margin",
+        }
+    }
+
     fn fault(&self, why: &str) -> Diagnostic {
         Diagnostic::new(self.code, format!("{}: {why}", self.what), self.place, self.label)
     }
@@ -128,6 +140,17 @@ pub fn not_known(why: Unknown, needs: Needs, machine: &Machine) -> Diagnostic {
             .and(place, "the machine")
             .help(instead),
     }
+}
+
+/// The same of tips that are offset against the forces of the place that the job has now.
+#[must_use]
+pub fn compensated_elsewhere(needs: Needs) -> Diagnostic {
+    let instead = needs.instead;
+    needs
+        .fault("the forces are compensated, and offsets of tips are those of one place")
+        .help(format!(
+            "delete `compensate` while the work is placed, or {instead}"
+        ))
 }
 
 /// The same of a job without a machine.

@@ -78,6 +78,12 @@ impl<'m> Judge<'m> {
     /// How good a base is.
     #[must_use]
     pub fn score(&self, work_in_root: &Pose) -> Score {
+        self.best(work_in_root).map_or(Score::WORST, |(score, _)| score)
+    }
+
+    /// How good a base is, and on which branch; none from which nothing is reached.
+    #[must_use]
+    pub fn best(&self, work_in_root: &Pose) -> Option<(Score, Branch)> {
         let mut tallies: [Option<Tally>; MOST_BRANCHES] = [None; MOST_BRANCHES];
         for flange_in_work in &self.flange_in_work {
             let flange_in_root = *work_in_root * *flange_in_work;
@@ -98,9 +104,8 @@ impl<'m> Judge<'m> {
         tallies
             .iter()
             .flatten()
-            .map(|tally| tally.score(self.axes, asked))
-            .max_by(Score::better)
-            .unwrap_or(Score::WORST)
+            .map(|tally| (tally.score(self.axes, asked), tally.branch))
+            .max_by(|(one, _), (other, _)| one.better(other))
     }
 }
 

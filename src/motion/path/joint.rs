@@ -69,14 +69,14 @@ pub fn prove_through(
         least: *least,
         duration: 1.0,
     };
-    let told = |what: Violation| Breach {
+    let breach = |what: Violation| Breach {
         at: 1.0,
         what: what.finite(),
     };
-    let (around, clearance) = found.map_err(told)?;
-    bounds.keep_clear(&clearance).map_err(told)?;
-    bounds.hold_values(&around.value).map_err(told)?;
-    bounds.hold_rates(&around.rate).map_err(told)?;
+    let (around, clearance) = found.map_err(breach)?;
+    bounds.keep_clear(&clearance).map_err(breach)?;
+    bounds.hold_values(&around.value).map_err(breach)?;
+    bounds.hold_rates(&around.rate).map_err(breach)?;
     let used = |axis: usize| axis < rig.axes.len();
     let mut wider = *proof;
     for axis in (0..MOST_AXES).filter(|axis| used(*axis)) {

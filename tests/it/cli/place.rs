@@ -4,6 +4,7 @@ use super::{folder, names, vcutc};
 use crate::repository::{read, root};
 use serde_json::Value;
 use std::fs;
+use std::path::Path;
 
 const EXAMPLE: &str = "examples/out_of_reach.vcut";
 /// Bounds that hold the example's picture, from `docs/place.md`.
@@ -48,7 +49,7 @@ fn the_base_that_is_printed_makes_the_job_compile() {
     assert_eq!(
         drawn,
         read("docs/pictures/out_of_reach.svg"),
-        "write it anew with the command in docs/place.md"
+        "write it again with the command in docs/place.md"
     );
 }
 
@@ -142,4 +143,138 @@ fn a_map_is_a_picture_in_svg() {
         assert_eq!(run.code, Some(2), "{}", run.stderr);
         assert!(run.stderr.contains("ends in .svg"), "{}", run.stderr);
     }
+}
+
+/// A job whose arm yields, with forces of its blade.
+fn soft(base: &str) -> String {
+    let job = read("tests/process/err/VC0533_soft_arm.vcut");
+    let now = "frame(x = 1900 mm, y = -30 mm, z = 850 mm, a = 90 deg, b = 0 deg, c = 0 deg)";
+    assert!(job.contains(now) && job.contains("deviation <= 0.002 mm"));
+    job.replace(now, base)
+        .replace("deviation <= 0.002 mm", "deviation <= 1 mm")
+}
+
+/// The largest deviation of a job either way, in mm, and its margin; none where it does not compile.
+fn deviation_of(folder: &Path, base: &str) -> Option<[f64; 2]> {
+    fs::write(folder.join("soft.vcut"), soft(base)).unwrap();
+    let run = vcutc(folder, &["check", "soft.vcut", "--message-format", "json"]);
+    if run.code != Some(0) {
+        return None;
+    }
+    let summary = run.stdout.lines().chain(run.stderr.lines()).find_map(|line| {
+        let value: Value = serde_json::from_str(line).ok()?;
+        (value["kind"] == "summary").then_some(value)
+    });
+    let summary = summary.unwrap_or_else(|| panic!("{} {}", run.stdout, run.stderr));
+    let of = &summary["deviation"]["operations"][0];
+    let most = ["into_waste", "into_part"].map(|way| of[way]["most"].as_f64().unwrap());
+    Some([most[0].max(most[1]), summary["reach"]["margin"].as_f64().unwrap()])
+}
+
+/// The place with the smallest deviation: the job compiles there with that deviation, and no place of a coarse grid is better.
+#[test]
+fn no_place_of_a_grid_has_a_smaller_deviation() {
+    let out = folder();
+    copy(
+        &root().join("tests/process/err/support"),
+        &out.path().join("support"),
+    );
+    let place = |objective: &str| -> Value {
+        fs::write(
+            out.path().join("soft.vcut"),
+            soft("frame(x = 1900 mm, y = -30 mm, z = 850 mm, a = 90 deg, b = 0 deg, c = 0 deg)"),
+        )
+        .unwrap();
+        let bounds = [
+            "--x",
+            "1500..2100",
+            "--y",
+            "-330..270",
+            "--z",
+            "700..1000",
+            "--yaw",
+            "-30..30",
+        ];
+        let asked = [
+            &[
+                "place",
+                "soft.vcut",
+                "--objective",
+                objective,
+                "--message-format",
+                "json",
+            ],
+            &bounds[..],
+        ];
+        let run = vcutc(out.path(), &asked.concat());
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        serde_json::from_str(&run.stdout).unwrap()
+    };
+    let stiffest = place("deviation");
+    let best = &stiffest["best"];
+    let least = best["deviation"].as_f64().unwrap();
+    assert!(
+        least < stiffest["now"]["deviation"].as_f64().unwrap(),
+        "{stiffest}"
+    );
+    let [found, margin] = deviation_of(out.path(), best["base"].as_str().unwrap()).unwrap();
+    assert!((found - least).abs() < 1e-4, "{found} against {least}");
+    assert!(
+        margin >= 0.1 && (margin - best["margin"].as_f64().unwrap()).abs() < 1e-3,
+        "{best}"
+    );
+    // The map has the deviations of its places, the least of them about that of the best place.
+    let map = stiffest["map"]["deviations"].as_array().unwrap();
+    let values = map
+        .iter()
+        .flat_map(|row| row.as_array().unwrap())
+        .filter_map(Value::as_f64);
+    let on_map = values.fold(f64::INFINITY, f64::min);
+    assert!(
+        on_map <= least && on_map > 0.5 * least,
+        "{on_map} on the map, {least} proven"
+    );
+
+    let mut compared = 0;
+    for x in [1500, 1700, 1900, 2100] {
+        for y in [-330, -30, 270] {
+            for (z, a) in [(700, 60), (850, 90), (1000, 120)] {
+                let base =
+                    format!("frame(x = {x} mm, y = {y} mm, z = {z} mm, a = {a} deg, b = 0 deg, c = 0 deg)");
+                let Some([deviation, margin]) = deviation_of(out.path(), &base) else {
+                    continue;
+                };
+                if margin >= 0.1 {
+                    compared += 1;
+                    assert!(
+                        deviation >= 0.99 * least,
+                        "{base}: {deviation} mm, {least} mm in the best place"
+                    );
+                }
+            }
+        }
+    }
+    assert!(compared >= 10, "{compared} places compared");
+    // The margin alone finds another place.
+    let by_margin = place("margin");
+    assert!(
+        by_margin["best"]["margin"].as_f64().unwrap() >= margin,
+        "{by_margin}"
+    );
+    assert!(by_margin["best"]["deviation"].is_null() && by_margin["map"]["deviations"].is_null());
+}
+
+#[test]
+fn a_place_is_chosen_for_a_deviation_that_is_known() {
+    let run = vcutc(
+        root(),
+        &["place", "examples/crown.vcut", "--objective", "deviation"],
+    );
+    assert_eq!(run.code, Some(1), "{}", run.stdout);
+    assert!(
+        run.stderr.contains("error[VC0535]")
+            && run.stderr.contains("no place can be chosen for its deviation"),
+        "{}",
+        run.stderr
+    );
 }
