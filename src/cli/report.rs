@@ -8,14 +8,17 @@ use super::files::{Disk, stem};
 use super::hints::of_a_page;
 use super::meant::Driven;
 use super::output::{Placed, one_file};
-use super::patience;
+use super::patience::{self, HelpBudget};
 use super::progress::Progress;
 use super::snapshot::read_back;
 use super::summary::Summary;
 use super::{Exit, Targets, targets};
 use std::path::Path;
 use std::slice;
+use std::time::Duration;
+use vcutc_backend_api::backend::Backend;
 use vcutc_diagnostics::has_errors;
+use vcutc_driver::checks::ReadBack;
 use vcutc_driver::hints::Hint;
 use vcutc_driver::memory::Memory;
 use vcutc_driver::{self as driver, EmitFailure, Outcome, Request, RequestError, Stage, Typed};
@@ -31,37 +34,18 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         Err(failure) => return console.failure(&failure),
     };
     let mut progress = Progress::start(console.shows_progress());
-    let asking = || Driven::of(slice::from_ref(&args.job), &args.overrides, targets);
-    let target = match args
-        .target
-        .as_deref()
-        .map(|name| targets::find(targets, name, &asking))
-        .transpose()
-    {
-        Ok(target) => target,
-        Err(failure) => return console.failure(&failure),
-    };
-    let request = Request {
-        options: target.map_or_else(Typed::default, |target| Typed {
-            target: target.id(),
-            given: &args.options.option,
-            beside: "",
-        }),
-        ..args.overrides.request(&disk, targets)
-    };
-    let budget = console.help_budget();
-    let mut outcome = match patience::compile(request, &mut Memory::none(), budget, &mut progress) {
-        Ok(outcome) => outcome,
-        Err(RequestError::Unreadable(reason)) => {
+    let (mut outcome, target) = match compiled(args, targets, &disk, console.help_budget(), &mut progress) {
+        Ok(compiled) => compiled,
+        Err(failure) => {
             drop(progress);
-            return console.failure(&unreadable(&args.job, &reason));
+            return console.failure(&failure);
         }
     };
     progress.enter(Stage::Emitting);
     let found = if args.sheet {
         Vec::new()
     } else {
-        of_a_page(&outcome, budget)
+        of_a_page(&outcome, console.help_budget())
     };
     let written = match target.map(|target| driver::write(&outcome, target)) {
         None => Ok(None),
@@ -84,9 +68,50 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         None => Vec::new(),
     };
     console.diagnostics(&outcome.diagnostics, &outcome.sources);
+    summarize(&outcome, read_back, (disk.job(), &placed, &timings), console);
+    if args.open && !placed.is_empty() {
+        return shown(&output, exit(&outcome), console);
+    }
+    exit(&outcome)
+}
+
+/// The job, compiled with the options of the target whose program is read back, where one is named.
+fn compiled(
+    args: &ReportArgs,
+    targets: &Targets,
+    disk: &Disk,
+    budget: HelpBudget,
+    progress: &mut Progress,
+) -> Result<(Outcome, Option<&'static dyn Backend>), Failure> {
+    let asking = || Driven::of(slice::from_ref(&args.job), &args.overrides, targets);
+    let named = args.target.as_deref();
+    let target = named
+        .map(|name| targets::find(targets, name, &asking))
+        .transpose()?;
+    let request = Request {
+        options: target.map_or_else(Typed::default, |target| Typed {
+            target: target.id(),
+            given: &args.options.option,
+            beside: "",
+        }),
+        ..args.overrides.request(disk, targets)
+    };
+    match patience::compile(request, &mut Memory::none(), budget, progress) {
+        Ok(outcome) => Ok((outcome, target)),
+        Err(RequestError::Unreadable(reason)) => Err(unreadable(&args.job, &reason)),
+    }
+}
+
+/// Prints the summary.
+fn summarize(
+    outcome: &Outcome,
+    read_back: Option<ReadBack>,
+    (job, placed, timings): (&str, &[Placed], &[(&'static str, Duration)]),
+    console: &Console,
+) {
     let compiled = outcome.compiled.as_ref();
     console.summary(&Summary {
-        job: disk.job(),
+        job,
         diagnostics: &outcome.diagnostics,
         lines: compiled.map_or(&[], |compiled| &compiled.summary),
         numbers: compiled.map(|compiled| &compiled.numbers),
@@ -95,14 +120,10 @@ pub(super) fn report(args: &ReportArgs, targets: &Targets, console: &Console) ->
         dynamics: compiled.map(|compiled| &compiled.dynamics),
         checks: compiled.map(|compiled| compiled.checks.with(read_back)),
         parameters: compiled.map_or(&[], |compiled| &compiled.parameters),
-        placed: &placed,
+        placed,
         remark: has_errors(&outcome.diagnostics).then_some("nothing was written"),
-        timings: &timings,
+        timings,
     });
-    if args.open && !placed.is_empty() {
-        return shown(&output, exit(&outcome), console);
-    }
-    exit(&outcome)
 }
 
 /// Where the page goes: the file of `-o`, or one named after the job in the current folder.

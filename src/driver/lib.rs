@@ -345,26 +345,7 @@ fn plan_and_prove(
     }
     let Some(job) = &outcome.job else { return };
     let ended = match compensation::ended(made, job, &outcome.sources, run, progress) {
-        Ended::Compiled(mut made) => {
-            let mut found = dynamics::add(job, &mut made.compiled);
-            found.extend(dynamics::verdicts(job, &made.compiled, &outcome.sources, run));
-            found.extend(cells::compare(job, &mut made.compiled));
-            let mut objections = target::objections(job, &made.compiled, request);
-            let (errors, warnings): (Vec<_>, Vec<_>) = found
-                .into_iter()
-                .partition(|diagnostic| diagnostic.severity() == Severity::Error);
-            objections.extend(errors.into_iter().map(Into::into));
-            made.warnings.extend(warnings);
-            if objections.is_empty() {
-                Ended::Compiled(made)
-            } else {
-                Ended::Refused(Refused::ByTarget(Box::new(NotTaken {
-                    plan: *made.plan,
-                    warnings: made.warnings,
-                    objections,
-                })))
-            }
-        }
+        Ended::Compiled(made) => checked(job, made, request, &outcome.sources, run),
         ended @ (Ended::Refused(_) | Ended::Cancelled) => ended,
     };
     match ended {
@@ -398,7 +379,35 @@ fn plan_and_prove(
     }
 }
 
-/// What there is to tell of a job that is refused, with what helps. Who waits learns of it before that is looked for.
+/// A program with the forces on its machine, and without objections of its target.
+fn checked<'j>(
+    job: &CheckedJob,
+    mut made: Made,
+    request: Request<'_>,
+    sources: &SourceMap,
+    run: &mut Run<'_>,
+) -> Ended<'j> {
+    let mut found = dynamics::add(job, &mut made.compiled);
+    found.extend(dynamics::verdicts(job, &made.compiled, sources, run));
+    found.extend(cells::compare(job, &mut made.compiled));
+    let mut objections = target::objections(job, &made.compiled, request);
+    let (errors, warnings): (Vec<_>, Vec<_>) = found
+        .into_iter()
+        .partition(|diagnostic| diagnostic.severity() == Severity::Error);
+    objections.extend(errors.into_iter().map(Into::into));
+    made.warnings.extend(warnings);
+    if objections.is_empty() {
+        Ended::Compiled(made)
+    } else {
+        Ended::Refused(Refused::ByTarget(Box::new(NotTaken {
+            plan: *made.plan,
+            warnings: made.warnings,
+            objections,
+        })))
+    }
+}
+
+/// The diagnostics of a job that is refused, with what helps. They are reported before help is looked for.
 fn helped(
     job: &CheckedJob,
     refused: &Refused<'_>,

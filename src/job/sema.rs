@@ -62,6 +62,7 @@ use overrides::Overrides;
 use report::Checked;
 use session::Session;
 use surface::kept::Surfaces;
+use vcutc_backend_api::ir::Stock;
 use vcutc_diagnostics::Diagnostic;
 pub use vcutc_diagnostics::schema::dimension;
 use vcutc_diagnostics::source::{LoadError, Loader, SourceMap, Spanned};
@@ -227,17 +228,7 @@ fn whole(
         .iter()
         .map(|(name, placed)| region::check(*name, placed.block, placed.place, scope, session))
         .collect();
-    let needs_part = all.operations.is_empty() || all.operations.iter().any(|(kind, _)| kind.needs_part());
-    let part = match (all.profile, all.surface) {
-        (Some(placed), None) => profile::check(placed.block, placed.place, stock, scope, session),
-        (None, Some(placed)) => surface::check(placed.block, placed.place, stock, scope, session),
-        (Some(profile), Some(surface)) => {
-            let fault = surface::beside_a_profile(surface.place, profile.place);
-            Err(session.reports.push(fault))
-        }
-        (None, None) if needs_part => Err(missing.part(stock.ok(), session)),
-        (None, None) => stock.map(|stock| part::Part::whole(stock.node)),
-    };
+    let part = part_of(all, stock, &missing, scope, session);
     let ways: Vec<Checked<Ways>> = all
         .operations
         .iter()
@@ -269,20 +260,7 @@ fn whole(
         scope,
         session,
     );
-    let machine = machine.and_then(|machine| match machine {
-        Some(machine) => options::over(machine, said.options, scope, session).map(Some),
-        None => Ok(None),
-    });
-    let machine = match (machine, &ways) {
-        (Ok(Some(machine)), Ok(ways)) => {
-            let ways = ways.iter().flat_map(Ways::iter);
-            let blades: Vec<BladeRef<'_>> = ways.flat_map(|way| way.operation.blades()).collect();
-            tools::used(machine, &blades)
-                .map(Some)
-                .map_err(|fault| session.reports.push(*fault))
-        }
-        (machine, _) => machine,
-    };
+    let machine = set_up(machine, &ways, said.options, scope, session);
     let (name, stock) = (name?, stock?);
     let mut ways = ways?;
     let place = all
@@ -315,4 +293,47 @@ fn whole(
         operations: ways.into_iter().map(|ways| ways.into_first().operation).collect(),
         machine,
     })
+}
+
+/// The part: a profile or a surface; without either, where no operation needs one, the whole stock.
+fn part_of(
+    all: &Definitions<'_>,
+    stock: Checked<Spanned<Stock>>,
+    missing: &Missing,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<part::Part> {
+    let needs_part = all.operations.is_empty() || all.operations.iter().any(|(kind, _)| kind.needs_part());
+    match (all.profile, all.surface) {
+        (Some(placed), None) => profile::check(placed.block, placed.place, stock, scope, session),
+        (None, Some(placed)) => surface::check(placed.block, placed.place, stock, scope, session),
+        (Some(profile), Some(surface)) => {
+            let fault = surface::beside_a_profile(surface.place, profile.place);
+            Err(session.reports.push(fault))
+        }
+        (None, None) if needs_part => Err(missing.part(stock.ok(), session)),
+        (None, None) => stock.map(|stock| part::Part::whole(stock.node)),
+    }
+}
+
+/// The machine with the options of the command line, and with the tools of the job's blades.
+fn set_up(
+    machine: Checked<Option<Machine>>,
+    ways: &Checked<Vec<Ways>>,
+    options: options::Said<'_>,
+    scope: Scope<'_>,
+    session: &mut Session<'_>,
+) -> Checked<Option<Machine>> {
+    let Some(machine) = machine? else {
+        return Ok(None);
+    };
+    let machine = options::over(machine, options, scope, session)?;
+    let Ok(ways) = ways else {
+        return Ok(Some(machine));
+    };
+    let ways = ways.iter().flat_map(Ways::iter);
+    let blades: Vec<BladeRef<'_>> = ways.flat_map(|way| way.operation.blades()).collect();
+    tools::used(machine, &blades)
+        .map(Some)
+        .map_err(|fault| session.reports.push(*fault))
 }

@@ -94,6 +94,18 @@ impl Extent {
             Self::Whole => 4096,
         }
     }
+
+    /// Whether these failures answer the question.
+    fn is_settled_by(self, failures: &[Failure]) -> bool {
+        let is_too_fast = |failure: &Failure| matches!(failure.breach.what, Violation::Rate { .. });
+        match self {
+            Self::FirstFailure => !failures.is_empty(),
+            Self::OtherThanRates => {
+                failures.len() >= ENOUGH_TOO_FAST || failures.iter().any(|failure| !is_too_fast(failure))
+            }
+            Self::Whole => false,
+        }
+    }
 }
 
 /// The axes with the limits of those that can make a full turn moved out by a turn either way, which no single motion uses up.
@@ -285,17 +297,7 @@ impl Survey<'_> {
             .map(|(op, path)| (OpId(op.0.saturating_add(entry.0)), path))
             .collect();
         for batch in after_entry.chunks(extent.batch()) {
-            let is_enough = match extent {
-                Extent::FirstFailure => !failures.is_empty(),
-                Extent::OtherThanRates => {
-                    failures.len() >= ENOUGH_TOO_FAST
-                        || failures
-                            .iter()
-                            .any(|failure| !matches!(failure.breach.what, Violation::Rate { .. }))
-                }
-                Extent::Whole => false,
-            };
-            if is_enough {
+            if extent.is_settled_by(&failures) {
                 break;
             }
             let proofs: Vec<Option<Result<Proof, Breach>>> = batch
@@ -303,22 +305,16 @@ impl Survey<'_> {
                 .flat_map_iter(|paths| self.lines(paths, branch))
                 .collect();
             for (&(op, _), proof) in batch.iter().zip(&proofs) {
-                match proof {
-                    Some(Err(breach)) => failures.push(Failure { op, breach: *breach }),
-                    Some(Ok(proof)) => {
-                        if let Some(chain) = &mut chain
-                            && failures.is_empty()
-                            && let Err(breach) = chain.append(op, proof)
-                        {
-                            failures.push(Failure { op, breach });
-                        }
+                let breach = match (proof, &mut chain) {
+                    (Some(Err(breach)), _) => Some(*breach),
+                    (Some(Ok(proof)), Some(chain)) if failures.is_empty() => chain.append(op, proof).err(),
+                    (None, Some(chain)) => {
+                        chain.rest();
+                        None
                     }
-                    None => {
-                        if let Some(chain) = &mut chain {
-                            chain.rest();
-                        }
-                    }
-                }
+                    (Some(Ok(_)) | None, _) => None,
+                };
+                failures.extend(breach.map(|breach| Failure { op, breach }));
             }
         }
         match chain {

@@ -246,12 +246,13 @@ fn optimum_of(
 
     let mut changes = Trials::new(subject, CUTS);
     let now = changes.came(planned.cuts as f64, |_| {});
-    let mut loosened = Vec::new();
-    let mut faster = Vec::new();
-    if let Some(now) = now.plan() {
-        loosened = loosened::loosened(asked, now, &mut changes, sources);
-        faster.extend(faster::on_other_lattices(asked, now, &mut changes));
-    }
+    let (loosened, mut faster) = match now.plan() {
+        Some(now) => (
+            loosened::loosened(asked, now, &mut changes, sources),
+            Vec::from_iter(faster::on_other_lattices(asked, now, &mut changes)),
+        ),
+        None => (Vec::new(), Vec::new()),
+    };
     let question = Question {
         against: wanted.against,
         points: wanted.points,
@@ -266,13 +267,7 @@ fn optimum_of(
         place: bounds::place(sources, asked.setup.head_span),
         objective: asked.objective.value,
         formulas: asked.formulas.value,
-        lattice_given: match asked.lattice.value {
-            Auto::Auto => None,
-            Auto::Given(_) => Some(bounds::place(
-                sources,
-                asked.lattice.span.unwrap_or(asked.setup.head_span),
-            )),
-        },
+        lattice_given: lattice_given(asked, sources),
         rows,
         binding,
         planned,
@@ -280,6 +275,15 @@ fn optimum_of(
         faster,
         trade_off,
     })
+}
+
+/// Where the lattice is given, if it is.
+fn lattice_given(asked: &RoughVcut, sources: &SourceMap) -> Option<String> {
+    let span = asked.lattice.span.unwrap_or(asked.setup.head_span);
+    match asked.lattice.value {
+        Auto::Auto => None,
+        Auto::Given(_) => Some(bounds::place(sources, span)),
+    }
 }
 
 /// All lattices that have formulas, this one first.

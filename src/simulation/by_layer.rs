@@ -17,14 +17,13 @@ pub(crate) struct ByLayer<V> {
 impl<V: Default> ByLayer<V> {
     /// The value of a layer.
     pub(crate) fn of(&mut self, layer: LayerKey) -> &mut V {
-        let latest = match self.latest.take() {
-            Some((key, value)) if key == layer => value,
-            other => {
-                self.others.extend(other);
-                self.others.remove(&layer).unwrap_or_default()
-            }
-        };
-        &mut self.latest.insert((layer, latest)).1
+        let is_latest = self.latest.as_ref().is_some_and(|(key, _)| *key == layer);
+        if !is_latest {
+            self.others.extend(self.latest.take());
+        }
+        let others = &mut self.others;
+        let latest = || (layer, others.remove(&layer).unwrap_or_default());
+        &mut self.latest.get_or_insert_with(latest).1
     }
 
     /// All of them, operation by operation, from the top.

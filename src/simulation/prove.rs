@@ -360,25 +360,19 @@ struct Player<'p> {
 struct HalfDone(ByLayer<Vec<Option<f64>>>);
 
 impl HalfDone {
-    fn put(&mut self, cut: &Cut, slope: f64) {
-        let (slopes, number) = self.slopes(cut);
+    /// The slope of the other flank, where it is done; else that of this flank is kept for it.
+    fn other_of(&mut self, cut: &Cut, slope: f64) -> Option<f64> {
+        let slopes = self.0.of((cut.operation, cut.layer));
+        let number = cut.cut.get() as usize - 1;
         if slopes.len() <= number {
             slopes.resize(number + 1, None);
         }
-        if let Some(place) = slopes.get_mut(number) {
+        let place = slopes.get_mut(number)?;
+        let other = place.take();
+        if other.is_none() {
             *place = Some(slope);
         }
-    }
-
-    fn take(&mut self, cut: &Cut) -> Option<f64> {
-        let (slopes, number) = self.slopes(cut);
-        slopes.get_mut(number)?.take()
-    }
-
-    /// Those of the layer of a cut, and its place among them.
-    fn slopes(&mut self, cut: &Cut) -> (&mut Vec<Option<f64>>, usize) {
-        let slopes = self.0.of((cut.operation, cut.layer));
-        (slopes, cut.cut.get() as usize - 1)
+        other
     }
 }
 
@@ -452,11 +446,8 @@ impl<'p> Player<'p> {
         };
         self.come_out(cut, side, geometry, (lower, least));
         // The verifier has made sure that both flanks are there, once each.
-        match self.half_done.take(cut) {
-            None => {
-                self.half_done.put(cut, geometry.slope);
-                self.count(cut);
-            }
+        match self.half_done.other_of(cut, geometry.slope) {
+            None => self.count(cut),
             Some(other) => {
                 let vee = Vee::one(cut.tip, side, geometry.slope).with(side.opposite(), other);
                 self.release(cut, vee, Length::ZERO);

@@ -128,16 +128,7 @@ pub(crate) fn plan(asked: &ClearPocket, ground: &Ground<'_>) -> Result<Plan, Why
     let region = &asked.region.region;
     let walls = Walls::of(region);
     let radius = asked.crusher.radius.value.to_mm();
-    let step = match asked.step.value {
-        Auto::Given(step) => step.to_mm(),
-        // No place between two passes is farther from the outer one.
-        Auto::Auto => radius,
-    };
-    let bounds = region.bounds();
-    let narrow = (bounds.high.x - bounds.low.x).min(bounds.high.y - bounds.low.y);
-    if narrow / 2.0 > MOST_LEVELS * step {
-        return Err(Why::TooLarge);
-    }
+    let step = step(asked)?;
     let keep = radius + asked.allowance.value.to_mm() + BLEND.to_mm();
     let tool = Tool {
         radius,
@@ -152,31 +143,8 @@ pub(crate) fn plan(asked: &ClearPocket, ground: &Ground<'_>) -> Result<Plan, Why
         step,
         radius,
     };
-    let patterns: Vec<Pattern> = match asked.pattern.value {
-        Auto::Given(pattern) => vec![pattern],
-        Auto::Auto => Pattern::COMPARED.to_vec(),
-    };
-    let mut compared = Compared::default();
     let deep = floors.first().map_or(0.0, |floor| top - floor);
-    for pattern in patterns {
-        match lay::lay(asked, region, &tool, step, pattern) {
-            Ok(choices) => {
-                for laid in choices {
-                    let runs = match order::runs(&laid.passes, &laid.extra, room) {
-                        Ok(runs) => limits::slowed(runs, asked),
-                        Err(why) => {
-                            compared.fault = Some(why);
-                            continue;
-                        }
-                    };
-                    let standing = limits::standing(&runs, asked, keep);
-                    compared.take(laid, runs, (standing, |runs: &[Run]| time(runs, asked, deep)));
-                }
-            }
-            Err(why) => compared.fault = Some(why),
-        }
-    }
-    let Compared { best, tried, fault } = compared;
+    let Compared { best, tried, fault } = compared(asked, &tool, room, (keep, deep));
     let Some(Candidate { laid, runs, .. }) = best else {
         return Err(fault.unwrap_or(Why::TooLarge));
     };
@@ -193,6 +161,50 @@ pub(crate) fn plan(asked: &ClearPocket, ground: &Ground<'_>) -> Result<Plan, Why
         runs,
         tried,
     })
+}
+
+/// How far passes are apart, in mm.
+fn step(asked: &ClearPocket) -> Result<f64, Why> {
+    let step = match asked.step.value {
+        Auto::Given(step) => step.to_mm(),
+        // No place between two passes is farther from the outer one.
+        Auto::Auto => asked.crusher.radius.value.to_mm(),
+    };
+    let bounds = asked.region.region.bounds();
+    let narrow = (bounds.high.x - bounds.low.x).min(bounds.high.y - bounds.low.y);
+    if narrow / 2.0 > MOST_LEVELS * step {
+        return Err(Why::TooLarge);
+    }
+    Ok(step)
+}
+
+/// All patterns that the job allows. The tool keeps so far from the walls, and goes so deep.
+fn compared(asked: &ClearPocket, tool: &Tool, room: Room<'_>, (keep, deep): (f64, f64)) -> Compared {
+    let patterns: &[Pattern] = match &asked.pattern.value {
+        Auto::Given(pattern) => core::slice::from_ref(pattern),
+        Auto::Auto => &Pattern::COMPARED,
+    };
+    let mut compared = Compared::default();
+    for &pattern in patterns {
+        let choices = match lay::lay(asked, &asked.region.region, tool, room.step, pattern) {
+            Ok(choices) => choices,
+            Err(why) => {
+                compared.fault = Some(why);
+                continue;
+            }
+        };
+        for laid in choices {
+            match order::runs(&laid.passes, &laid.extra, room) {
+                Ok(runs) => {
+                    let runs = limits::slowed(runs, asked);
+                    let standing = limits::standing(&runs, asked, keep);
+                    compared.take(laid, runs, (standing, |runs: &[Run]| time(runs, asked, deep)));
+                }
+                Err(why) => compared.fault = Some(why),
+            }
+        }
+    }
+    compared
 }
 
 /// What was compared.

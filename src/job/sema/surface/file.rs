@@ -72,6 +72,17 @@ pub(super) struct Content {
     pub(super) tolerance: Length,
 }
 
+impl Content {
+    /// Of a file whose triangles are what it stands for.
+    const fn exact(mesh: Mesh, unit: f64) -> Self {
+        Self {
+            mesh,
+            unit,
+            tolerance: Length::ZERO,
+        }
+    }
+}
+
 /// A file as the job names it.
 pub(super) struct Named<'a> {
     pub(super) kind: Spanned<SurfaceFile>,
@@ -124,11 +135,6 @@ pub(super) fn part(
         session.sources.add(loaded.path.clone(), loaded.hash.clone());
         return Ok(part);
     }
-    let exact = |mesh, unit| Content {
-        mesh,
-        unit,
-        tolerance: Length::ZERO,
-    };
     let size = unit.map_or(1.0, |unit| unit.value);
     let (content, word, units) = match (named.kind.node, loaded) {
         // The unit of its numbers is beyond doubt.
@@ -139,52 +145,52 @@ pub(super) fn part(
         ),
         (_, Some(loaded)) => {
             let mesh = triangles(named, size, loaded, session)?;
-            (exact(mesh, size), "mesh", units)
+            (Content::exact(mesh, size), "mesh", units)
         }
-        (_, None) => (exact(heights(named, session)?, size), "grid", units),
+        (_, None) => (Content::exact(heights(named, session)?, size), "grid", units),
     };
-    let Content {
-        mesh,
-        unit,
-        tolerance,
-    } = content;
     let placement = Placement {
         frame,
-        unit: Length::mm(unit),
+        unit: Length::mm(content.unit),
     };
     let seat = Seat {
-        mesh: &mesh,
+        mesh: &content.mesh,
         word,
         placement,
-        tolerance,
+        tolerance: content.tolerance,
         units,
         stock: stock.node,
         fields: &fields,
         given: fields.value("place")?.map(|expr| expr.span),
     };
-    let offer = |diagnostic| seat.offer(diagnostic);
     if let Some(reported) = session.damage_at(named.span) {
         return Err(reported);
     }
-    let part = match placed(&mesh, &placement, tolerance, stock.node) {
-        Ok(surface) => {
-            let drawn = Drawn {
-                surface,
-                profile: None,
-            };
-            judge::part(drawn, named.head(), stock, &offer, &mut session.reports)
-        }
-        Err(error) => Err(session.reports.push(match error {
-            SurfaceError::Elsewhere { .. } => offer(judge::elsewhere(error, named.head(), stock)),
-            SurfaceError::BadPlan | SurfaceError::OutOfRange => super::not_made(error, named.head()),
-        })),
-    }?;
+    let part = seated(&seat, named.head(), stock, session)?;
     if let (Some(surfaces), Some(asked), true) =
         (session.surfaces, asked, session.reports.count() == reported)
     {
         surfaces.keep(asked, part.clone());
     }
     Ok(part)
+}
+
+/// The part that a mesh in its place makes of the stock.
+fn seated(seat: &Seat<'_>, head: Span, stock: Spanned<Stock>, session: &mut Session<'_>) -> Checked<Part> {
+    let offer = |diagnostic| seat.offer(diagnostic);
+    match placed(seat.mesh, &seat.placement, seat.tolerance, stock.node) {
+        Ok(surface) => {
+            let drawn = Drawn {
+                surface,
+                profile: None,
+            };
+            judge::part(drawn, head, stock, &offer, &mut session.reports)
+        }
+        Err(error) => Err(session.reports.push(match error {
+            SurfaceError::Elsewhere { .. } => offer(judge::elsewhere(error, head, stock)),
+            SurfaceError::BadPlan | SurfaceError::OutOfRange => super::not_made(error, head),
+        })),
+    }
 }
 
 /// The file of a mesh or of B-spline surfaces; none of a table of heights.
