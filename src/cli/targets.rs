@@ -50,7 +50,7 @@ pub(super) fn describe(targets: &Targets, id: &str, console: &Console) -> Exit {
 }
 
 /// The backend that `--target` names, which can be asked. `asking` says what machine it is for; it is looked at only when there
-/// is not such a target.
+/// is no such target.
 pub(super) fn find<'d>(
     targets: &Targets,
     id: &str,

@@ -333,7 +333,7 @@ pub(crate) fn whole(torque: f64) -> String {
     show(torque.round())
 }
 
-/// What adds to the torques of an arm in addition to its links.
+/// What else than the links adds to the torques of an arm.
 fn missing(model: &Model) -> impl Iterator<Item = Covered> {
     let arm = model.mechanism.ortho_parallel();
     let rods = arm.is_some_and(|arm| arm.coupling == Coupling::Parallelogram);

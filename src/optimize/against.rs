@@ -3,7 +3,6 @@
 use super::trials::Plan;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::show;
-use vcutc_geometry::grid;
 use vcutc_job::Sourced;
 use vcutc_vcut::asked::RoughVcut;
 use vcutc_vcut::plan::optimum::Problem;
@@ -131,7 +130,8 @@ const fn chosen<T>(value: T) -> Sourced<T> {
 
 /// A length in mm, up to a hundredth.
 pub(super) fn hundredths(mm: f64) -> f64 {
-    grid::up(mm * 0.1) * 10.0
+    // What is a hundredth but for rounding stays one.
+    (mm * 100.0 - 1e-6).ceil() / 100.0
 }
 
 /// So many values about one, each by the same factor above the one before.

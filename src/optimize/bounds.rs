@@ -106,7 +106,8 @@ pub(super) fn value(bound: Bound, value: f64) -> String {
         | Bound::Scallop
         | Bound::Edge => format!("{} mm", show(value)),
         Bound::Time => format!("{} s", show(value)),
-        Bound::OverlapLeast | Bound::OverlapMost | Bound::Cuts => show(value),
+        Bound::OverlapLeast | Bound::OverlapMost => format!("{} %", show(100.0 * value)),
+        Bound::Cuts => show(value),
     }
 }
 

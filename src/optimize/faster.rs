@@ -1,10 +1,11 @@
 //! Changes that save time without a wider limit.
 
-use super::LATTICES;
 use super::trade_off::TradeOff;
 use super::trials::{Plan, Trials};
+use super::{LATTICES, bounds};
 use vcutc_job::Auto;
 use vcutc_vcut::asked::{Formulas, Lattice, Objective, RoughVcut};
+use vcutc_vcut::plan::optimum::Bound;
 
 /// A change of the job with which it is cut faster.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +20,7 @@ pub struct Faster {
 /// From which share on a change is worth a line.
 const WORTH_A_LINE: f64 = 0.005;
 
-/// The fastest plan on another lattice, where the job says on which, or its formulas know only one.
+/// The fastest plan on another lattice, where the job gives one, or has the paper's formulas, which choose none.
 pub(super) fn on_other_lattices(asked: &RoughVcut, now: &Plan, trials: &mut Trials<'_>) -> Option<Faster> {
     let lattices: &[Auto<Lattice>] = match (asked.lattice.value, asked.formulas.value) {
         (Auto::Auto, Formulas::Exact) => &[],
@@ -33,7 +34,14 @@ pub(super) fn on_other_lattices(asked: &RoughVcut, now: &Plan, trials: &mut Tria
     let best = plans.min_by(|one, other| one.time.total_cmp(&other.time))?;
     let lattice = best.parameters.lattice;
     let is_other = lattice != now.parameters.lattice;
-    faster(asked, now, &best, format!("lattice = {}", lattice.word())).filter(|_| is_other)
+    // A limit that was chosen for this lattice might be another one on that.
+    let limit = asked.limits.scallop.filter(|_| asked.limits.chosen.is_some());
+    let limit = limit.map_or(String::new(), |limit| {
+        let value = bounds::value(Bound::Scallop, limit.value.to_mm());
+        format!(" and limits {{ scallop <= {value} }}")
+    });
+    let change = format!("lattice = {}{limit}", lattice.word());
+    faster(asked, now, &best, change).filter(|_| is_other)
 }
 
 /// A plan within a tighter limit that the search for the job missed.

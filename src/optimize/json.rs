@@ -1,16 +1,16 @@
-//! What came of optimising, for programs.
+//! The results of `vcutc optimize`, for programs.
 
 use super::bounds::Relaxed;
 use super::others::{self, OtherBody, ProcessBody};
 use super::rect::{RectBody, RectOptimum};
 use super::{
-    Faster, FoundBy, GivenOperation, Loosened, OperationOptimum, Optimisation, Plan, Point, Role, Row,
+    Came, Faster, FoundBy, GivenOperation, Loosened, OperationOptimum, Optimisation, Plan, Point, Role, Row,
     TradeOff,
 };
 use serde::Serialize;
 use vcutc_vcut::plan::optimum::{Bound, Optimum};
 
-/// What came of optimising.
+/// The results of `vcutc optimize`.
 #[derive(Debug, Serialize)]
 pub struct OptimisationBody<'a> {
     job: &'a str,
@@ -48,6 +48,9 @@ struct OperationBody<'a> {
     /// Of the formulas.
     binding: Vec<BindingBody<'a>>,
     wider: Vec<WiderBody<'a>>,
+    /// Limits and values that were not made wider: too many cuts.
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    not_wider: &'a [String],
     faster: Vec<FasterBody<'a>>,
     trade_off: TradeOffBody,
 }
@@ -68,7 +71,8 @@ struct TradeOffBody {
 struct PointBody {
     /// In mm or cuts.
     limit: f64,
-    /// None where there is no plan, or none was made.
+    /// `planned`, `no_plan` or `not_planned`.
+    outcome: &'static str,
     planned: Option<PlanBody>,
     formula: Option<ParametersBody>,
 }
@@ -214,7 +218,8 @@ fn operation_body(operation: &OperationOptimum) -> OperationBody<'_> {
             },
         },
         binding: operation.binding.iter().map(binding_body).collect(),
-        wider: operation.loosened.iter().map(wider_body).collect(),
+        wider: operation.wider.found.iter().map(wider_body).collect(),
+        not_wider: &operation.wider.not_planned,
         faster: operation.faster.iter().map(faster_body).collect(),
         trade_off: trade_off_body(&operation.trade_off),
     }
@@ -232,6 +237,11 @@ fn trade_off_body(trade_off: &TradeOff) -> TradeOffBody {
 fn point_body(point: &Point) -> PointBody {
     PointBody {
         limit: point.limit,
+        outcome: match point.came {
+            Came::Planned(_) => "planned",
+            Came::Nothing => "no_plan",
+            Came::TooLarge => "not_planned",
+        },
         planned: point.came.plan().map(plan_body),
         formula: point.formula.as_ref().map(parameters_body),
     }

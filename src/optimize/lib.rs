@@ -1,6 +1,6 @@
 //! `vcutc optimize`: what the open parameters of a job come out as, what else there would be, and what it would cost.
 //!
-//! The job is compiled as ever. Then it is planned again with changes: each limit a tenth wider, other lattices, and a row of limits
+//! The job is compiled. Then it is planned again with changes: each limit a tenth wider, other lattices, and a row of limits
 //! of what time is traded against. Beside these plans stands what the formulas say of the problem
 //! ([`vcutc_vcut::plan::optimum`]): on every lattice, by the paper's formulas and by the exact ones.
 
@@ -20,7 +20,7 @@ mod trials;
 pub use against::Against;
 pub use bounds::Relaxed;
 pub use faster::Faster;
-pub use loosened::Loosened;
+pub use loosened::{Loosened, WiderLimits};
 pub use others::OtherOperation;
 pub use planned::{FoundBy, Planned};
 pub use rect::RectOptimum;
@@ -42,7 +42,7 @@ use vcutc_vcut::asked::{Formulas, Lattice, Objective, RoughVcut};
 use vcutc_vcut::plan::optimum::{self, Optimum, Problem};
 use vcutc_vcut::plan::parameters;
 
-/// What came of a job's open parameters.
+/// The plans of a job, and what limits they meet.
 #[derive(Debug)]
 pub struct Optimisation {
     /// The job's name.
@@ -75,7 +75,7 @@ pub struct GivenOperation {
     pub tips: usize,
 }
 
-/// What came of one operation's open parameters.
+/// The plans of one operation, and what limits they meet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OperationOptimum {
     /// Which operation of the job it is, counted from 1.
@@ -92,9 +92,11 @@ pub struct OperationOptimum {
     pub binding: Vec<Relaxed>,
     pub planned: Planned,
     /// What wider limits save, as planned.
-    pub loosened: Vec<Loosened>,
+    pub wider: WiderLimits,
     /// Changes that are not wider limits and still save time, as planned.
     pub faster: Vec<Faster>,
+    /// The limit on the scallop, where it was chosen because the job sets none.
+    pub chosen_limit: Option<Length>,
     /// The fastest plans for a row of limits.
     pub trade_off: TradeOff,
 }
@@ -128,7 +130,7 @@ pub enum Refusal {
     Diagnostics(Vec<Diagnostic>, SourceMap),
 }
 
-/// What is to be known of the trade-off.
+/// Which trade-off is made.
 #[derive(Clone, Copy, Debug)]
 pub struct Wanted {
     pub against: Against,
@@ -216,8 +218,11 @@ fn operations(
     optimised.collect()
 }
 
-/// How many cuts the plans of one kind may have together: plans with one change, and points of a trade-off.
-const CUTS: f64 = 3_000.0;
+/// How many cuts all plans with one change may have together.
+const CUTS_OF_CHANGES: f64 = 10_000.0;
+
+/// How many cuts a trade-off may have for each of its points.
+const CUTS_A_POINT: f64 = 300.0;
 
 fn optimum_of(
     subject: Subject<'_>,
@@ -237,6 +242,7 @@ fn optimum_of(
     }
     // A limit that was chosen counts as if the job had set it.
     asked.limits.scallop = vcut.asked.limits.scallop;
+    asked.limits.chosen = vcut.asked.limits.chosen;
     let asked = &asked;
     let problem = parameters::problem(&PlanningJob::of(job)?, asked)?;
     let of_formulas = with_formulas(vcut.parameters.lattice, &problem);
@@ -244,14 +250,14 @@ fn optimum_of(
     let chosen = rows.iter().find_map(Row::chosen);
     let binding = chosen.map_or_else(Vec::new, |best| bounds::relaxed(&problem, best, asked, sources));
 
-    let mut changes = Trials::new(subject, CUTS);
-    let now = changes.came(planned.cuts as f64, |_| {});
-    let (loosened, mut faster) = match now.plan() {
+    let mut changes = Trials::new(subject, CUTS_OF_CHANGES);
+    let now = changes.unchanged();
+    let (wider, mut faster) = match now.plan() {
         Some(now) => (
             loosened::loosened(asked, now, &mut changes, sources),
             Vec::from_iter(faster::on_other_lattices(asked, now, &mut changes)),
         ),
-        None => (Vec::new(), Vec::new()),
+        None => (WiderLimits::default(), Vec::new()),
     };
     let question = Question {
         against: wanted.against,
@@ -260,7 +266,8 @@ fn optimum_of(
         problem: &problem,
         lattices: &lattices_first(of_formulas),
     };
-    let trade_off = TradeOff::of(&question, &now, &mut Trials::new(subject, CUTS));
+    let room = CUTS_A_POINT * f64::from(wanted.points);
+    let trade_off = TradeOff::of(&question, &now, &mut Trials::new(subject, room));
     faster.extend(faster::within_a_tighter_limit(asked, &trade_off));
     Some(OperationOptimum {
         number: operation.0.saturating_add(1),
@@ -271,8 +278,13 @@ fn optimum_of(
         rows,
         binding,
         planned,
-        loosened,
+        wider,
         faster,
+        chosen_limit: asked
+            .limits
+            .chosen
+            .and(asked.limits.scallop)
+            .map(|limit| limit.value),
         trade_off,
     })
 }

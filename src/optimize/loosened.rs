@@ -27,6 +27,15 @@ pub struct Loosened {
     pub share: f64,
 }
 
+/// What wider limits and values save.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WiderLimits {
+    /// Those that save something, the most first.
+    pub found: Vec<Loosened>,
+    /// Those that were not planned, because there were too many cuts.
+    pub not_planned: Vec<String>,
+}
+
 /// Savings below this share are within what a search may miss.
 const LEAST_SHARE: f64 = 0.002;
 
@@ -49,37 +58,45 @@ const BOUNDS: [Bound; 12] = [
 /// The widest swing that is tried.
 const WIDEST_SWING: Angle = Angle::deg(80.0);
 
-/// What loosening each bound by a tenth saves, the most first.
+/// What loosening each bound by a tenth saves.
 pub(super) fn loosened(
     asked: &RoughVcut,
     now: &Plan,
     trials: &mut Trials<'_>,
     sources: &SourceMap,
-) -> Vec<Loosened> {
-    let mut found: Vec<Loosened> = BOUNDS
-        .into_iter()
-        .filter_map(|bound| {
-            let value = stated(asked, bound)?;
-            let wider = wider(bound, value)?;
-            let came = trials.came(now.cuts as f64, |asked| put(asked, bound, wider));
-            let Came::Planned(plan) = came else {
-                return None;
-            };
-            let gain = merit(asked.objective.value, now) - merit(asked.objective.value, &plan);
-            Some(Loosened {
-                bound,
-                words: words(asked, bound, value),
-                place: written(bound, asked).map(|span| bounds::place(sources, span)),
-                loosened: bounds::value(bound, wider),
-                share: gain / merit(asked.objective.value, now),
-                gain,
-                plan: *plan,
-            })
-        })
-        .filter(|loosened| loosened.share > LEAST_SHARE)
-        .collect();
-    found.sort_by(|a, b| b.share.total_cmp(&a.share).then(a.bound.cmp(&b.bound)));
-    found
+) -> WiderLimits {
+    let mut limits = WiderLimits::default();
+    for bound in BOUNDS {
+        let Some((value, wider)) = stated(asked, bound).and_then(|value| Some((value, wider(bound, value)?)))
+        else {
+            continue;
+        };
+        match trials.came(now.cuts as f64, |asked| put(asked, bound, wider)) {
+            Came::Nothing => {}
+            Came::TooLarge => limits.not_planned.push(words(asked, bound, value)),
+            Came::Planned(plan) => {
+                let gain = merit(asked.objective.value, now) - merit(asked.objective.value, &plan);
+                let share = gain / merit(asked.objective.value, now);
+                if share > LEAST_SHARE {
+                    limits.found.push(Loosened {
+                        bound,
+                        words: words(asked, bound, value),
+                        place: written(bound, asked).map(|span| bounds::place(sources, span)),
+                        loosened: bounds::value(bound, wider),
+                        share,
+                        gain,
+                        plan: *plan,
+                    });
+                }
+            }
+        }
+    }
+    limits
+        .found
+        .sort_by(|a, b| b.share.total_cmp(&a.share).then(a.bound.cmp(&b.bound)));
+    // A given value is both ends of its range.
+    limits.not_planned.dedup();
+    limits
 }
 
 /// As it is written in the job: `swing <= 50 deg`, `layer = 4 mm`.

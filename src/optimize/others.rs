@@ -16,7 +16,7 @@ pub struct OtherOperation {
     pub number: u16,
     /// Where it stands: `rib.vcut:12:1`.
     pub place: String,
-    /// What came of it, in lines of names and texts.
+    /// Its results, in lines of names and texts.
     pub lines: Vec<(&'static str, String)>,
 }
 

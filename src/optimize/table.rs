@@ -8,11 +8,12 @@ pub(super) fn table(head: &[&str], rows: &[Vec<String>]) -> String {
     let columns: Vec<Column> = (0..head.len())
         .map(|column| {
             let cells = || whole().filter_map(|row| row.get(column));
+            let any_cells = || rows.iter().filter_map(|row| row.get(column));
             let words = head.get(column).map_or(0, |word| word.len());
             Column {
                 width: cells().map(String::len).fold(words, usize::max),
                 // Every number has a unit or none, and may be a bound.
-                side: if cells().any(|cell| cell.contains(|c: char| c.is_ascii_digit())) {
+                side: if any_cells().any(|cell| cell.contains(|c: char| c.is_ascii_digit())) {
                     Side::Right
                 } else {
                     Side::Left

@@ -53,7 +53,7 @@ pub(super) struct Question<'q> {
 }
 
 impl TradeOff {
-    /// Plans the job under other limits as far as there is room, the widest first.
+    /// Plans the job under other limits as far as there is room, those nearest to its own first.
     pub(super) fn of(question: &Question<'_>, now: &Came, trials: &mut Trials<'_>) -> Self {
         let Question {
             against,
@@ -68,7 +68,7 @@ impl TradeOff {
         let formula = |limit: f64| best_under(question, problem, limit);
         let at_own = own.and_then(formula).map(|best| best.cuts);
         let mut found: Vec<Point> = Vec::new();
-        for &limit in limits.iter().rev() {
+        for limit in nearest_first(&limits, own) {
             let best = formula(limit);
             let cuts = expected_cuts(now, best.as_ref().map(|best| best.cuts), at_own);
             let came = trials.came(cuts, |asked| {
@@ -81,7 +81,7 @@ impl TradeOff {
                 formula: best,
             });
         }
-        found.reverse();
+        found.sort_by(|one, other| one.limit.total_cmp(&other.limit));
         let all = own.into_iter().chain(limits.iter().copied());
         let curves = curves(question, lattices, all.collect());
         Self {
@@ -129,6 +129,15 @@ fn best_under(question: &Question<'_>, problem: &Problem, limit: f64) -> Option<
     optimum::solve(&problem).ok()
 }
 
+/// Limits by how far they are from the job's own, as factors; of two as far, the wider one, which has fewer cuts.
+fn nearest_first(limits: &[f64], own: Option<f64>) -> Vec<f64> {
+    let own = own.unwrap_or(1.0);
+    let away = |limit: &f64| libm::fabs(libm::log(limit / own));
+    let mut limits = limits.to_vec();
+    limits.sort_by(|one, other| away(one).total_cmp(&away(other)).then(other.total_cmp(one)));
+    limits
+}
+
 /// How many cuts a plan may have: as many more than the job's plan as the formulas say; without that plan, as many as they say.
 fn expected_cuts(now: &Came, by_formula: Option<f64>, at_own: Option<f64>) -> f64 {
     let planned = now.plan().map(|plan| plan.cuts as f64);
@@ -140,7 +149,7 @@ fn expected_cuts(now: &Came, by_formula: Option<f64>, at_own: Option<f64>) -> f6
     }
 }
 
-/// A plan that exceeds the limit that it was made for is none.
+/// A plan that exceeds the limit that it was made for does not count.
 fn within(against: Against, limit: f64, came: Came) -> Came {
     match came {
         Came::Planned(plan) if against.of(&plan) > limit + WITHIN => Came::Nothing,
@@ -148,27 +157,30 @@ fn within(against: Against, limit: f64, came: Came) -> Came {
     }
 }
 
-/// What was found for a tighter limit, and the job's own plan, also keep a wider limit. Points that add nothing are left out.
+/// A plan for a tighter limit, and the job's own plan, also keep a wider limit. Points that save nothing are left out; those that were
+/// not planned stay, because nothing is known of them.
 fn best_of_all(against: Against, now: &Came, found: Vec<Point>) -> Vec<Point> {
-    let plans: Vec<Plan> = found
+    let mut known: Vec<Plan> = found
         .iter()
         .filter_map(|point| point.came.plan())
         .chain(now.plan())
         .cloned()
         .collect();
+    known.sort_by(|one, other| one.time.total_cmp(&other.time));
+    let kept = |limit: f64| known.iter().find(|plan| against.of(plan) <= limit + WITHIN);
     let mut points: Vec<Point> = Vec::new();
     for point in found {
-        let kept = plans
-            .iter()
-            .filter(|plan| against.of(plan) <= point.limit + WITHIN)
-            .min_by(|one, other| one.time.total_cmp(&other.time));
-        let came = kept.map_or(point.came, |plan| Came::Planned(Box::new(plan.clone())));
-        let adds = came.plan().is_none_or(|plan| {
-            let known = points.iter().filter_map(|point| point.came.plan());
-            let mut known = known.chain(now.plan().filter(|now| against.of(now) <= point.limit));
-            known.all(|known| plan.time < known.time)
-        });
-        if adds {
+        let came = match (point.came, kept(point.limit)) {
+            (Came::TooLarge, _) => Came::TooLarge,
+            (_, Some(plan)) => Came::Planned(Box::new(plan.clone())),
+            (came @ (Came::Planned(_) | Came::Nothing), None) => came,
+        };
+        let is_faster = |plan: &Plan| {
+            let before = points.iter().filter_map(|point| point.came.plan());
+            let now = now.plan().filter(|now| against.of(now) <= point.limit + WITHIN);
+            before.chain(now).all(|known| plan.time < known.time)
+        };
+        if came.plan().is_none_or(is_faster) {
             points.push(Point { came, ..point });
         }
     }

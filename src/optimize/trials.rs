@@ -16,7 +16,7 @@ use vcutc_vcut::PlannedVcut;
 use vcutc_vcut::asked::RoughVcut;
 use vcutc_vcut::plan::parameters::VcutParameters;
 
-/// What came of a change of the job.
+/// The result of a change of the job.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Came {
     /// A plan with nothing wrong.
@@ -95,6 +95,12 @@ impl<'j> Trials<'j> {
     /// With room for so many cuts together.
     pub(super) const fn new(subject: Subject<'j>, room: f64) -> Self {
         Self { subject, room }
+    }
+
+    /// The plan of the job as it is. It was planned before, so there is always room for it.
+    pub(super) fn unchanged(&self) -> Came {
+        let plan = self.subject.planned(|_| {});
+        plan.map_or(Came::Nothing, |plan| Came::Planned(Box::new(plan)))
     }
 
     /// The plan of a change that is expected to come to so many cuts.

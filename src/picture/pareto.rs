@@ -48,7 +48,7 @@ const AIR: f64 = 0.08;
 const WORDS: f64 = 28.0;
 /// The greatest measure that is shown.
 const HIGHEST: f64 = 1e9;
-/// The shortest time that is told from none, in s, and about thirty years.
+/// The shortest time that is shown as such, in s, and about thirty years.
 const TIMES: [f64; 2] = [0.01, 1e9];
 /// Paint of the formulas' curves, in their order: dark to light, whole to dotted.
 const STROKES: [&str; 3] = [
@@ -144,7 +144,7 @@ fn series(pareto: &Pareto<'_>, plot: &Plot) -> Vec<Series> {
     let front: Vec<Point> = pareto.front.iter().copied().map(shown).collect();
     let steps = steps(&front, right);
     let mut series = Vec::new();
-    if let (Some(&first), Some(_)) = (steps.first(), steps.last()) {
+    if let Some(&first) = steps.first() {
         let corners = [[right, top], [first[0], top]];
         let had = Series::new(Shape::Polygon([&steps[..], &corners].concat()), TINT);
         series.push(had.named("can be had, as planned"));
@@ -163,7 +163,7 @@ fn series(pareto: &Pareto<'_>, plot: &Plot) -> Vec<Series> {
     let line = format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"2\"");
     series.push(Series::new(Shape::Curve(steps), line));
     let round = format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"7\" stroke-linecap=\"round\"");
-    series.push(Series::new(Shape::Dots(front), round).named("a plan"));
+    series.push(Series::new(Shape::Dots(front), round));
     if let Some(now) = pareto.now.map(shown) {
         series.push(Series::mark(Mark::RING, now, None).named("the job"));
     }

@@ -1,9 +1,9 @@
 //! `vcutc place`: the base frame that leaves the machine the most room, or with which its cuts deviate least, from a job's text.
 //!
-//! The job is planned and proven as for a compilation, because the cuts do not depend on where the work
-//! stands. Then [`mod@search`] looks for places by the critical poses, as far as the axes follow the critical
-//! motions there ([`vcutc_motion::critical`]), and the best of them are put to the whole proof, one by one,
-//! until one passes. The job itself is not changed: what people get is the frame to paste.
+//! The job is planned and proven as for a compilation: its cuts do not depend on where the work stands. Then [`mod@search`] looks for
+//! places by the critical poses, as far as the axes follow the critical motions there ([`vcutc_motion::critical`]), and by a few places
+//! of the cuts, where their deviation counts. The whole program is proven in the best of these places, one by one, until one passes. The
+//! job itself is not changed: people get the frame to paste.
 
 mod bounds;
 mod map;
@@ -105,7 +105,7 @@ pub enum Refusal {
 
 /// Poses beside the outermost ones, for each orientation, that the grid and the climbs are judged by.
 const SPREAD: (usize, usize) = (4, 40);
-/// Most places that are put to the whole proof.
+/// In how many places the whole program is proven at most.
 const MOST_PROOFS: usize = 8;
 /// How often bounds that the user did not set are widened.
 const MOST_WIDENINGS: usize = 3;
@@ -335,14 +335,14 @@ fn placed(
     }
 }
 
-/// Puts a place to the whole proof.
+/// Proves the whole program in a place.
 fn prove(ready: &Ready, objective: Objective, place: Placed, refused: &mut Vec<String>) -> Option<Best> {
     let now = ready.machine.base.value;
     let base = PlacedFrame {
         frame: wording::rounded(&place.spot.frame(&now.frame)),
         ..now
     };
-    match tried(ready, objective, base) {
+    match tried(ready, objective, base).and_then(|room| room.with_enough(objective)) {
         Ok(room) => Some(Best {
             spot: place.spot,
             base,
@@ -358,21 +358,34 @@ fn prove(ready: &Ready, objective: Objective, place: Placed, refused: &mut Vec<S
 /// What room the whole program leaves with the base there; in words, why it is not carried out.
 fn tried(ready: &Ready, objective: Objective, base: PlacedFrame) -> Result<Room, String> {
     let Ready {
-        job,
-        machine,
-        plan,
-        proven,
+        job, machine, plan, ..
     } = ready;
     let moved = moved(machine, base);
-    let reached = carried_out(plan, &moved, &Wanted::ALWAYS)
+    let room = carried_out(plan, &moved, &Wanted::ALWAYS)
+        .map(|reached| Room::of(&reached))
         .map_err(|unreached| room::why_not(&unreached, &machine.model))?;
-    let deviation = match objective {
-        Objective::Margin => None,
-        Objective::Deviation => driver::dynamics::deviation(job, &moved, &reached, &proven.report)
-            .ok()
-            .and_then(|figures| Deviation::of(&figures)),
-    };
-    Ok(Room::of(&reached, deviation))
+    match objective {
+        Objective::Margin => Ok(room),
+        Objective::Deviation => deviating(job, moved),
+    }
+}
+
+/// What room the job leaves on a machine that may have moved, and how far its cuts are pushed off there. It is compiled, because where
+/// it was out of reach before, the machine may now carry out a better plan.
+fn deviating(job: &CheckedJob, moved: Machine) -> Result<Room, String> {
+    let mut there = job.clone();
+    there.machine = Some(moved.clone());
+    let compiled = driver::compile_checked(&there, &Wanted::ALWAYS).map(|(_, compiled)| compiled);
+    let reached = compiled
+        .as_ref()
+        .and_then(|compiled| Some((compiled.program.reached()?, &compiled.report)));
+    let (reached, report) = reached.ok_or("the job does not compile there")?;
+    let deviation = driver::dynamics::deviation(&there, &moved, reached, report).ok();
+    let deviation = deviation.as_ref().and_then(Deviation::of);
+    Ok(Room {
+        deviation: Some(deviation.ok_or("the deviation is not known there")?),
+        ..Room::of(reached)
+    })
 }
 
 /// The machine with the base there.

@@ -1,5 +1,6 @@
 //! The result of placing, for people and for programs.
 
+use crate::room::percent;
 use crate::search::Bounds;
 use crate::spot::Spot;
 use crate::{Best, Deviation, Objective, Placement, Room, Standing};
@@ -34,6 +35,15 @@ pub fn text(placement: &Placement) -> String {
     };
     row("searched", &range(bounds));
     row("now", &standing(now));
+    if let Ok(room) = &now.room
+        && room.deviation.is_some()
+        && !room.has_enough()
+    {
+        row(
+            "",
+            "with less than the 10 % that a place must have to be chosen for its deviation",
+        );
+    }
     match best {
         Some(best) if !is_better(best, now) => {
             row(
@@ -89,11 +99,7 @@ fn standing(now: &Standing) -> String {
 }
 
 fn room(room: &Room) -> String {
-    let margin = format!(
-        "margin {} %, least {}",
-        show((room.margin * 1000.0).floor() / 10.0),
-        room.least
-    );
+    let margin = format!("margin {}, least {}", percent(room.margin), room.least);
     match &room.deviation {
         Some(Deviation { most, at, axis }) => format!(
             "deviation {}, most of it by {axis}, {at}; {margin}",

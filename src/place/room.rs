@@ -1,8 +1,9 @@
 //! What room a program leaves its machine, or why it is not carried out, in a few words.
 
-use crate::score::LEAST_MARGIN;
+use crate::score::{LEAST_MARGIN, Objective};
 use vcutc_backend_api::ir::{OpId, Program, Site};
 use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::number::show;
 use vcutc_dynamics::deviation::figures::DeviationFigures;
 use vcutc_machine::Model;
 use vcutc_motion::describe::site_words;
@@ -33,7 +34,7 @@ pub struct Deviation {
 }
 
 impl Room {
-    pub(super) fn of(reached: &Reached, deviation: Option<Deviation>) -> Self {
+    pub(super) fn of(reached: &Reached) -> Self {
         let figures = figures(reached);
         let least = &figures.least;
         let what = match figures.axes.iter().find(|axis| axis.name == least.of) {
@@ -46,17 +47,31 @@ impl Room {
         Self {
             margin: figures.margin,
             least: format!("{what}, {}", least.at.words),
-            deviation,
+            deviation: None,
         }
+    }
+
+    /// The same where the margin is enough for a place that is chosen by that.
+    pub(super) fn with_enough(self, objective: Objective) -> Result<Self, String> {
+        match objective {
+            Objective::Deviation if !self.has_enough() => {
+                Err(format!("the margin is {}", percent(self.margin)))
+            }
+            Objective::Margin | Objective::Deviation => Ok(self),
+        }
+    }
+
+    /// Whether a place with this margin may be chosen for its deviation.
+    pub(super) fn has_enough(&self) -> bool {
+        self.margin >= LEAST_MARGIN
     }
 
     /// Whether it is better than another one.
     pub(super) fn is_better_than(&self, other: &Self) -> bool {
         match (&self.deviation, &other.deviation) {
-            (Some(one), Some(other_one)) => match (self.margin >= LEAST_MARGIN, other.margin >= LEAST_MARGIN)
-            {
-                (true, true) => one.most < other_one.most,
-                (has_room, _) => has_room || self.margin > other.margin,
+            (Some(one), Some(than)) => match (self.has_enough(), other.has_enough()) {
+                (true, true) => one.most < than.most,
+                (has_enough, _) => has_enough || self.margin > other.margin,
             },
             (Some(_) | None, _) => self.margin > other.margin,
         }
@@ -86,6 +101,11 @@ fn outermost(axis: &AxisFigure) -> f64 {
     } else {
         axis.high
     }
+}
+
+/// A margin, rounded down to a tenth of a percent.
+pub(super) fn percent(margin: f64) -> String {
+    format!("{} %", show((margin * 1000.0).floor() / 10.0))
 }
 
 /// Why a program is not carried out.

@@ -19,6 +19,9 @@ pub enum Objective {
 /// The margin that a place keeps that is chosen for its deviation, from 0 to 1.
 pub const LEAST_MARGIN: f64 = 0.1;
 
+/// The margin of taught poses that a search asks for: on the motions between them it is a little smaller.
+const SOUGHT_MARGIN: f64 = LEAST_MARGIN + 0.01;
+
 /// How good a place is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Score {
@@ -72,7 +75,7 @@ impl<'s, 'm> Scorer<'s, 'm> {
                 deviation: None,
             };
         };
-        let has_room = room.reached().is_some_and(|margin| margin >= LEAST_MARGIN);
+        let has_room = room.reached().is_some_and(|margin| margin >= SOUGHT_MARGIN);
         let moved = self.moved.filter(|_| has_room);
         Score {
             room,

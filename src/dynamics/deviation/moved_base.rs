@@ -58,7 +58,7 @@ impl<'d, 'c> MovedBase<'d, 'c> {
     }
 
     /// The most that an edge is off either way in these places, with the work there and the arm on this branch, with forces and joints
-    /// anywhere within what is stated. None where the arm does not get to one of them.
+    /// anywhere within what is stated. None where the arm does not reach one of them.
     #[must_use]
     pub fn most(&self, work_in_root: &Pose, branch: Branch) -> Option<Length> {
         let known = self.deviations.cuts.known();

@@ -207,6 +207,94 @@ fn time_is_traded_against_cuts_and_edge() {
     }
 }
 
+/// What there are too many cuts for is not planned, and is named. The more points, the closer they are, and none is lost.
+#[test]
+fn what_is_not_planned_is_named() {
+    let fine = BLOCK.replace(
+        "  rake = 60 deg\n",
+        "  rake = 60 deg\n  lattice = orthogonal\n  layer = 0.6 mm\n  model = paper\n",
+    );
+    let folder = folder();
+    fs::write(folder.path().join("block.vcut"), fine).unwrap();
+    let run = vcutc(
+        folder.path(),
+        &[
+            "optimize",
+            "block.vcut",
+            "--points",
+            "3",
+            "--message-format",
+            "json",
+        ],
+    );
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let found: Value = serde_json::from_str(&run.stdout).unwrap();
+    let operation = &found["operations"][0];
+    assert!(
+        operation["planned"]["cuts"].as_u64().unwrap() > 3_000,
+        "{}",
+        operation["planned"]
+    );
+    let named = operation["not_wider"].as_array().unwrap();
+    assert!(!named.is_empty(), "{operation}");
+    let trade_off = &operation["trade_off"];
+    assert_eq!(trade_off["now"]["cuts"], operation["planned"]["cuts"]);
+    let points = trade_off["points"].as_array().unwrap();
+    assert!(
+        points.iter().any(|point| point["outcome"] == "not_planned"),
+        "{trade_off}"
+    );
+
+    let limits = |points: &str| -> Vec<f64> {
+        let answer = answer(&["--points", points]);
+        let trade_off = answer["operations"][0]["trade_off"]["points"]
+            .as_array()
+            .unwrap()
+            .clone();
+        let planned = trade_off.iter().filter(|point| point["outcome"] != "not_planned");
+        planned.map(|point| point["limit"].as_f64().unwrap()).collect()
+    };
+    assert!(limits("40").len() >= limits("10").len());
+}
+
+/// A limit that the compiler chose is part of what other lattices are compared under.
+#[test]
+fn a_chosen_limit_is_named_where_a_change_depends_on_it() {
+    let open = BLOCK
+        .replace(", scallop <= coarsest", "")
+        .replace("  rake = 60 deg\n", "  rake = 60 deg\n  lattice = orthogonal\n");
+    let folder = folder();
+    fs::write(folder.path().join("block.vcut"), &open).unwrap();
+    let run = vcutc(
+        folder.path(),
+        &[
+            "optimize",
+            "block.vcut",
+            "--points",
+            "2",
+            "--message-format",
+            "json",
+        ],
+    );
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let answer: Value = serde_json::from_str(&run.stdout).unwrap();
+    let faster = &answer["operations"][0]["faster"][0];
+    let change = faster["change"].as_str().unwrap();
+    let (lattice, limits) = change
+        .split_once(" and limits { ")
+        .unwrap_or_else(|| panic!("{faster}"));
+    let limit = limits.trim_end_matches(" }");
+    let changed = open.replace("lattice = orthogonal", lattice).replace(
+        "limits { swing <= 50 deg",
+        &format!("limits {{ swing <= 50 deg, {limit}"),
+    );
+    let took = time_of(&changed, &[]);
+    assert!(
+        (faster["planned"]["time"].as_f64().unwrap() - took).abs() < 1e-9,
+        "{change}: {took} s"
+    );
+}
+
 /// The operations of a job are planned under other limits one by one, with those before them.
 #[test]
 fn jobs_of_several_operations_have_plans_under_other_limits() {

@@ -264,6 +264,84 @@ fn no_place_of_a_grid_has_a_smaller_deviation() {
     assert!(by_margin["best"]["deviation"].is_null() && by_margin["map"]["deviations"].is_null());
 }
 
+/// Wherever the base is now, the place has the deviation and the margin of the job there.
+#[test]
+fn the_deviation_of_a_place_is_that_of_the_job_there() {
+    let out = folder();
+    copy(
+        &root().join("tests/process/err/support"),
+        &out.path().join("support"),
+    );
+    let place = |now: &str, bounds: &[&str]| -> Value {
+        fs::write(out.path().join("soft.vcut"), soft(now)).unwrap();
+        let asked = [
+            "place",
+            "soft.vcut",
+            "--objective",
+            "deviation",
+            "--message-format",
+            "json",
+        ];
+        let run = vcutc(out.path(), &[&asked[..], bounds].concat());
+        assert_eq!(run.code, Some(0), "{} {}", run.stdout, run.stderr);
+        serde_json::from_str(&run.stdout).unwrap()
+    };
+    let base =
+        |x: i32| format!("frame(x = {x} mm, y = -30 mm, z = 850 mm, a = 90 deg, b = 0 deg, c = 0 deg)");
+    let cases: [(i32, &[&str]); 3] = [
+        // Out of reach: there the job would be planned along another route.
+        (2900, &["--x", "1600", "--y", "0", "--z", "850", "--yaw", "0"]),
+        // The best places by the taught poses have a margin of a little less than 10 % between them.
+        (
+            1900,
+            &[
+                "--x",
+                "1000..2400",
+                "--y",
+                "-30..30",
+                "--z",
+                "250..1150",
+                "--yaw",
+                "60..90",
+            ],
+        ),
+        (
+            1900,
+            &[
+                "--x",
+                "1700..1900",
+                "--y",
+                "0",
+                "--z",
+                "550..1150",
+                "--yaw",
+                "0..10",
+            ],
+        ),
+    ];
+    for (now, bounds) in cases {
+        let answer = place(&base(now), bounds);
+        let best = &answer["best"];
+        let [deviation, margin] = deviation_of(out.path(), best["base"].as_str().unwrap()).unwrap();
+        let said = best["deviation"].as_f64().unwrap();
+        assert!(
+            (deviation - said).abs() < 1e-4,
+            "{bounds:?}: {deviation} mm in the job, {said} mm said"
+        );
+        assert!(margin >= 0.1, "{bounds:?}: {best}");
+    }
+    // Another base within the last bounds, found by hand.
+    let by_hand = "frame(x = 1700 mm, y = 0 mm, z = 898 mm, a = 90 deg, b = 0 deg, c = 0 deg)";
+    let [by_hand, margin] = deviation_of(out.path(), by_hand).unwrap();
+    let found = place(&base(1900), cases[2].1)["best"]["deviation"]
+        .as_f64()
+        .unwrap();
+    assert!(
+        margin >= 0.1 && found <= 1.005 * by_hand,
+        "{found} mm found, {by_hand} mm by hand"
+    );
+}
+
 #[test]
 fn a_place_is_chosen_for_a_deviation_that_is_known() {
     let run = vcutc(
