@@ -13,6 +13,7 @@ use std::path::Path;
 use vcutc_backend_api::bundle::Sink;
 use vcutc_driver::RequestError;
 use vcutc_driver::memory::Memory;
+use vcutc_driver::summary::is_of_regions;
 use vcutc_picture::Prefix;
 use vcutc_report::{Material, pictures};
 
@@ -112,12 +113,11 @@ fn without(what: What, material: &Material<'_>) -> Failure {
         What::Surface | What::Residual if material.job.part.surface().is_some() => {
             Failure::new("too many triangles of the surface lie over each other to draw it")
         }
+        What::Finished | What::Tilt | What::Tracks => without_finishing(what, material),
         What::Surface | What::Residual => Failure::new(
             "the part is a profile, the same at every y, so there is nothing to show from above",
         )
         .help("draw `--what contour` or `--what deviation`, or write `surface { ... }` instead of `profile`"),
-        What::Finished => Failure::new("no operation finishes a part that changes along y")
-            .help("write `finish disc` after the roughing of a `surface`, or draw `--what contour`"),
         What::Process => Failure::new("the job leaves no choice between two processes that both compile")
             .help("write `rough auto { ... }` with blocks `vcut` and `rect`"),
         What::Field => Failure::new("no pocket of the job is cleared along a sound field")
@@ -140,8 +140,35 @@ fn without(what: What, material: &Material<'_>) -> Failure {
     }
 }
 
+/// Why there is no picture of finishing: what the job lacks for it.
+fn without_finishing(what: What, material: &Material<'_>) -> Failure {
+    let finish = "write `finish disc { ... }` after the roughing";
+    let surface = "write `surface { ... }` instead of `profile`";
+    let has_surface = material.job.part.surface().is_some();
+    if is_of_regions(material.plan) {
+        return Failure::new("the job works in regions of the plan, and no operation finishes with a disc")
+            .help("draw `--what passes`");
+    }
+    match (pictures::has_tracks(material), has_surface) {
+        (false, false) if what != What::Tracks => {
+            Failure::new("the part is a profile, and no operation finishes it with a disc")
+                .help(format!("{surface}, and {finish}"))
+        }
+        (false, _) => Failure::new("no operation finishes the part with a disc").help(finish),
+        (true, false) if what == What::Tilt => Failure::new(
+            "the part is a profile, from whose normal the disc leans by the same angle on all tracks",
+        )
+        .help(format!("draw `--what tracks`, or {surface}")),
+        (true, false) => Failure::new(
+            "the part is a profile, the same at every y, so there is no map of what finishing leaves",
+        )
+        .help(format!("draw `--what contour`, or {surface}")),
+        (true, true) => Failure::new("the tracks have too many poses to draw them"),
+    }
+}
+
 /// The picture; none where it is about the machine and the job has none, about a choice that it does not leave, or about a
-/// surface, or what finishing leaves on one, and there is none.
+/// surface or finishing, and there is none.
 fn picture(what: What, material: &Material<'_>) -> Option<String> {
     let ids = Prefix::NONE;
     match what {
@@ -163,6 +190,8 @@ fn picture(what: What, material: &Material<'_>) -> Option<String> {
         What::Surface => pictures::surface(material, ids),
         What::Residual => pictures::residual(material, ids),
         What::Finished => pictures::finished(material, ids),
+        What::Tilt => pictures::tilt(material, ids),
+        What::Tracks => pictures::tracks(material, ids),
         What::Passes => pictures::passes(material, ids),
         What::Field => pictures::wave(material, ids),
     }

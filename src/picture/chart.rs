@@ -4,7 +4,7 @@ use super::Point;
 use super::palette::INK;
 use super::scale::Scale;
 use super::sheet::{self, Entry, HALO, Heading, Room};
-use super::svg::{Along, Anchor, Mark, Svg};
+use super::svg::{Along, Anchor, Mark, Svg, head};
 use super::trace::{Trace, number};
 
 /// Room below a plot for its axis.
@@ -50,6 +50,10 @@ pub(super) enum Shape {
     Dots(Vec<Point>),
     /// Lines, each from a point to another one.
     Lines(Vec<[Point; 2]>),
+    /// Lines through points.
+    Ways(Vec<Vec<Point>>),
+    /// The heads of arrows, each from a point to another one.
+    Heads(Vec<[Point; 2]>),
     /// A line at a height.
     Level(f64),
     /// A line at a value of the lower axis.
@@ -86,10 +90,14 @@ impl Series {
     fn entry(&self) -> Option<Entry> {
         let words = self.words.clone()?;
         Some(match self.shape {
-            Shape::Curve(_) | Shape::Lines(_) | Shape::Dots(_) | Shape::Level(_) | Shape::Upright(_) => {
-                Entry::line(self.paint.as_str(), words)
-            }
+            Shape::Curve(_)
+            | Shape::Lines(_)
+            | Shape::Ways(_)
+            | Shape::Dots(_)
+            | Shape::Level(_)
+            | Shape::Upright(_) => Entry::line(self.paint.as_str(), words),
             Shape::Area(_) | Shape::Polygon(_) | Shape::Boxes(_) => Entry::area(self.paint.as_str(), words),
+            Shape::Heads(_) => Entry::head(self.paint.as_str(), words),
             Shape::Mark(mark, ..) => Entry::mark(mark, words),
         })
     }
@@ -211,6 +219,17 @@ impl Plot {
             Shape::Lines(lines) => {
                 let lines = lines.iter().map(|line| line.map(|point| self.at(point)));
                 svg.path(Trace::pieces(lines).text(), paint);
+            }
+            Shape::Ways(ways) => {
+                let ways = ways.iter().map(|way| way.iter().map(at));
+                svg.path(Trace::pieces(ways).text(), paint);
+            }
+            Shape::Heads(arrows) => {
+                let mut heads = Trace::default();
+                for arrow in arrows {
+                    heads.closed(head(arrow.map(|point| self.at(point))));
+                }
+                svg.path(heads.text(), paint);
             }
             Shape::Level(level) => svg.path(&self.level(*level), paint),
             Shape::Upright(x) => {

@@ -215,7 +215,7 @@ impl Classes {
     }
 
     /// The best first.
-    fn from_the_best(self) -> Vec<u32> {
+    fn best_first(self) -> Vec<u32> {
         match self.measure {
             Measure::Margin => (0..self.count).rev().collect(),
             Measure::Deviation => (0..self.count).collect(),
@@ -228,7 +228,7 @@ fn cells(map: &HeatMap<'_>, tiles: Tiles<'_>, classes: Classes) -> Vec<Series> {
     let class = |value: &Option<f64>| value.map(|value| classes.class(value));
     let mut boxes = tiles.by_class(&map.values.iter().map(class).collect::<Vec<_>>());
     let out_of_reach = boxes.remove(&None).unwrap_or_default();
-    let coloured = classes.from_the_best().into_iter().map(|class| {
+    let coloured = classes.best_first().into_iter().map(|class| {
         let boxes = boxes.remove(&Some(class)).unwrap_or_default();
         Series::new(Shape::Boxes(boxes), classes.paint(class)).named(classes.words(class))
     });

@@ -36,6 +36,7 @@ mod tiles;
 pub mod times;
 pub mod torques;
 mod trace;
+pub mod tracks;
 pub mod wave;
 
 pub use palette::dark;

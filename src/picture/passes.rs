@@ -68,7 +68,7 @@ pub fn draw(passes: &Passes<'_>) -> String {
 
 fn series(passes: &Passes<'_>) -> Vec<Series> {
     let mut series = vec![Series::new(
-        Shape::Polygon(frame(passes.size)),
+        Shape::Polygon(tiles::outline(passes.size)),
         format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"1\""),
     )];
     if !passes.uncut.is_empty() {
@@ -104,10 +104,6 @@ fn series(passes: &Passes<'_>) -> Vec<Series> {
         });
     }
     series
-}
-
-fn frame([width, depth]: [f64; 2]) -> Vec<Point> {
-    vec![[0.0, 0.0], [width, 0.0], [width, depth], [0.0, depth]]
 }
 
 fn segments<'p>(lines: impl Iterator<Item = &'p [Point]>) -> Vec<[Point; 2]> {

@@ -4,20 +4,21 @@ use super::Point;
 use super::chart::{Chart, Series, Shape};
 use super::palette::INK;
 use super::scale::{Step, round_step};
-use super::sheet::{Room, text_width};
+use super::sheet::Room;
 use super::svg::{Along, Mark};
 use super::tiles::{self, MOST_CLASSES, Tiles};
 use super::trace::number;
 
 pub use super::sheet::Heading;
 
-/// What a map shows; lengths in mm.
+/// What a map shows; lengths in mm, angles in degrees.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanMap<'a> {
     /// What it is about.
     pub heading: Heading<'a>,
     /// What its heights are, such as `height of the part`.
     pub what: &'a str,
+    pub quantity: Quantity,
     /// The stock along x and y.
     pub size: [f64; 2],
     /// How many cells it has along x and y.
@@ -29,16 +30,58 @@ pub struct PlanMap<'a> {
     /// The lowest one.
     pub lowest: (Point, f64),
     pub mean: f64,
-    /// The limit on the scallop, when the job has one and heights are what is left.
-    pub limit: Option<f64>,
+    /// The limit that the job sets them, if it does.
+    pub limit: Option<Limit<'a>>,
+}
+
+/// What the heights of a map stand for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Heights, in mm.
+    Height,
+    /// Angles, in degrees.
+    Angle,
+}
+
+impl Quantity {
+    /// What its values are in.
+    #[must_use]
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Height => "mm",
+            Self::Angle => "deg",
+        }
+    }
+
+    /// Where a cell is as the map shows it.
+    const fn place(self) -> &'static str {
+        match self {
+            Self::Height => "at its highest place",
+            Self::Angle => "where it is the largest",
+        }
+    }
+
+    /// What is more than a limit.
+    const fn above(self) -> &'static str {
+        match self {
+            Self::Height => "a place higher",
+            Self::Angle => "an angle larger",
+        }
+    }
+}
+
+/// A limit on what a map shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit<'a> {
+    /// What it is called, such as `scallop limit`.
+    pub name: &'a str,
+    pub value: f64,
 }
 
 /// Cells along the longer side of a map.
 const CELLS: f64 = 120.0;
 /// Cells along the shorter side of a long and narrow map.
 const FEWEST: u32 = 24;
-/// Room for the label of y, and between it, the values and their axis.
-const BESIDE: f64 = 36.0;
 /// Cells that are nearer to each other than this along x have the same line around them: what stands between two cuts and is higher
 /// than the limit.
 const NEAR: usize = 8;
@@ -78,22 +121,12 @@ pub fn draw(map: &PlanMap<'_>) -> String {
     Chart {
         heading: map.heading,
         description: description(map),
-        plot: tiles.plot(room(map)),
+        plot: tiles.plot(Room::of(map.heading.ids).beside(map.size[1])),
         labels: ["x across the cuts, mm", "y along the cuts, mm"],
         series,
         along: Some(Along::Width),
     }
     .draw()
-}
-
-/// With as much room to the left as the values of y need beside their label.
-fn room(map: &PlanMap<'_>) -> Room {
-    let room = Room::of(map.heading.ids);
-    let values = text_width(&format!("{:.0}", map.size[1]));
-    Room {
-        left: room.left.max(BESIDE + values),
-        ..room
-    }
 }
 
 fn edges(length: f64, count: u32) -> Vec<f64> {
@@ -109,6 +142,7 @@ struct Classes {
     /// The first class begins at so many steps.
     first: f64,
     count: u32,
+    quantity: Quantity,
 }
 
 impl Classes {
@@ -128,7 +162,12 @@ impl Classes {
             // Beyond the largest step there is none that fits.
             if count <= f64::from(MOST_CLASSES) || step.size < 0.99 * wanted {
                 let count = (count as u32).min(MOST_CLASSES);
-                return Self { step, first, count };
+                return Self {
+                    step,
+                    first,
+                    count,
+                    quantity: map.quantity,
+                };
             }
             wanted = step.size * 1.5;
         }
@@ -144,7 +183,7 @@ impl Classes {
             let height = (self.first + f64::from(class)) * self.step.size;
             self.step.words(height)
         });
-        format!("{from} to {to} mm")
+        format!("{from} to {to} {}", self.quantity.unit())
     }
 }
 
@@ -171,12 +210,13 @@ fn coloured(map: &PlanMap<'_>, tiles: Tiles<'_>, classes: Classes) -> Vec<Series
 }
 
 /// The line around what is higher than the limit: light under dark, to be seen on every colour.
-fn bound(map: &PlanMap<'_>, tiles: Tiles<'_>, limit: f64) -> [Series; 2] {
-    let is_above = |height: &Option<f64>| height.is_some_and(|height| height > limit);
+fn bound(map: &PlanMap<'_>, tiles: Tiles<'_>, limit: Limit<'_>) -> [Series; 2] {
+    let is_above = |height: &Option<f64>| height.is_some_and(|height| height > limit.value);
     let mut above: Vec<bool> = map.heights.iter().map(is_above).collect();
+    let named = format!("{}, {} {}", limit.name, number(limit.value), map.quantity.unit());
     let words = match above.contains(&true) {
-        true => format!("around all above the scallop limit, {} mm", number(limit)),
-        false => format!("nothing above the scallop limit, {} mm", number(limit)),
+        true => format!("around all above the {named}"),
+        false => format!("nothing above the {named}"),
     };
     for row in above.chunks_mut(map.cells[0].max(1) as usize) {
         close(row);
@@ -212,13 +252,13 @@ fn close(row: &mut [bool]) {
 /// The highest and the lowest place; and the mean, in the colour of its class.
 fn marks(map: &PlanMap<'_>, classes: Classes) -> [Series; 3] {
     let ((highest, most), (lowest, least)) = (map.highest, map.lowest);
-    let decimals = map.decimals();
-    let shown = |height| decimals.shown(height);
+    let (decimals, unit) = (map.decimals(), map.quantity.unit());
+    let shown = |height| format!("{} {unit}", decimals.shown(height));
     let mean = tiles::paint(classes.class(map.mean), classes.count);
     [
-        Series::mark(Mark::CROSS, highest, None).named(format!("most, {} mm", shown(most))),
-        Series::new(Shape::Boxes(Vec::new()), mean).named(format!("mean, {} mm", shown(map.mean))),
-        Series::mark(Mark::RING, lowest, None).named(format!("least, {} mm", shown(least))),
+        Series::mark(Mark::CROSS, highest, None).named(format!("most, {}", shown(most))),
+        Series::new(Shape::Boxes(Vec::new()), mean).named(format!("mean, {}", shown(map.mean))),
+        Series::mark(Mark::RING, lowest, None).named(format!("least, {}", shown(least))),
     ]
 }
 
@@ -246,26 +286,29 @@ impl Decimals {
 
 /// The map in words.
 fn description(map: &PlanMap<'_>) -> String {
-    let decimals = map.decimals();
-    let shown = |height| decimals.shown(height);
-    let at = |[x, y]: Point, height: f64| format!("{} mm at x {x:.1} mm, y {y:.1} mm", shown(height));
+    let (decimals, unit) = (map.decimals(), map.quantity.unit());
+    let shown = |height| format!("{} {unit}", decimals.shown(height));
+    let at = |[x, y]: Point, height: f64| format!("{} at x {x:.1} mm, y {y:.1} mm", shown(height));
     let limit = map.limit.map(|limit| {
         let cells = map.heights.iter().flatten().count().max(1);
         let above = map
             .heights
             .iter()
             .flatten()
-            .filter(|height| **height > limit)
+            .filter(|height| **height > limit.value)
             .count();
         let share = above as f64 / cells as f64 * 100.0;
         format!(
-            " {share:.1} percent of the cells have a place higher than the scallop limit of {} mm.",
-            shown(limit)
+            " {share:.1} percent of the cells have {} than the {} of {}.",
+            map.quantity.above(),
+            limit.name,
+            shown(limit.value)
         )
     });
     format!(
-        "The {} over the plan of the stock, of each cell at its highest place: at most {}, at least {}, {} mm on average.{}",
+        "The {} over the plan of the stock, of each cell {}: at most {}, at least {}, {} on average.{}",
         map.what,
+        map.quantity.place(),
         at(map.highest.0, map.highest.1),
         at(map.lowest.0, map.lowest.1),
         shown(map.mean),
@@ -286,13 +329,17 @@ mod tests {
                 subtitle: "12.3 cm\u{b3} are left",
             },
             what: "material left above the part",
+            quantity: Quantity::Height,
             size: [300.0, 200.0],
             cells,
             heights,
             highest: ([290.5, 190.0], 11.9),
             lowest: ([10.0, 20.0], -1e-12),
             mean: 4.2,
-            limit,
+            limit: limit.map(|value| Limit {
+                name: "scallop limit",
+                value,
+            }),
         }
     }
 

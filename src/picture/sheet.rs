@@ -5,7 +5,7 @@
 //! more for telephones; the page has its words. Colours are those that people who do not tell red from green tell apart [Okabe 2008], and marks
 //! differ in shape too.
 
-use super::svg::{Anchor, Mark, Svg};
+use super::svg::{Anchor, Mark, Svg, head};
 use super::{Point, Prefix, Setting};
 
 /// Width of a sheet that stands alone.
@@ -60,6 +60,15 @@ impl Room {
         }
     }
 
+    /// With as much room to the left as a value of the left axis needs beside the label of that axis.
+    pub(super) fn beside(self, value: f64) -> Self {
+        let value = text_width(&format!("{value:.0}"));
+        Self {
+            left: self.left.max(BESIDE + value),
+            ..self
+        }
+    }
+
     /// Width of the plot.
     pub(super) const fn across(&self) -> f64 {
         self.right - self.left
@@ -70,6 +79,9 @@ impl Room {
         self.across() as u32
     }
 }
+
+/// Room for the label of the left axis, and between it, the values and their axis.
+const BESIDE: f64 = 36.0;
 
 /// Lets a text be read on anything.
 pub(super) const HALO: &str =
@@ -126,6 +138,14 @@ impl Entry {
         let paint = paint.into();
         Self::new(words, move |svg, [x, y]| {
             svg.open([[x, y], [x + 24.0, y]], &paint)
+        })
+    }
+
+    /// The head of an arrow that leads to the right.
+    pub(super) fn head(paint: impl Into<String>, words: impl Into<String>) -> Self {
+        let paint = paint.into();
+        Self::new(words, move |svg, [x, y]| {
+            svg.closed(head([[x, y], [x + 18.0, y]]), &paint);
         })
     }
 

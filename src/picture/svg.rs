@@ -160,16 +160,9 @@ impl Svg {
 
     /// An arrow, with its head at the end.
     pub(super) fn arrow(&mut self, from: Point, to: Point, colour: &str) {
-        let [x, y] = [to[0] - from[0], to[1] - from[1]];
-        let length = libm::hypot(x, y).max(f64::MIN_POSITIVE);
-        let behind = |along: f64, across: f64| {
-            let [x, y] = [x / length, y / length];
-            [to[0] - along * x - across * y, to[1] - along * y + across * x]
-        };
         let line = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"2.5\"");
-        self.open([from, behind(9.0, 0.0)], &line);
-        let head = [to, behind(11.0, 5.5), behind(11.0, -5.5)];
-        self.closed(head, &format!("fill=\"{colour}\""));
+        self.open([from, behind([from, to], [9.0, 0.0])], &line);
+        self.closed(head([from, to]), &format!("fill=\"{colour}\""));
     }
 
     /// An axis that points out of the picture.
@@ -243,6 +236,21 @@ impl Svg {
         self.text
     }
 }
+
+/// The corners of the head of an arrow that leads from a point to another one, its tip first.
+pub(super) fn head(arrow: [Point; 2]) -> [Point; 3] {
+    let [_, tip] = arrow;
+    [tip, behind(arrow, [11.0, 5.5]), behind(arrow, [11.0, -5.5])]
+}
+
+/// A place so far before the end of an arrow, and so far beside it.
+fn behind([from, to]: [Point; 2], [along, across]: [f64; 2]) -> Point {
+    let [x, y] = [to[0] - from[0], to[1] - from[1]];
+    let length = libm::hypot(x, y).max(f64::MIN_POSITIVE);
+    let [x, y] = [x / length, y / length];
+    [to[0] - along * x - across * y, to[1] - along * y + across * x]
+}
+
 /// A text as it stands between tags and within double quotes, of XML and of HTML.
 pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());

@@ -108,6 +108,11 @@ fn runs(count: usize, holds: impl Fn(usize) -> bool) -> Vec<[usize; 2]> {
     runs
 }
 
+/// The corners of a stock of this size along x and y.
+pub(super) fn outline([width, depth]: [f64; 2]) -> Vec<Point> {
+    vec![[0.0, 0.0], [width, 0.0], [width, depth], [0.0, depth]]
+}
+
 /// The paint of a class out of so many: spread over the whole scale of colours, so that few classes differ well; without smoothing, so
 /// that no seams show between tiles.
 pub(super) fn paint(class: u32, count: u32) -> String {

@@ -130,7 +130,7 @@ pub fn place(
             match asked.objective {
                 Objective::Margin => Ok(by_margin(&ready, asked, bounds)),
                 Objective::Deviation => by_deviation(&ready, asked, bounds)
-                    .map_err(|why| Refusal::Diagnostics(vec![why], sources)),
+                    .map_err(|why| Refusal::Diagnostics(vec![*why], sources)),
             }
         }
     }
@@ -147,7 +147,7 @@ fn by_margin(ready: &Ready, asked: &Asked<'_>, bounds: Bounds) -> Placement {
 
 /// The place with the smallest deviation. The cuts are the same everywhere, but the arm has to get to them once before it is known what
 /// pushes it: now, or in the place with the largest margin.
-fn by_deviation(ready: &Ready, asked: &Asked<'_>, bounds: Bounds) -> Result<Placement, Diagnostic> {
+fn by_deviation(ready: &Ready, asked: &Asked<'_>, bounds: Bounds) -> Result<Placement, Box<Diagnostic>> {
     let Ready {
         job,
         machine,
@@ -156,14 +156,14 @@ fn by_deviation(ready: &Ready, asked: &Asked<'_>, bounds: Bounds) -> Result<Plac
     } = ready;
     let needs = Needs::placement(job.name_span);
     if proven.report.compensations.iter().any(Option::is_some) {
-        return Err(compensated_elsewhere(needs));
+        return Err(Box::new(compensated_elsewhere(needs)));
     }
     // Without these it is not known anywhere.
     if driver::dynamics::forces(job).is_empty() {
-        return Err(not_known(Unknown::Forces, needs, machine));
+        return Err(Box::new(not_known(Unknown::Forces, needs, machine)));
     }
     if machine.model.elasticity.is_none() {
-        return Err(not_known(Unknown::Elasticity, needs, machine));
+        return Err(Box::new(not_known(Unknown::Elasticity, needs, machine)));
     }
     let by_margin = by_margin(ready, asked, bounds);
     let (base, bounds) = match (&by_margin.now.room, &by_margin.best) {
@@ -177,7 +177,7 @@ fn by_deviation(ready: &Ready, asked: &Asked<'_>, bounds: Bounds) -> Result<Plac
     let found = driver::dynamics::deviating(job, machine, &reached, &proven.report, |deviations| {
         placed(ready, asked, bounds, Some(&MovedBase::of(deviations)))
     });
-    found.map_err(|why| not_known(why, needs, machine))
+    found.map_err(|why| Box::new(not_known(why, needs, machine)))
 }
 
 /// A job whose cuts are proven.

@@ -16,6 +16,7 @@ mod sections;
 mod strips;
 mod time;
 mod torques;
+mod tracks;
 mod wave;
 mod ways;
 
@@ -24,11 +25,12 @@ pub use by_forces::by_forces;
 pub use joints::{joints, joints_twice};
 pub use passes::{figures as pocket_figures, passes};
 pub use paths::paths;
-pub use plan_maps::{SurfaceMap, finished, residual, surface};
+pub use plan_maps::{SurfaceMap, finished, residual, surface, tilt};
 pub use process::process;
 pub use sections::SurfaceSections;
 pub use time::time;
 pub use torques::torques;
+pub use tracks::{DiscTracks, has_tracks, tracks};
 pub use wave::wave;
 
 use super::Material;

@@ -8,8 +8,10 @@
 //! only touches it, and does not colour it.
 
 mod across;
+mod bands;
 
 pub use across::Standing;
+pub use bands::Band;
 
 use crate::coverage::Tangled;
 use crate::region::{Half, Region, sides, width, within};
@@ -34,17 +36,17 @@ pub struct Cells {
     pub rows: u32,
 }
 
-/// Heights over the plan.
+/// Heights over the plan, or other values.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Map {
+pub struct Map<V = Length> {
     /// The highest place of each cell, row by row from the least y, each from the least x; none of a cell that nothing lies over.
-    pub cells: Vec<Option<Length>>,
+    pub cells: Vec<Option<V>>,
     /// The highest place of all.
-    pub highest: Over,
+    pub highest: Over<V>,
     /// The lowest one.
-    pub lowest: Over,
-    /// The mean over the plan.
-    pub mean: Length,
+    pub lowest: Over<V>,
+    /// The mean over all that has a value: for heights, over the plan.
+    pub mean: V,
 }
 
 /// What a map is of.
@@ -106,7 +108,7 @@ impl Surface {
                 self.raise_upright(bin, &grid, &mut tally)?;
             }
         }
-        Ok(tally.map())
+        Ok(tally.map(Length::mm))
     }
 
     /// Triangles that stand upright have no area in plan, but their edges count for what is highest.
@@ -290,17 +292,18 @@ impl Tally {
         Err(Tangled { place })
     }
 
-    fn map(self) -> Option<Map> {
+    /// The map, with what a number stands for.
+    fn map<V>(self, of: fn(f64) -> V) -> Option<Map<V>> {
         let over = |(height, place): (f64, [f64; 2])| Over {
-            height: Length::mm(height),
+            height: of(height),
             place: place.map(Length::mm),
         };
         (self.area > 0.0).then_some(())?;
         Some(Map {
             highest: over(self.highest?),
             lowest: over(self.lowest?),
-            mean: Length::mm(self.volume / self.area),
-            cells: self.cells.into_iter().map(|cell| cell.map(Length::mm)).collect(),
+            mean: of(self.volume / self.area),
+            cells: self.cells.into_iter().map(|cell| cell.map(of)).collect(),
         })
     }
 }

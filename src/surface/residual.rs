@@ -41,11 +41,11 @@ impl Volume {
     }
 }
 
-/// A height over a place of the plan.
+/// A height over a place of the plan, or what else there is to say of the place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Over {
+pub struct Over<V = Length> {
     /// The height.
-    pub height: Length,
+    pub height: V,
     /// The place, along x and y.
     pub place: [Length; 2],
 }

@@ -16,6 +16,8 @@ use vcutc::process::verdict;
 use vcutc::report::{Material, pictures};
 use vcutc::simulation::cross_section::Taken;
 use vcutc::simulation::prove;
+use vcutc_backend_api::ir::{Action, Site};
+use vcutc_machine::kinematics::pose::Pose;
 
 /// A job whose part changes along y, for maps.
 pub(crate) const BENT_HILL: &str = "job \"bent_hill\"
@@ -39,7 +41,7 @@ rough vcut {
 ";
 
 /// The pictures of `docs/pictures.md`: example, what is drawn.
-const SHOWN: [(&str, &str); 11] = [
+const SHOWN: [(&str, &str); 12] = [
     ("fairing", "lattice"),
     ("fairing", "contour"),
     ("fairing", "deviation"),
@@ -50,6 +52,7 @@ const SHOWN: [(&str, &str); 11] = [
     ("bent_hill", "surface"),
     ("bent_hill", "residual"),
     ("finished_dome", "finished"),
+    ("finished_dome", "tracks"),
     ("seat", "passes"),
 ];
 
@@ -70,6 +73,8 @@ pub(crate) fn picture(what: &str, outcome: &Outcome, ids: Prefix) -> String {
         "surface" => pictures::surface(&material, ids).unwrap(),
         "residual" => pictures::residual(&material, ids).unwrap(),
         "finished" => pictures::finished(&material, ids).unwrap(),
+        "tilt" => pictures::tilt(&material, ids).unwrap(),
+        "tracks" => pictures::tracks(&material, ids).unwrap(),
         "passes" => pictures::passes(&material, ids).unwrap(),
         "torques" => {
             let [picture] = pictures::torques(&material, [ids]).unwrap().pictures;
@@ -288,6 +293,68 @@ fn maps_show_what_finishing_leaves() {
             "{other}"
         );
     }
+}
+
+/// The tilt of a map and the length of tracks are those of the poses in the program, computed from the formula of the dome; in its page
+/// both pictures are as by themselves.
+#[test]
+fn tilts_and_tracks_are_those_of_the_program() {
+    let dome = outcome("finished_dome");
+    let material = Material::of(&dome).unwrap();
+    let program = dome.compiled.as_ref().unwrap().program.verified().program();
+    let (mut tilts, mut length, mut cuts): (Vec<f64>, f64, BTreeSet<u32>) =
+        (Vec::new(), 0.0, BTreeSet::new());
+    for segment in program.segments() {
+        let (Action::Follow { .. }, Site::Cut { cut, .. }) = (segment.op.action, segment.op.site) else {
+            continue;
+        };
+        let line = segment.line().unwrap();
+        cuts.insert(cut.get());
+        length += line.from.tip.distance(line.to.tip).to_mm();
+        let frame = program.frame(line.to).unwrap();
+        let (x, y) = (frame.origin.x, frame.origin.y);
+        if (0.0..=140.0).contains(&x) && (0.0..=160.0).contains(&y) {
+            let normal = glam::DVec3::new((x - 70.0) / 450.0, (y - 80.0) / 10_000.0, 1.0).normalize();
+            let axis = Pose::from(frame).rotation.z_axis;
+            tilts.push(libm::acos(axis.dot(normal).abs()).to_degrees());
+        }
+    }
+    assert!(tilts.len() > 300, "{}", tilts.len());
+    // The disc touches the part a little ahead of the middle of its edge, where the normal is another one.
+    let figures = pictures::SurfaceMap::of_tilt(&material).unwrap().figures();
+    let number = |word: &str| -> f64 {
+        let (_, rest) = figures.split_once(word).unwrap();
+        rest.split_once(" deg").unwrap().0.parse().unwrap()
+    };
+    for (word, of_poses) in [
+        ("least ", tilts.iter().copied().fold(f64::INFINITY, f64::min)),
+        ("most ", tilts.iter().copied().fold(0.0, f64::max)),
+    ] {
+        assert!(
+            (number(word) - of_poses).abs() < 0.15,
+            "{figures}: {word}{of_poses}"
+        );
+    }
+    let tracks = pictures::DiscTracks::of(&material).unwrap().figures();
+    let words = format!("{} tracks, {:.2} m in all;", cuts.len(), length / 1000.0);
+    assert!(tracks.starts_with(&words), "{tracks}, {words}");
+    let page = vcutc::report::page::page(&dome, vcutc::report::page::Further::NOTHING).unwrap();
+    for (what, prefix) in [("tilt", "tilt-"), ("tracks", "tracks-")] {
+        assert!(
+            page.contains(&picture(what, &dome, Prefix::new(prefix))),
+            "{what}"
+        );
+    }
+
+    // Tracks on a profile are drawn, their tilt is the same everywhere; without tracks there are neither.
+    let hood = outcome("finished_hood");
+    let hood = Material::of(&hood).unwrap();
+    assert!(pictures::tracks(&hood, Prefix::NONE).is_some());
+    assert_eq!(pictures::tilt(&hood, Prefix::NONE), None);
+    let hill = outcome("bent_hill");
+    let hill = Material::of(&hill).unwrap();
+    assert_eq!(pictures::tracks(&hill, Prefix::NONE), None);
+    assert_eq!(pictures::tilt(&hill, Prefix::NONE), None);
 }
 
 /// In a page on a dark ground every colour of every picture has a partner, and pictures for telephones are as wide as these.

@@ -47,7 +47,7 @@ pub(in crate::cli) struct PlotArgs {
 
     /// For one picture, the file or - for standard output (the default); for all, the folder (default: the current one)
     ///
-    /// Pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine, those of torques and of the deviation by forces an arm and blades of which these are known, that of processes `rough auto`, those of the surface and the residual a `surface`, that of finishing a `surface` and `finish disc`, that of passes `clear pocket` or `slit walls`.
+    /// Pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine, those of torques and of the deviation by forces an arm and blades of which these are known, that of processes `rough auto`, those of the surface and the residual a `surface`, those of finishing and of the tilt a `surface` and `finish disc`, that of tracks `finish disc`, that of passes `clear pocket` or `slit walls`.
     #[arg(short, long, value_name = "FILE.svg|DIR|-")]
     pub(in crate::cli) output: Option<String>,
 
@@ -82,6 +82,10 @@ pub(in crate::cli) enum What {
     Residual,
     /// How high material stands above such a part after `finish disc`, in sections across its tracks
     Finished,
+    /// How far the disc of `finish disc` leans from the normal of such a part, each cell where it is the largest
+    Tilt,
+    /// The tracks of `finish disc` from above, with their directions and the ways between them
+    Tracks,
     /// The passes of pockets from above, coloured by how much of the tool's rim is in the material, and the slits along walls
     Passes,
     /// The wave of the sound field that a pocket is cleared along, and its zero lines

@@ -3,9 +3,11 @@
 
 use crate::PlannedJob;
 use vcutc_backend_api::ir::{OperationId, Program};
+use vcutc_backend_api::units::Angle;
 use vcutc_region::coverage::Square;
 use vcutc_region::piece::Piece;
 use vcutc_region::place::Place;
+use vcutc_surface::map::Band;
 
 /// An operation of a finished program, as its own proof sees it.
 #[derive(Clone, Copy, Debug)]
@@ -30,4 +32,22 @@ pub struct FromAbove {
     pub entries: Vec<Place>,
     /// What stays uncut.
     pub uncut: Vec<Square>,
+}
+
+/// How far the axis of a disc leans from the normal of the part while it finishes it: the tilt, from above.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tilts {
+    /// What each track finishes, with the tilt along it.
+    pub bands: Vec<Band>,
+    /// The tilt where the lead is as great as the job allows; none where the job gives the lead.
+    pub limit: Option<TiltLimit>,
+}
+
+/// The greatest tilt that a limit on the lead allows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TiltLimit {
+    /// The limit on the lead.
+    pub lead: Angle,
+    /// The tilt with it, which a side tilt makes larger.
+    pub tilt: Angle,
 }

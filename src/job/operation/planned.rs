@@ -1,6 +1,6 @@
 //! The planned job: every choice made, nothing promised. What a plan of an operation is to the stages after it.
 
-use super::judged::{FromAbove, Judged};
+use super::judged::{FromAbove, Judged, Tilts};
 use super::search::RouteSet;
 use super::{Operation, Trials, WorksThere};
 use crate::description::{ParameterFigure, ParameterTable};
@@ -130,6 +130,11 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
 
     /// Its cuts from above, as a program states them; none where sections show them.
     fn seen_from_above(&self, _: OperationId, _: &Program) -> Option<FromAbove> {
+        None
+    }
+
+    /// How far its disc leans from the normal of a part that changes along y; none where no disc follows one.
+    fn tilts(&self) -> Option<Tilts> {
         None
     }
 

@@ -1,8 +1,8 @@
-//! A part that changes along y from above: how high it is, and what roughing and finishing leave above it.
+//! A part that changes along y from above: how high it is, what roughing and finishing leave above it, and how a disc goes over it.
 
 use super::figure::{Ids, Zoom, figure, slide};
 use super::{Section, Subject};
-use crate::pictures::{SurfaceMap, SurfaceSections};
+use crate::pictures::{DiscTracks, SurfaceMap, SurfaceSections};
 
 /// The section; none of a part that is a profile.
 pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
@@ -59,6 +59,37 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
             &|ids| finished.draw(ids),
         )
     });
+    let tilt = SurfaceMap::of_tilt(&subject.material).map(|tilt| {
+        figure(
+            &Ids {
+                page: "tilt-",
+                phone: "tilt-phone-",
+            },
+            Zoom::Free,
+            &format!(
+                "How far the axis of the disc leans from the normal of the part where it touches it, by its lead and side tilt: \
+                 {}{}. A place belongs to the nearest track. A cell has the largest tilt in it.",
+                tilt.figures(),
+                tilt.limit().map_or_else(String::new, |limit| format!(" ({limit})"))
+            ),
+            &|ids| tilt.draw(ids),
+        )
+    });
+    let tracks = tilt.as_ref().and_then(|_| DiscTracks::of(&subject.material));
+    let tracks = tracks.map(|tracks| {
+        figure(
+            &Ids {
+                page: "tracks-",
+                phone: "tracks-phone-",
+            },
+            Zoom::Free,
+            &format!(
+                "The ways of the middle of the disc's edge on its tracks, from above: {}. Heads of arrows show where tracks end.",
+                tracks.figures()
+            ),
+            &|ids| tracks.draw(ids),
+        )
+    });
     let off = match subject.material.job.part.spine() {
         None => "",
         Some(_) => ", with the spine of the cuts taken off",
@@ -86,8 +117,8 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
         )
     });
     let mut body = heights + left;
-    if let Some(after) = after {
-        body += after;
+    for figure in [after, tilt, tracks].into_iter().flatten() {
+        body += figure;
     }
     Some(Section {
         id: "surface",

@@ -1,10 +1,12 @@
-//! Maps over the plan of a part that changes along y: its height, and what the cuts leave above it.
+//! Maps over the plan of a part that changes along y: its height, what the cuts leave above it, and how a disc leans over it.
 
 use super::{corners, limit};
 use crate::Material;
-use vcutc_backend_api::units::Length;
+use vcutc_backend_api::units::{Angle, Length};
+use vcutc_diagnostics::number::{rounded, show};
+use vcutc_job::operation::judged::Tilts;
 use vcutc_picture::Prefix;
-use vcutc_picture::plan_map::{self, Decimals, Heading, PlanMap};
+use vcutc_picture::plan_map::{self, Decimals, Heading, Limit, PlanMap, Quantity};
 use vcutc_surface::map::{Cells, Map, Standing};
 use vcutc_surface::residual::Over;
 use vcutc_surface::surface::Surface;
@@ -28,15 +30,53 @@ pub fn finished(material: &Material<'_>, ids: Prefix) -> Option<String> {
     Some(SurfaceMap::of_finished(material)?.draw(ids))
 }
 
+/// How far the axis of the disc leans from the normal of the part where it finishes it (`picture::plan_map`); none of a job without
+/// tracks on a surface.
+#[must_use]
+pub fn tilt(material: &Material<'_>, ids: Prefix) -> Option<String> {
+    Some(SurfaceMap::of_tilt(material)?.draw(ids))
+}
+
 /// A map that is computed once and drawn in several places.
 #[derive(Clone, Debug)]
 pub struct SurfaceMap {
     title: String,
     what: &'static str,
+    quantity: Quantity,
     size: [f64; 2],
     cells: Cells,
-    map: Map,
-    limit: Option<f64>,
+    values: Values,
+    /// What limits the values, and the limit.
+    limit: Option<(&'static str, f64)>,
+}
+
+/// The values of a map as numbers: heights in mm, angles in degrees.
+#[derive(Clone, Debug)]
+struct Values {
+    cells: Vec<Option<f64>>,
+    highest: ([f64; 2], f64),
+    lowest: ([f64; 2], f64),
+    mean: f64,
+}
+
+impl Values {
+    fn of<V: Copy>(map: &Map<V>, number: fn(V) -> f64) -> Self {
+        let spot = |over: Over<V>| (over.place.map(Length::to_mm), number(over.height));
+        Self {
+            cells: map.cells.iter().map(|cell| cell.map(number)).collect(),
+            highest: spot(map.highest),
+            lowest: spot(map.lowest),
+            mean: number(map.mean),
+        }
+    }
+}
+
+/// What the limit on the scallop is called.
+const SCALLOP: &str = "scallop limit";
+
+/// An angle in degrees, without what rounding adds: a tilt at its limit is not above it.
+fn degrees(angle: Angle) -> f64 {
+    rounded(angle.to_deg(), 1e6)
 }
 
 impl SurfaceMap {
@@ -48,9 +88,10 @@ impl SurfaceMap {
         Some(Self {
             title: format!("{}: height of the part", material.plan.name),
             what: "height of the part",
+            quantity: Quantity::Height,
             size,
             cells,
-            map: surface.heights(cells).ok()??,
+            values: Values::of(&surface.heights(cells).ok()??, Length::to_mm),
             limit: None,
         })
     }
@@ -80,10 +121,11 @@ impl SurfaceMap {
         Some(Self {
             title: format!("{}: {title}", material.plan.name),
             what,
+            quantity: Quantity::Height,
             size,
             cells,
-            map: surface.left_over(&machined, cells).ok()??,
-            limit: limit(material),
+            values: Values::of(&surface.left_over(&machined, cells).ok()??, Length::to_mm),
+            limit: limit(material).map(|limit| (SCALLOP, limit)),
         })
     }
 
@@ -106,38 +148,70 @@ impl SurfaceMap {
         Some(Self {
             title: format!("{}: left above the part after finishing", material.plan.name),
             what: "height of the material that finishing leaves above the part",
+            quantity: Quantity::Height,
             size,
             cells,
-            map: Map::of_sections(&sections, cells, size)?,
-            limit: planned.asked().scallop_limit().map(|limit| limit.value.to_mm()),
+            values: Values::of(&Map::of_sections(&sections, cells, size)?, Length::to_mm),
+            limit: planned
+                .asked()
+                .scallop_limit()
+                .map(|limit| (SCALLOP, limit.value.to_mm())),
         })
     }
 
-    /// The least, the mean and the greatest height, in words.
+    /// The tilt of the disc on its tracks. None where none follow a surface, and where they have so many poses that it takes too long.
+    #[must_use]
+    pub fn of_tilt(material: &Material<'_>) -> Option<Self> {
+        let Tilts { bands, limit } = material
+            .plan
+            .operations
+            .iter()
+            .find_map(|planned| planned.tilts())?;
+        let (size, cells) = laid_out(material.job.part.surface()?);
+        let limit = limit.map(|limit| {
+            let name = if limit.tilt == limit.lead {
+                "limit on the lead"
+            } else {
+                "limit on the lead, with the side tilt"
+            };
+            (name, degrees(limit.tilt))
+        });
+        Some(Self {
+            title: format!("{}: tilt of the disc on its tracks", material.plan.name),
+            what: "tilt of the disc from the normal of the part",
+            quantity: Quantity::Angle,
+            size,
+            cells,
+            values: Values::of(&Map::of_bands(&bands, cells, size).ok()??, degrees),
+            limit,
+        })
+    }
+
+    /// The least, the mean and the greatest value, in words.
     #[must_use]
     pub fn figures(&self) -> String {
-        let Map {
-            lowest,
+        let Values {
+            highest: (_, most),
+            lowest: (_, least),
             mean,
-            highest,
             ..
-        } = &self.map;
-        let decimals = Decimals::of([lowest.height, highest.height].map(Length::to_mm));
-        let [least, mean, most] =
-            [lowest.height, *mean, highest.height].map(|height| decimals.shown(height.to_mm()));
-        format!("least {least} mm, mean {mean} mm, most {most} mm")
+        } = self.values;
+        let decimals = Decimals::of([least, most]);
+        let unit = self.quantity.unit();
+        let [least, mean, most] = [least, mean, most].map(|value| decimals.shown(value));
+        format!("least {least} {unit}, mean {mean} {unit}, most {most} {unit}")
+    }
+
+    /// The limit on the values, in words, if there is one.
+    #[must_use]
+    pub fn limit(&self) -> Option<String> {
+        let (name, value) = self.limit?;
+        Some(format!("{name}, {} {}", show(value), self.quantity.unit()))
     }
 
     /// Writes it as SVG.
     #[must_use]
     pub fn draw(&self, ids: Prefix) -> String {
-        let heights: Vec<Option<f64>> = self
-            .map
-            .cells
-            .iter()
-            .map(|cell| cell.map(Length::to_mm))
-            .collect();
-        let spot = |over: Over| (over.place.map(Length::to_mm), over.height.to_mm());
         plan_map::draw(&PlanMap {
             heading: Heading {
                 ids,
@@ -145,13 +219,14 @@ impl SurfaceMap {
                 subtitle: &self.figures(),
             },
             what: self.what,
+            quantity: self.quantity,
             size: self.size,
             cells: [self.cells.columns, self.cells.rows],
-            heights: &heights,
-            highest: spot(self.map.highest),
-            lowest: spot(self.map.lowest),
-            mean: self.map.mean.to_mm(),
-            limit: self.limit,
+            heights: &self.values.cells,
+            highest: self.values.highest,
+            lowest: self.values.lowest,
+            mean: self.values.mean,
+            limit: self.limit.map(|(name, value)| Limit { name, value }),
         })
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Cells, Grid, Map, TOUCH, Tally};
 use core::ops::RangeInclusive;
+use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::height_between;
 
@@ -74,7 +75,7 @@ impl Map {
             tally.volume += apart * f64::midpoint(one.area(), other.area());
             tally.area += apart * size[0];
         }
-        tally.map()
+        tally.map(Length::mm)
     }
 }
 

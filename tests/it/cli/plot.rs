@@ -95,8 +95,8 @@ fn what_finishing_leaves_is_drawn_of_tracks_on_a_surface_only() {
     assert_eq!((refused.code, refused.stdout.as_str()), (Some(2), ""));
     assert_eq!(
         refused.stderr,
-        "error: no operation finishes a part that changes along y\n  \
-         help: write `finish disc` after the roughing of a `surface`, or draw `--what contour`\n"
+        "error: the part is a profile, the same at every y, so there is no map of what finishing leaves\n  \
+         help: draw `--what contour`, or write `surface { ... }` instead of `profile`\n"
     );
 }
 

@@ -17,7 +17,7 @@ use vcutc_process::posture::Feed;
 use vcutc_surface::disc::{Disc, Pose};
 use vcutc_surface::gouge::Moves;
 use vcutc_surface::normals::Normals;
-use vcutc_surface::posture::frame_towards;
+use vcutc_surface::posture::{Lean, frame_towards};
 use vcutc_surface::section::{Section, Upright};
 use vcutc_surface::surface::Surface;
 use vcutc_surface::track::{Demand, Layer, NoTrack, Stop};
@@ -53,6 +53,8 @@ pub struct Track {
     pub highest: Point3,
     /// The pose there.
     pub pose: Pose,
+    /// Where the disc touches the part, and how it leans from its normal there, in the order of the way.
+    pub leans: Vec<(Point3, Lean)>,
 }
 
 /// What a track is to be like.
@@ -204,6 +206,7 @@ impl Layout<'_, '_, '_> {
             way,
             highest: highest.contact,
             pose: highest.placed.pose(),
+            leans: stops.iter().map(|stop| (stop.contact, stop.lean)).collect(),
         })
     }
 

@@ -15,16 +15,18 @@ use vcutc_diagnostics::number::show;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
 use vcutc_geometry::spine::Spine;
-use vcutc_job::PlannedOperation;
 use vcutc_job::description::{ParameterFigure, ParameterTable};
-use vcutc_job::operation::judged::Judged;
+use vcutc_job::operation::judged::{Judged, TiltLimit, Tilts};
 use vcutc_job::operation::{Operation, Trials, WorksThere};
 use vcutc_job::planned::{CutShape, Estimate, PlannedTip, TipOrigin};
+use vcutc_job::{Auto, PlannedOperation};
 use vcutc_process::beside::{Drive, Stage, Writer};
 use vcutc_process::lower::BLEND;
 use vcutc_process::verdict::words::explained;
 use vcutc_simulation::prove::{Bound, Finding, Passes, Replay};
 use vcutc_simulation::report::{Report, area_under};
+use vcutc_surface::map::Band;
+use vcutc_surface::posture::Lean;
 
 /// Finishing a surface with a disc, planned.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,6 +114,33 @@ impl PlannedOperation for PlannedOnSurface {
 
     fn judge(&self, judged: Judged<'_>, replay: &mut Replay) {
         proof::judge(held_to(&self.asked), judged, replay);
+    }
+
+    /// A track finishes the part halfway to both of its neighbours.
+    fn tilts(&self) -> Option<Tilts> {
+        let plan = &self.plan;
+        let half = plan.step.to_mm() / 2.0;
+        let bands = plan.tracks.iter().map(|track| {
+            let leans = track.leans.iter();
+            let mut angles: Vec<(f64, Angle)> = leans.map(|(at, lean)| (at.y, lean.tilt())).collect();
+            angles.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+            Band {
+                x: [track.x - half, track.x + half],
+                angles,
+            }
+        });
+        Some(Tilts {
+            bands: bands.collect(),
+            limit: match self.asked.lead.value {
+                Auto::Given(_) => None,
+                Auto::Auto => {
+                    let lead = self.asked.limits.lead.value;
+                    let side = plan.side;
+                    let tilt = Lean { lead, side }.tilt();
+                    Some(TiltLimit { lead, tilt })
+                }
+            },
+        })
     }
 
     fn estimate(&self) -> Estimate {
