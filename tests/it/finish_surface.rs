@@ -2,7 +2,10 @@
 //! space; read back, changed and refused.
 
 use crate::finish::{USUAL, compiled_on, proven, roughed_and_finished};
+use crate::pipeline::compile;
 use crate::rect::{is_same, machines, mended};
+use crate::repository::read;
+use crate::shop::folder;
 use vcutc::diagnostics::{Code, has_errors};
 use vcutc::driver;
 use vcutc::geometry::curve::Point2;
@@ -242,4 +245,28 @@ fn a_pose_that_is_lower_than_planned_enters_the_part() {
         "{found:?}"
     );
     assert!(found.y.is_some_and(|y| (-30.0..130.0).contains(&y)), "{found:?}");
+}
+
+/// Where the part is rounded along the track, the disc turns down while it goes on, and a small lead would lead it through its own face.
+/// A larger one is then chosen; where none is allowed, the place is named.
+#[test]
+fn a_disc_never_goes_down_through_its_own_face() {
+    let shell = read("examples/shell.vcut");
+    let wave = "3 mm * sin((y - 20 mm) / 240 mm * 360 deg)";
+    let wave = shell.replace("(y - 80 mm)^2 / 4000 mm", wave);
+    assert_ne!(wave, shell);
+    let outcome = compile("wave.vcut", &folder().with("wave.vcut", wave.clone()));
+    assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
+
+    let low = wave.replace("lead <= 12 deg", "lead <= 6 deg");
+    let outcome = compile("wave.vcut", &folder().with("wave.vcut", low));
+    let [found] = &outcome.diagnostics[..] else {
+        panic!("{:?}", outcome.diagnostics);
+    };
+    assert_eq!(found.code, Code::BladesTooSmall);
+    assert!(
+        found.message.contains("go down through its own face"),
+        "{}",
+        found.message
+    );
 }

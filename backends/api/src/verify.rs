@@ -39,7 +39,7 @@ mod tests;
 
 pub use air::hang;
 pub use capability::{Capabilities, Capability};
-pub use chain::{LARGEST_KINK, LARGEST_SLIP, LARGEST_SWEEP};
+pub use chain::{LARGEST_KINK, LARGEST_SLIP, LARGEST_SWEEP, goes_face_first};
 pub use cuts::UPRIGHT;
 pub use rules::Rule;
 

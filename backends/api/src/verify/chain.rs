@@ -2,7 +2,7 @@
 
 use super::{Capability, Rule, Walk};
 use crate::geometry::{Orientation, Point3};
-use crate::ir::{Action, Edges, Joint, Op, Shape, Site, Straight};
+use crate::ir::{Action, Edges, Joint, Op, OrientationId, Shape, Site, Straight};
 use crate::segments::{LinearSegment, Segment};
 use crate::state::TipPose;
 use crate::units::{Angle, Length};
@@ -234,6 +234,32 @@ impl Course<'_> {
         let apart = minus(blade_turns, way_turns);
         length(cross(apart, axis)) + length(apart) * length(cross(blade_turns, axis))
     }
+}
+
+/// Whether a disc that is led straight from one pose to the next would go down through its own face, which [`Rule::ChainPosture`]
+/// does not allow: for planners.
+#[must_use]
+pub fn goes_face_first([from, to]: [(Point3, Orientation); 2]) -> bool {
+    let pose = |tip| TipPose {
+        tip,
+        orientation: OrientationId(0),
+    };
+    let line = LinearSegment {
+        from: pose(from.0),
+        to: pose(to.0),
+        via: None,
+        turn: Angle::ZERO,
+        feed: None,
+        rate: None,
+    };
+    directions(&line).is_some_and(|directions| {
+        let course = Course {
+            line: &line,
+            held: [from.1, to.1],
+            directions,
+        };
+        !course.descends_at_most(Angle::ZERO)
+    })
 }
 
 /// The angle between two directions of unit length.

@@ -9,7 +9,7 @@ use super::way::{Way, pose_of};
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{Blade, Joint};
 use vcutc_backend_api::units::{Angle, Length};
-use vcutc_backend_api::verify::LARGEST_KINK;
+use vcutc_backend_api::verify::{LARGEST_KINK, goes_face_first};
 use vcutc_geometry::grid;
 use vcutc_process::beside::Stand;
 use vcutc_process::lower::BLEND;
@@ -94,6 +94,9 @@ pub enum Unlaid {
     },
     /// No pose that a program may hold.
     Posture { place: Point3 },
+    /// The disc would go down through its own face: the part is rounded so much along the track that it turns faster than its lead keeps
+    /// its heel up.
+    FaceFirst { place: Point3 },
 }
 
 /// Lays tracks.
@@ -186,6 +189,10 @@ impl Layout<'_, '_, '_> {
                     tip.z = grid::up(tip.z + entry.depth.to_mm());
                 }
             }
+        }
+        let mut moves = held.windows(2).filter_map(|pair| <[_; 2]>::try_from(pair).ok());
+        if let Some([(place, _), _]) = moves.find(|pair| goes_face_first(*pair)) {
+            return Err(Unlaid::FaceFirst { place });
         }
         let way = as_poses(&held).and_then(Way::new).ok_or(posture)?;
         let ends = [held.first(), held.last()].into_iter().flatten();

@@ -219,7 +219,11 @@ impl Planner<'_, '_, '_> {
                     fault.fault,
                     PassFault::TooThick { .. } | PassFault::EntersPart { .. }
                 ),
-                Refusal::Scallop { .. } => true,
+                Refusal::Scallop { .. }
+                | Refusal::Unlaid {
+                    why: Unlaid::FaceFirst { .. },
+                    ..
+                } => true,
                 // All leads up to the limit were open to the track already.
                 Refusal::Unlaid { .. }
                 | Refusal::Allowance

@@ -93,6 +93,16 @@ impl Refused<'_> {
             ),
             Unlaid::NoTrack(NoTrack::Posture { contact }) => self.held(contact.x, contact.y),
             Unlaid::NoTrack(NoTrack::Contact { place }) | Unlaid::Posture { place } => self.held(place.x, place.y),
+            Unlaid::FaceFirst { place } => Diagnostic::new(
+                Code::BladesTooSmall,
+                format!(
+                    "at x {} mm, y {} mm the part is rounded so much along the track that the disc would go down through its own face",
+                    mm(place.x),
+                    mm(place.y)
+                ),
+                self.lead_span(),
+                "with this lead",
+            ),
             Unlaid::Below { tip, by } => Diagnostic::new(
                 Code::BladesTooSmall,
                 format!(
@@ -144,7 +154,7 @@ impl Refused<'_> {
                     "let the part lie higher in the stock, by {} mm at least",
                     show(((*by + Length::mm(0.1)).to_mm() * 10.0).ceil() / 10.0)
                 )),
-                Unlaid::NoTrack(_) | Unlaid::Posture { .. } => {
+                Unlaid::NoTrack(_) | Unlaid::Posture { .. } | Unlaid::FaceFirst { .. } => {
                     diagnostic.help("use a smaller disc, or allow more lead in `limits`")
                 }
             },
