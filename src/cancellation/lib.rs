@@ -61,7 +61,7 @@ impl Wanted {
     /// Goes on where somebody wants to know.
     ///
     /// # Errors
-    /// When it is not wanted.
+    /// When the answer is not wanted any more.
     pub fn go_on(&self) -> Result<(), Needless> {
         if self.is_needless() { Err(Needless) } else { Ok(()) }
     }

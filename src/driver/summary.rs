@@ -186,7 +186,7 @@ fn finished(tracked: &Tracked) -> String {
     let [least, most] = tracked.leads.map(|lead| format!("{:.2}", lead.to_deg()));
     format!(
         "at most {:.3} mm stay on the part, at x {x:.1} mm, y {y:.1} mm, and {:.3} mm on average, in {} sections; the disc enters it by \
-         at most {:.3} mm; {} tracks, {} poses, lead {least} to {most} deg",
+         at most {:.3} mm; {} tracks, {} poses, on which its face rises by {least} to {most} deg from its way",
         tracked.left.to_mm(),
         tracked.mean.to_mm(),
         tracked.sections,

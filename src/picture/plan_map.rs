@@ -249,13 +249,17 @@ fn close(row: &mut [bool]) {
     }
 }
 
-/// The highest and the lowest place; and the mean, in the colour of its class.
-fn marks(map: &PlanMap<'_>, classes: Classes) -> [Series; 3] {
+/// The highest and the lowest place; and the mean, in the colour of its class. Where all are as high, no place is marked.
+fn marks(map: &PlanMap<'_>, classes: Classes) -> Vec<Series> {
     let ((highest, most), (lowest, least)) = (map.highest, map.lowest);
     let (decimals, unit) = (map.decimals(), map.quantity.unit());
     let shown = |height| format!("{} {unit}", decimals.shown(height));
     let mean = tiles::paint(classes.class(map.mean), classes.count);
-    [
+    if shown(most) == shown(least) {
+        let everywhere = format!("{} everywhere", shown(map.mean));
+        return vec![Series::new(Shape::Boxes(Vec::new()), mean).named(everywhere)];
+    }
+    vec![
         Series::mark(Mark::CROSS, highest, None).named(format!("most, {}", shown(most))),
         Series::new(Shape::Boxes(Vec::new()), mean).named(format!("mean, {}", shown(map.mean))),
         Series::mark(Mark::RING, lowest, None).named(format!("least, {}", shown(least))),

@@ -68,7 +68,7 @@ pub fn text(placement: &Placement) -> String {
             let _ = write!(text, "\n  base = {}\n", frame_text(&best.base));
         }
         None => {
-            row("best", none_found(now));
+            row("best", none_found(now, placement.map.objective));
             for reason in refused.iter().take(MOST_REFUSED) {
                 row("", reason);
             }
@@ -77,10 +77,15 @@ pub fn text(placement: &Placement) -> String {
     text
 }
 
-fn none_found(now: &Standing) -> &'static str {
-    match now.room {
-        Ok(_) => "no other place within these bounds carries out the whole program",
-        Err(_) => "no place within these bounds carries out the whole program; widen them, or change the job",
+fn none_found(now: &Standing, objective: Objective) -> &'static str {
+    match (objective, &now.room) {
+        (Objective::Deviation, _) => {
+            "no place within these bounds carries out the whole program with a margin of at least 10 %"
+        }
+        (Objective::Margin, Ok(_)) => "no other place within these bounds carries out the whole program",
+        (Objective::Margin, Err(_)) => {
+            "no place within these bounds carries out the whole program; widen them, or change the job"
+        }
     }
 }
 

@@ -247,7 +247,8 @@ fn a_pose_that_is_lower_than_planned_enters_the_part() {
     assert!(found.y.is_some_and(|y| (-30.0..130.0).contains(&y)), "{found:?}");
 }
 
-/// Where the part is rounded along the track, the disc turns down while it goes on, and a small lead would lead it through its own face.
+/// Where the part is hollow along the track, the heel of the disc goes down while its front goes up, and a small lead would lead it
+/// through its own face.
 /// A larger one is then chosen; where none is allowed, the place is named.
 #[test]
 fn a_disc_never_goes_down_through_its_own_face() {
@@ -264,6 +265,10 @@ fn a_disc_never_goes_down_through_its_own_face() {
         panic!("{:?}", outcome.diagnostics);
     };
     assert_eq!(found.code, Code::BladesTooSmall);
+    // Where the wave is hollow.
+    let (_, y) = found.message.split_once("mm, y ").unwrap();
+    let y: f64 = y.split_once(" mm").unwrap().0.parse().unwrap();
+    assert!((20.0..=140.0).contains(&y), "{}", found.message);
     assert!(
         found.message.contains("go down through its own face"),
         "{}",

@@ -40,8 +40,8 @@ pub(crate) const RATE: &str = "vc_rate";
 /// Start of the names of speeddata; a number follows.
 pub(crate) const SPEED: &str = "vc_speed";
 
-/// Start of all names that programs have of themselves. Nothing else may have such a name: which of them a
-/// program needs does not depend on its job.
+/// Start of all names that programs have of themselves. Nothing else may have such a name, so a job need
+/// not know which of them its program needs.
 const OWN: &str = "vc_";
 /// Start of names of modules that would otherwise be a word of RAPID, or one of our own names.
 const MODULE: &str = "job_";

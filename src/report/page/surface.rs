@@ -84,7 +84,7 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
             },
             Zoom::Free,
             &format!(
-                "The ways of the middle of the disc's edge on its tracks, from above: {}. Heads of arrows show where tracks end.",
+                "The ways of the centre of the disc's edge on its tracks, from above: {}. Heads of arrows show where tracks end.",
                 tracks.figures()
             ),
             &|ids| tracks.draw(ids),

@@ -187,7 +187,7 @@ impl SurfaceMap {
         })
     }
 
-    /// The least, the mean and the greatest value, in words.
+    /// The least, the mean and the greatest value, in words; one of them where they are the same as shown.
     #[must_use]
     pub fn figures(&self) -> String {
         let Values {
@@ -199,6 +199,9 @@ impl SurfaceMap {
         let decimals = Decimals::of([least, most]);
         let unit = self.quantity.unit();
         let [least, mean, most] = [least, mean, most].map(|value| decimals.shown(value));
+        if least == most {
+            return format!("{mean} {unit} everywhere");
+        }
         format!("least {least} {unit}, mean {mean} {unit}, most {most} {unit}")
     }
 

@@ -96,7 +96,7 @@ impl Lead {
     }
 }
 
-/// Sets a value, and lists it if it is a new one.
+/// Sets a value, and returns it if it is a new one.
 fn changed<T: Copy + PartialEq>(known: &mut Option<T>, now: T) -> Option<T> {
     (known.replace(now) != Some(now)).then_some(now)
 }

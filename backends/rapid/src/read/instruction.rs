@@ -195,8 +195,8 @@ impl Machine<'_> {
         }
     }
 
-    /// The optional arguments other than `\WObj`. Tool and work object are those that the program declares,
-    /// whose values are reported where they are declared, or those of the controller that the job means.
+    /// The optional arguments other than `\WObj`. They are read if tool and work object are those that the program
+    /// declares, whose values are reported where they are declared, or those of the controller that the job means.
     fn frames<'o>(
         &self,
         optional: &'o [Optional],

@@ -94,8 +94,8 @@ pub enum Unlaid {
     },
     /// No pose that a program may hold.
     Posture { place: Point3 },
-    /// The disc would go down through its own face: the part is rounded so much along the track that it turns faster than its lead keeps
-    /// its heel up.
+    /// The disc would go down through its own face: the part is so hollow along the track that the disc, which turns up with it, sinks
+    /// faster at its heel than its lead keeps that up.
     FaceFirst { place: Point3 },
 }
 
@@ -190,8 +190,14 @@ impl Layout<'_, '_, '_> {
                 }
             }
         }
-        let mut moves = held.windows(2).filter_map(|pair| <[_; 2]>::try_from(pair).ok());
-        if let Some([(place, _), _]) = moves.find(|pair| goes_face_first(*pair)) {
+        let moves = held.windows(2).map(|pair| <[_; 2]>::try_from(pair).ok());
+        if let Some(number) = moves
+            .into_iter()
+            .position(|pair| pair.is_some_and(goes_face_first))
+        {
+            // The first pose is that before the part.
+            let stop = number.checked_sub(1).and_then(|number| stops.get(number));
+            let place = stop.unwrap_or(first).contact;
             return Err(Unlaid::FaceFirst { place });
         }
         let way = as_poses(&held).and_then(Way::new).ok_or(posture)?;

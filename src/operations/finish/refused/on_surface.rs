@@ -8,6 +8,7 @@ use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::Auto;
 use vcutc_process::verdict::words::{stays_words, strip_words};
 use vcutc_surface::track::NoTrack;
 
@@ -96,7 +97,7 @@ impl Refused<'_> {
             Unlaid::FaceFirst { place } => Diagnostic::new(
                 Code::BladesTooSmall,
                 format!(
-                    "at x {} mm, y {} mm the part is rounded so much along the track that the disc would go down through its own face",
+                    "at x {} mm, y {} mm the part is so hollow along the track that the disc would go down through its own face",
                     mm(place.x),
                     mm(place.y)
                 ),
@@ -154,6 +155,9 @@ impl Refused<'_> {
                     "let the part lie higher in the stock, by {} mm at least",
                     show(((*by + Length::mm(0.1)).to_mm() * 10.0).ceil() / 10.0)
                 )),
+                Unlaid::FaceFirst { .. } if self.asked.lead.value != Auto::Auto => {
+                    diagnostic.help("give a larger `lead`, or leave it open")
+                }
                 Unlaid::NoTrack(_) | Unlaid::Posture { .. } | Unlaid::FaceFirst { .. } => {
                     diagnostic.help("use a smaller disc, or allow more lead in `limits`")
                 }

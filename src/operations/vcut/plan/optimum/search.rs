@@ -26,8 +26,8 @@ const GAP: f64 = 1e-7;
 /// Most boxes that a search for the best shape looks into.
 const MOST_BOXES: u32 = 6000;
 
-/// Most boxes that a search for any shape looks into. What is left then breaks a bound, or only just
-/// keeps all of them.
+/// Most boxes that a search for any shape looks into. What is left then breaks a bound, or misses
+/// one by very little.
 const MOST_FOR_ANY: u32 = 20_000;
 
 /// On so many steps of the saw-tooth a quick search descends.
