@@ -4,7 +4,7 @@ use super::trials::Plan;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::show;
 use vcutc_job::Sourced;
-use vcutc_vcut::asked::RoughVcut;
+use vcutc_vcut::asked::{Objective, RoughVcut};
 use vcutc_vcut::plan::optimum::Problem;
 
 /// A measure of plans that more time makes smaller.
@@ -57,11 +57,11 @@ impl Against {
 
     /// What a plan comes to.
     pub(super) const fn of(self, plan: &Plan) -> f64 {
-        match self {
-            Self::Scallop => plan.leaves.to_mm(),
-            Self::Cuts => plan.cuts as f64,
-            Self::Edge => plan.edge.to_mm(),
-        }
+        plan.value(match self {
+            Self::Scallop => Objective::Scallop,
+            Self::Cuts => Objective::Cuts,
+            Self::Edge => Objective::BladeLoad,
+        })
     }
 
     /// The job's own limit.

@@ -1,6 +1,6 @@
 //! Bounds of the formulas' optimum that bind: where the job says them, and what relaxing them by a hundredth would buy.
 
-use vcutc_backend_api::units::{Angle, Duration};
+use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::position::position;
 use vcutc_diagnostics::source::{SourceMap, Span};
@@ -123,19 +123,16 @@ pub(super) fn written(bound: Bound, asked: &RoughVcut) -> Option<Span> {
         Bound::StepMost => given(&asked.step).or(limits.step.most.and_then(of)),
         Bound::OverlapLeast | Bound::OverlapMost => given(&asked.overlap),
         Bound::Scallop => limits.scallop.and_then(of),
-        Bound::Edge => shorter_edge(asked),
+        Bound::Edge => shorter_edge(asked).unwrap_or(asked.blade.cutting_length).span,
         Bound::Time => limits.time.and_then(of),
         Bound::Cuts => limits.cuts.and_then(of),
     }
 }
 
-/// The limit of the edge, where it asks for less than the blade has; else the blade.
-fn shorter_edge(asked: &RoughVcut) -> Option<Span> {
-    let blade = asked.blade.cutting_length;
-    match asked.limits.edge {
-        Some(limit) if limit.value < blade.value => limit.span,
-        Some(_) | None => blade.span,
-    }
+/// The limit on the edge, where it asks for less than the blade has.
+pub(super) fn shorter_edge(asked: &RoughVcut) -> Option<Sourced<Length>> {
+    let limit = asked.limits.edge?;
+    (limit.value < asked.blade.cutting_length.value).then_some(limit)
 }
 
 fn given<T>(field: &Sourced<Auto<T>>) -> Option<Span> {

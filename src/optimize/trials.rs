@@ -13,7 +13,7 @@ use vcutc_process::verdict;
 use vcutc_simulation::report::Report;
 use vcutc_simulation::timing::op_times;
 use vcutc_vcut::PlannedVcut;
-use vcutc_vcut::asked::RoughVcut;
+use vcutc_vcut::asked::{Objective, RoughVcut};
 use vcutc_vcut::plan::parameters::VcutParameters;
 
 /// The result of a change of the job.
@@ -51,6 +51,18 @@ pub struct Plan {
     pub leaves: Length,
     /// The longest edge in use.
     pub edge: Length,
+}
+
+impl Plan {
+    /// What an objective makes small: s, mm or cuts.
+    pub(super) const fn value(&self, objective: Objective) -> f64 {
+        match objective {
+            Objective::Time => self.time.to_s(),
+            Objective::Cuts => self.cuts as f64,
+            Objective::Scallop => self.leaves.to_mm(),
+            Objective::BladeLoad => self.edge.to_mm(),
+        }
+    }
 }
 
 /// Along which routes changes of a job are planned.

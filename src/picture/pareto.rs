@@ -2,7 +2,7 @@
 //!
 //! What lies above and to the right of the steps of the plans can be had: a plan within a limit is also within each wider one. A scallop
 //! half as high costs several times the time, so time grows by factors on its axis: jobs of an hour and of a minute can both be read.
-//! Curves of the formulas are thin, and differ in their dashes as well as in their colours, so that they can be told apart without
+//! Curves of the formulas are thin, and differ in their dashes as well as in their colours, so that they can be distinguished without
 //! seeing colours.
 
 use super::Point;

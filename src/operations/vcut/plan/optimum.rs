@@ -32,7 +32,7 @@ mod sensitivity;
 mod solver;
 
 pub use conflict::{conflicting, nearest, solve};
-pub use problem::{Bound, Extension, Infeasible, Optimum, Problem, Range, Refused, Sensitivity, Work};
+pub use problem::{Bound, End, Extension, Infeasible, Optimum, Problem, Range, Refused, Sensitivity, Work};
 pub use sensitivity::sensitivities;
 pub(in crate::plan) use solver::any;
 pub use solver::best;

@@ -7,6 +7,7 @@
 mod complaints;
 mod grid_forms;
 mod infeasible;
+pub mod said;
 mod search;
 mod swung;
 

@@ -1,6 +1,6 @@
 //! The bounds of a problem one by one: their values, other values for them, and what parameters come to in them.
 
-use super::problem::{Bound, Optimum, Problem};
+use super::problem::{Bound, End, Optimum, Problem};
 use vcutc_backend_api::units::{Angle, Duration, Length};
 
 /// How near to a bound parameters touch it, as a share of it.
@@ -25,6 +25,22 @@ impl Bound {
         Self::Time,
         Self::Cuts,
     ];
+
+    /// Which end of what it bounds it is.
+    #[must_use]
+    pub const fn end(self) -> End {
+        match self {
+            Self::SwingLeast | Self::LayerLeast | Self::StepLeast | Self::OverlapLeast => End::Least,
+            Self::SwingMost
+            | Self::LayerMost
+            | Self::StepMost
+            | Self::OverlapMost
+            | Self::Scallop
+            | Self::Edge
+            | Self::Time
+            | Self::Cuts => End::Most,
+        }
+    }
 
     /// Its value in a problem, in mm, rad, s or 1, if there is such a bound.
     #[must_use]

@@ -112,6 +112,14 @@ pub enum Bound {
     Cuts,
 }
 
+/// An end of what is bounded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    Least,
+    /// The largest value.
+    Most,
+}
+
 /// The best parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Optimum {
