@@ -128,6 +128,10 @@ fn without(what: What, material: &Material<'_>) -> Failure {
             Some(_) => without_masses(),
             None => without_machine(),
         },
+        What::DeviationByForces if is_of_regions(material.plan) => Failure::new(
+            "the picture shows flanks along the profile, and the job works in regions of the plan",
+        )
+        .help("`vcutc check -v` states how far walls are off"),
         What::DeviationByForces => Failure::new(
             "how far the forces of the blade push the cuts off is not known, or the job has no profile",
         )

@@ -242,6 +242,8 @@ codes! {
     NotCompensated = "VC0538", Error, "cuts that cannot be compensated for forces";
     /// Cells whose walls push the edge at a frequency at which the arm swings.
     CellsMeetMode = "VC0539", Warning, "cells that meet a mode of the arm";
+    /// Teeth of a crusher that come about as often as the arm swings by itself.
+    TeethMeetMode = "VC0540", Warning, "teeth that meet a mode of the arm";
 
     /// A target that needs a machine.
     MissingMachine = "VC0601", Error, "target that needs a machine";

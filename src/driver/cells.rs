@@ -6,7 +6,8 @@ use crate::summary::row;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::{rounded, show};
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_dynamics::modes::cells::{Cells, Met, cells};
+use vcutc_dynamics::modes::cells::{Cells, cells};
+use vcutc_dynamics::modes::meeting::Met;
 use vcutc_job::{CheckedJob, Sourced};
 use vcutc_motion::describe::site_words;
 
@@ -65,8 +66,8 @@ fn warning(
         op,
         frequency,
         share,
-        slower,
-        faster,
+        lower,
+        higher,
     } = cells.met?;
     let setup = job.operations.get(usize::from(cells.operation.0))?.setup();
     let program = compiled.program.verified().program();
@@ -89,20 +90,22 @@ fn warning(
         Some(span) => diagnostic.and(span, "the cells"),
         None => diagnostic,
     };
-    let faster = show(faster.to_mm_per_s());
-    let nearest = match slower {
-        Some(slower) => format!(
-            "the nearest are {} mm/s and {faster} mm/s",
-            show(slower.to_mm_per_s())
-        ),
-        None => format!("the nearest is {faster} mm/s"),
-    };
+    let nearest = nearest(lower, higher, "mm/s");
     Some(diagnostic.help(format!(
         "cut at a speed that is 20 % away from all such modes of these cuts: {nearest}"
     )))
 }
 
+/// `the nearest are 28 mm/s and 50 mm/s`.
+pub(crate) fn nearest(lower: Option<f64>, higher: f64, unit: &str) -> String {
+    let higher = show(higher);
+    match lower {
+        Some(lower) => format!("the nearest are {} {unit} and {higher} {unit}", show(lower)),
+        None => format!("the nearest is {higher} {unit}"),
+    }
+}
+
 /// To a tenth.
-fn hertz(frequency: f64) -> String {
+pub(crate) fn hertz(frequency: f64) -> String {
     show(rounded(frequency, 10.0))
 }

@@ -139,6 +139,8 @@ pub enum Reason {
     NoLoad,
     /// It is not computed for such a machine.
     NotComputed,
+    /// It is not computed for the surfaces under a disc.
+    Disc,
     /// No blade states its forces.
     NoForces,
     /// Places along the program are looked at, not what lies between them.
@@ -315,6 +317,7 @@ impl Checks {
                 not_made(Check::Deviation, Reason::NotStated)
             }
             Err(deviation::Unknown::ClosedForm) => not_made(Check::Deviation, Reason::NotComputed),
+            Err(deviation::Unknown::Disc) => not_made(Check::Deviation, Reason::Disc),
         };
         Self(self.0.iter().cloned().chain([of_deviation]).collect())
     }

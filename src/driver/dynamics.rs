@@ -9,6 +9,7 @@ use vcutc_cancellation::Wanted;
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_diagnostics::{Diagnostic, Severity};
 use vcutc_dynamics::arms::{Arms, Unknown};
+use vcutc_dynamics::blade::PushedBlade;
 use vcutc_dynamics::cuts::{Cuts, Known};
 use vcutc_dynamics::deviation::Deviations;
 use vcutc_dynamics::deviation::each::CutDeviation;
@@ -19,8 +20,7 @@ use vcutc_dynamics::figures::{Pushing, TorqueFigures};
 use vcutc_dynamics::modes::figures::ModeFigures;
 use vcutc_dynamics::places::Places;
 use vcutc_dynamics::verdict::{above_limit, is_within_limits, not_checked, relief};
-use vcutc_job::forces::Forces;
-use vcutc_job::{CheckedJob, Gravity, Machine};
+use vcutc_job::{BladeRef, CheckedJob, Gravity, Machine, Operation};
 use vcutc_motion::rigs::Rigs;
 use vcutc_motion::solve::Reached;
 use vcutc_remedy::base_nearer;
@@ -64,7 +64,7 @@ fn found(job: &CheckedJob, machine: &Machine, reached: &Reached, report: &Report
                 .map(|operation| operation.deviation_limit().map(|limit| limit.value))
                 .collect();
             let asked = Asked {
-                forces: &forces(job),
+                blades: &pushed_blades(job),
                 limits: &limits,
                 gravity: machine.gravity.map(|gravity| gravity.value),
             };
@@ -103,12 +103,12 @@ fn cutting<T>(
     report: &Report,
     work: impl FnOnce(Known<'_>, Result<&Arms, Unknown>, Result<&Cuts<'_>, deviation::Unknown>) -> T,
 ) -> Option<T> {
-    let forces = forces(job);
+    let blades = pushed_blades(job);
     carrying(machine, reached, Some(report), |known, arms| {
-        let cuts = if forces.is_empty() {
+        let cuts = if blades.is_empty() {
             Err(deviation::Unknown::Forces)
         } else {
-            Cuts::of(known, &forces).ok_or(deviation::Unknown::ClosedForm)
+            Cuts::of(known, &blades).ok_or(deviation::Unknown::ClosedForm)
         };
         work(known, arms, cuts.as_ref().map_err(|why| *why))
     })
@@ -156,6 +156,13 @@ pub fn deviating<T>(
     let is_weighed = machine.gravity.map(|gravity| gravity.value) == Some(Gravity::Uncompensated);
     let found = cutting(job, machine, reached, report, |_, arms, cuts| {
         let deviations = Deviations::of(cuts?, arms.ok()).ok_or(deviation::Unknown::Elasticity)?;
+        if deviations.are_none() {
+            let mut unknown = job
+                .operations
+                .iter()
+                .filter_map(|operation| unknown_part(&**operation));
+            return Err(unknown.next().unwrap_or(deviation::Unknown::Disc));
+        }
         if is_weighed && arms.is_err() {
             return Err(deviation::Unknown::Weight);
         }
@@ -203,10 +210,13 @@ pub fn in_places<T>(
     }
 }
 
-/// How far each cut is pushed off, proven on all of it. None where that is not known.
+/// How far each cut of the operations that these figures have is pushed off, proven on all of it. None where that is not known.
 #[must_use]
-pub fn cut_by_cut(job: &CheckedJob, compiled: &Compiled) -> Option<Vec<CutDeviation>> {
-    let figures = compiled.dynamics.deviation.as_ref()?;
+pub fn cut_by_cut(
+    job: &CheckedJob,
+    compiled: &Compiled,
+    figures: &DeviationFigures,
+) -> Option<Vec<CutDeviation>> {
     let (machine, reached) = carried(job, compiled)?;
     cutting(job, machine, reached, &compiled.report, |_, arms, cuts| {
         figures.each(&Deviations::of(cuts.ok()?, arms.ok())?)
@@ -262,10 +272,14 @@ pub(crate) fn add(job: &CheckedJob, compiled: &mut Compiled) -> Vec<Diagnostic> 
     let unchecked = unchecked(job, machine, &deviation).into_iter().chain(of_torques);
     add_torques(torques, compiled);
     let known = deviation.as_ref().map_err(|why| *why).and_then(|figures| {
-        if figures.operations.len() == job.operations.len() {
-            Ok(())
-        } else {
-            Err(deviation::Unknown::Forces)
+        let mut unknown = job
+            .operations
+            .iter()
+            .filter_map(|operation| unknown_part(&**operation));
+        match unknown.next() {
+            None if figures.operations.len() < job.operations.len() => Err(deviation::Unknown::Forces),
+            None => Ok(()),
+            Some(why) => Err(why),
         }
     });
     let lines = deviation
@@ -283,12 +297,30 @@ pub(crate) fn add(job: &CheckedJob, compiled: &mut Compiled) -> Vec<Diagnostic> 
     unchecked.collect()
 }
 
-/// The forces of the blades of a job that state some, by their names.
+/// The blades of a job that state what pushes them, by their names.
 #[must_use]
-pub fn forces(job: &CheckedJob) -> BTreeMap<&str, &Forces> {
-    let blades = job.operations.iter().flat_map(|operation| operation.blades());
-    let stating = blades.filter_map(|blade| Some((blade.name(), blade.forces()?)));
-    stating.collect()
+pub fn pushed_blades(job: &CheckedJob) -> BTreeMap<&str, PushedBlade<'_>> {
+    let mut all: BTreeMap<&str, PushedBlade<'_>> = BTreeMap::new();
+    for operation in &job.operations {
+        let strip = operation.widest_strip();
+        let blades = operation.blades().into_iter();
+        for blade in blades.filter(|blade| blade.forces().is_some()) {
+            let pushed = all.entry(blade.name()).or_insert(PushedBlade { blade, strip });
+            pushed.strip = pushed.strip.zip(strip).map(|(one, other)| one.max(other));
+        }
+    }
+    all
+}
+
+/// Why not all deviations of an operation are known, whatever the machine is, if that is so.
+fn unknown_part(operation: &dyn Operation) -> Option<deviation::Unknown> {
+    let blades = operation.blades();
+    let is_disc = |blade: &BladeRef<'_>| matches!(blade, BladeRef::Disc(_));
+    let forms = blades.iter().filter(|blade| !is_disc(blade));
+    if forms.clone().any(|blade| blade.forces().is_none()) {
+        return Some(deviation::Unknown::Forces);
+    }
+    blades.iter().any(is_disc).then_some(deviation::Unknown::Disc)
 }
 
 /// The limits of operations whose deviations are not known.
@@ -301,8 +333,8 @@ fn unchecked(
     let unknown = limited.filter_map(|(number, operation): (u16, _)| {
         let limit = operation.deviation_limit()?;
         let why = match figures {
-            Ok(figures) if figures.operations.iter().any(|known| known.operation == number) => return None,
-            Ok(_) => deviation::Unknown::Forces,
+            Ok(figures) if figures.of_operation(OperationId(number)).is_some() => return None,
+            Ok(_) => unknown_part(&**operation).unwrap_or(deviation::Unknown::Forces),
             Err(why) => *why,
         };
         let needs = Needs::limit(limit, operation.setup().head_span);
@@ -337,9 +369,9 @@ pub(crate) fn verdicts(
             }
         }));
     }
-    let forces = forces(job);
+    let blades = pushed_blades(job);
     all.extend(figures.elsewhere.iter().filter_map(|found| {
-        let forces = forces.get(found.blade.as_str())?;
+        let forces = blades.get(found.blade.as_str())?.blade.forces()?;
         Some(verdict::elsewhere(found, forces))
     }));
     all

@@ -25,6 +25,7 @@ mod routes;
 pub mod starter;
 pub mod summary;
 mod target;
+mod teeth;
 mod trials;
 pub mod ways;
 
@@ -390,6 +391,7 @@ fn checked<'j>(
     let mut found = dynamics::add(job, &mut made.compiled);
     found.extend(dynamics::verdicts(job, &made.compiled, sources, run));
     found.extend(cells::compare(job, &mut made.compiled));
+    found.extend(teeth::compare(job, &mut made.compiled));
     let mut objections = target::objections(job, &made.compiled, request);
     let (errors, warnings): (Vec<_>, Vec<_>) = found
         .into_iter()

@@ -13,7 +13,7 @@ use vcutc_backend_api::script::duration_words;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_backend_api::words::counted;
 use vcutc_diagnostics::number::show;
-use vcutc_job::{BladeRef, Order, PlannedJob};
+use vcutc_job::{BladeRef, Order, PlannedJob, PlannedOperation};
 use vcutc_motion::figures::ReachFigures;
 use vcutc_motion::pace::Basis;
 use vcutc_motion::summary as reach_summary;
@@ -98,7 +98,13 @@ fn of_machine(reach: Option<&ReachFigures>) -> impl Iterator<Item = String> {
 #[must_use]
 pub fn is_of_regions(plan: &PlannedJob) -> bool {
     let mut operations = plan.operations.iter();
-    operations.all(|planned| matches!(planned.bound().passes, Some(Passes::Region)))
+    operations.all(|planned| is_of_a_region(&**planned))
+}
+
+/// Whether an operation works in a region of the plan, which no section shows.
+#[must_use]
+pub fn is_of_a_region(planned: &dyn PlannedOperation) -> bool {
+    matches!(planned.bound().passes, Some(Passes::Region))
 }
 
 /// `1.53 m in 2 layers; 0.00 mm2 uncut, 27.3 mm2 in corners beyond reach; rim in the material 78 deg on average, at most 121 deg`.

@@ -6,7 +6,7 @@
 use crate::turn::{Axis, Turn};
 use crate::vector::{Number, Vector, cross_plain, dot_plain, sum};
 use glam::DVec3;
-use vcutc_geometry::number::Along;
+use vcutc_geometry::number::{Along, Interval};
 use vcutc_machine::body::MILLIMETRES;
 use vcutc_machine::kinematics::linkage::Linkage;
 use vcutc_machine::kinematics::opw::Coupling;
@@ -176,6 +176,11 @@ impl Column<Along> {
         let length =
             |vector: Vector<Along>| DVec3::from_array(vector.map(|part| part.value().magnitude())).length();
         length(self.way) + off * length(self.turn)
+    }
+
+    /// The torque about the axis of a moment of 1 Nm about whatever axis, at most, where `view` looks.
+    pub(crate) fn turning(&self, view: fn(Along) -> Interval) -> f64 {
+        DVec3::from_array(self.turn.map(|part| view(part).magnitude())).length()
     }
 }
 

@@ -1,5 +1,6 @@
 //! The cuts of a program by blades whose forces are known: what pushes the blade, and how the axes move it.
 
+use crate::blade::{Engaged, EngagedPart, Forms, MilledForces, PushedBlade};
 use crate::chain::{Chain, Column, JOINTS};
 use crate::condition::Condition;
 use crate::peaks::Whole;
@@ -7,12 +8,12 @@ use crate::push::{Posture, Push, Sides};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 use vcutc_backend_api::geometry::Frame;
-use vcutc_backend_api::ir::{Action, Blade, Op, OpId, OperationId, Program, Site, ToolId};
+use vcutc_backend_api::ir::{Action, Op, OpId, OperationId, Program, Site, ToolId};
 use vcutc_backend_api::motion::ReachableProgram;
 use vcutc_backend_api::segments::{LinearSegment, Segment};
 use vcutc_backend_api::units::{Angle, Force, Length};
 use vcutc_geometry::number::{Along, Interval};
-use vcutc_job::forces::{Forces, Parts};
+use vcutc_job::forces::EdgeParts;
 use vcutc_machine::Model;
 use vcutc_machine::body::MILLIMETRES;
 use vcutc_machine::kinematics::Joints;
@@ -28,7 +29,7 @@ pub struct Known<'p> {
     pub model: &'p Model,
     pub reached: &'p ReachableProgram,
     pub rigs: &'p Rigs<'p>,
-    /// How much edge cuts use, in the program's order.
+    /// How much of their edges, or of the height of their teeth, blades use in cuts, in the program's order.
     pub edges: &'p [UsedEdge],
     /// How far the tips of its operations are offset, operation by operation; none of those that are not compensated.
     pub compensations: &'p [Option<Compensation>],
@@ -67,7 +68,7 @@ pub(crate) struct Cut<'p> {
     pub(crate) tool: ToolId,
     moving: Moving<'p>,
     line: OnLine,
-    forces: &'p Forces,
+    blade: Engaged<'p>,
     /// What pushes it in the middle of its way, and everywhere where neither way nor blade turns.
     push: Push,
 }
@@ -76,6 +77,11 @@ impl Cut<'_> {
     /// The blade frame in the work where so much of it is done.
     pub(crate) fn frame_at(&self, program: &Program, done: f64) -> Option<Frame> {
         self.line.line.frame_at(program, done)
+    }
+
+    /// What it forms of the part.
+    pub(crate) const fn forms(&self) -> Forms {
+        self.blade.forms()
     }
 
     /// The controller's axes on a part of it.
@@ -100,8 +106,10 @@ pub enum Face {
 pub struct LargestForce {
     pub op: OpId,
     pub force: Force,
-    pub parts: Parts<Force>,
+    pub parts: EdgeParts<Force>,
+    /// How much of the blade is in the material, and what of it.
     pub edge: Length,
+    pub part: EngagedPart,
 }
 
 /// What happens in a place of a cut, with forces as they are stated.
@@ -115,9 +123,9 @@ pub struct InPlace {
 }
 
 impl<'p> Cuts<'p> {
-    /// Of a program whose blades have these forces, by their names. None of a machine that is not an arm with a closed form.
+    /// Of a program with these blades that state their forces, by their names. None of a machine that is not an arm with a closed form.
     #[must_use]
-    pub fn of(known: Known<'p>, forces: &BTreeMap<&'p str, &'p Forces>) -> Option<Self> {
+    pub fn of(known: Known<'p>, blades: &BTreeMap<&'p str, PushedBlade<'p>>) -> Option<Self> {
         let program = known.reached.program();
         let chain = Chain::of(&known.model.mechanism)?;
         let tools = program.cell.iter().flat_map(|cell| cell.tools.iter());
@@ -126,45 +134,44 @@ impl<'p> Cuts<'p> {
             .collect();
         let motions = Motions::of(known.reached, known.rigs);
         let (mut cuts, mut others) = (BTreeMap::new(), Others::None);
+        let mut milled = MilledForces::default();
         for segment in program.segments() {
             let Some((operation, vee, line)) = cutting(&segment) else {
                 continue;
             };
-            let tool = segment.before.tool;
-            let blade = program.blade(tool);
-            let forces = blade.and_then(|blade| forces.get(blade.name.as_str()));
-            let straight = blade.and_then(Blade::straight);
-            let (Some(forces), Some(blade), Some(hand)) = (forces, straight, hands.get(usize::from(tool.0)))
-            else {
-                others = Others::Some;
-                continue;
-            };
-            // Where it is not measured, all of the edge may be in the material.
-            let edge = used(known.edges, segment.id)
-                .map_or(blade.cutting_length, |used| used.min(blade.cutting_length));
-            let on_line = OnLine {
-                line,
-                half_apex: blade.half_apex,
-                edge,
-                blade_in_hand: hand.rotation,
-            };
             if line.limited_by().is_none() {
                 continue; // Leads nowhere.
             }
+            let tool = segment.before.tool;
+            let blade = program.blade(tool);
+            let blade = blade.and_then(|blade| blades.get(blade.name.as_str()));
+            let (Some(blade), Some(hand)) = (blade, hands.get(usize::from(tool.0))) else {
+                others = Others::Some;
+                continue;
+            };
+            let on_line = OnLine {
+                line,
+                blade_in_hand: hand.rotation,
+            };
             let moving = motions.moving(segment.id)?;
-            let Some(posture) = on_line.posture(program, WHOLE) else {
+            let pushed = on_line.posture(program, WHOLE).and_then(|held| {
+                let used = used(known.edges, segment.id);
+                let blade = milled.blade(*blade, &line, &held, used)?;
+                Some((blade, blade.push(&held)?, blade.condition(&held, &line)))
+            });
+            let Some((blade, push, condition)) = pushed else {
                 others = Others::Some;
                 continue;
             };
             let cut = Cut {
-                condition: Condition::in_cut(&posture, &line),
+                condition,
                 operation,
                 vee,
                 tool,
                 moving,
                 line: on_line,
-                forces,
-                push: Push::new(forces, &posture),
+                blade,
+                push,
             };
             cuts.insert(segment.id, cut);
         }
@@ -190,15 +197,16 @@ impl<'p> Cuts<'p> {
         self.cuts.get(&op)
     }
 
-    /// All of them.
+    /// Those whose deviation is computed.
     pub(crate) fn wholes(&self) -> impl Iterator<Item = Whole> {
-        self.cuts.iter().map(|(op, cut)| Whole {
+        let deviating = self.cuts.iter().filter(|(_, cut)| cut.forms().has_deviation());
+        deviating.map(|(op, cut)| Whole {
             op: *op,
             parts: cut.moving.parts,
         })
     }
 
-    /// Those of an operation.
+    /// Those of an operation whose deviation is computed.
     pub(crate) fn wholes_of(&self, operation: OperationId) -> impl Iterator<Item = Whole> {
         self.wholes()
             .filter(move |whole| self.get(whole.op).is_some_and(|cut| cut.operation == operation))
@@ -209,18 +217,19 @@ impl<'p> Cuts<'p> {
     pub fn largest_force(&self) -> Option<LargestForce> {
         let each = self.cuts.iter().map(|(op, cut)| {
             let parts = cut.push.largest();
-            (*op, cut.line.edge, parts, cut.push.largest_size())
+            (*op, cut, parts, cut.push.largest_size())
         });
-        let (op, edge, parts, force) = each.reduce(|best, next| if next.3 > best.3 { next } else { best })?;
+        let (op, cut, parts, force) = each.reduce(|best, next| if next.3 > best.3 { next } else { best })?;
         Some(LargestForce {
             op,
             force: Force::n(force),
-            parts: Parts {
+            parts: EdgeParts {
                 drag: Force::n(parts.drag),
                 axial: Force::n(parts.axial),
                 side: Force::n(parts.side),
             },
-            edge,
+            edge: cut.blade.length,
+            part: cut.blade.part(),
         })
     }
 
@@ -229,7 +238,10 @@ impl<'p> Cuts<'p> {
         let program = self.known.reached.program();
         let mut farthest: BTreeMap<&str, (f64, OpId, Condition)> = BTreeMap::new();
         for (op, cut) in &self.cuts {
-            let measured = Condition::of(&cut.forces.measured);
+            let measured = cut.blade.measured();
+            if cut.blade.length == Length::ZERO {
+                continue; // Through the air.
+            }
             let (Some(blade), Some(off)) = (program.blade(cut.tool), cut.condition.off(measured)) else {
                 continue;
             };
@@ -253,7 +265,7 @@ impl<'p> Cuts<'p> {
         let hand_in_work = blade_in_work.rotation * cut.line.blade_in_hand.transpose();
         let torques = push.stated_torques(&self.columns_at(cut.tool, joints));
         Some(InPlace {
-            edge: cut.line.edge,
+            edge: cut.blade.length,
             force: hand_in_work * push.stated(),
             torques: torques.map(|torque| -torque),
         })
@@ -315,7 +327,7 @@ impl<'p> Cuts<'p> {
             return Some(cut.push);
         }
         let posture = cut.line.posture(self.known.reached.program(), part)?;
-        Some(Push::new(cut.forces, &posture))
+        cut.blade.push(&posture)
     }
 
     fn tip(&self, tool: ToolId) -> [f64; 3] {
@@ -333,9 +345,6 @@ const WHOLE: Part = Part {
 #[derive(Clone, Copy, Debug)]
 struct OnLine {
     line: LinearSegment,
-    half_apex: Angle,
-    /// How much edge is in the material at most.
-    edge: Length,
     blade_in_hand: DMat3,
 }
 
@@ -356,8 +365,6 @@ impl OnLine {
             blade_in_hand: self.blade_in_hand,
             way: (after?.position - before?.position).try_normalize()?,
             turns: self.turns() * part.half,
-            half_apex: self.half_apex,
-            edge: self.edge,
         })
     }
 }

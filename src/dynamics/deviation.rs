@@ -11,8 +11,9 @@ pub mod moved_base;
 pub mod verdict;
 
 use crate::arms::Arms;
+use crate::blade::Forms;
 use crate::chain::{Column, JOINTS};
-use crate::cuts::Cuts;
+use crate::cuts::{Cut, Cuts};
 use crate::peaks::{Held, Peak, Sought, Whole, peaks};
 use crate::push::{Push, Shift, Sides};
 use crate::springs::Springs;
@@ -36,6 +37,8 @@ pub enum Unknown {
     Weight,
     /// The machine is not an arm with a closed form.
     ClosedForm,
+    /// A disc forms the part, and the deviation of that is not computed.
+    Disc,
 }
 
 /// Ways in which an edge shifts in the middle of a part of a cut, and everywhere on it.
@@ -86,15 +89,25 @@ impl<'c> Deviations<'c> {
         Some(Self { cuts, springs, arms })
     }
 
+    /// Whether there is no cut whose deviation is computed.
+    #[must_use]
+    pub fn are_none(&self) -> bool {
+        self.cuts.wholes().next().is_none()
+    }
+
     /// How far the cuts of an operation are off at most; none of one that no forces are known of. `limit` is to be kept.
     ///
     /// Of a compensated operation the bounds at rest are meant under load: while all of the edge that a cut uses is in the material.
     #[must_use]
     pub fn bounds(&self, operation: OperationId, limit: Option<Length>) -> Option<Bounds> {
+        let cuts: Vec<Whole> = self.cuts.wholes_of(operation).collect();
         let at_rest = Sought {
             least: LEAST,
             limit: limit.map(Length::to_m),
         };
+        if self.are_milled(&cuts) {
+            return self.bounds_of_walls(&cuts, at_rest);
+        }
         let at_entry = Sought {
             limit: None,
             ..at_rest
@@ -103,25 +116,34 @@ impl<'c> Deviations<'c> {
             Some(_) => Push::loaded_and_entering,
             None => Push::shifts_and_entering,
         };
-        let cuts: Vec<Whole> = self.cuts.wholes_of(operation).collect();
         let sought = [at_rest, at_rest, at_entry, at_entry];
         let [waste, part, entry_waste, entry_part] = peaks(&cuts, &sought, |op, part| {
-            let [at_rest, at_entry] = self.shifts(op, part, shifts)?;
-            let held = |[middle, everywhere]: [Ways; 2], bound: fn(Ways) -> f64| Held {
-                met: bound(middle),
-                most: bound(everywhere),
-            };
-            Some([
-                held(at_rest, |ways| ways.into_waste),
-                held(at_rest, |ways| ways.into_part),
-                held(at_entry, |ways| ways.into_waste),
-                held(at_entry, |ways| ways.into_part),
-            ])
+            let [[waste, part], [entry_waste, entry_part]] = self.shifts(op, part, shifts)?.map(held);
+            Some([waste, part, entry_waste, entry_part])
         })?;
         Some(Bounds {
             at_rest: self.extremes([waste, part])?,
             at_entry: self.extremes([entry_waste, entry_part]),
         })
+    }
+
+    /// The same of walls beside teeth. Their force changes with every tooth, so no arm comes to rest against it: how far it swings
+    /// depends on its damping, and nothing is stated of it.
+    fn bounds_of_walls(&self, cuts: &[Whole], sought: Sought) -> Option<Bounds> {
+        let most = peaks(cuts, &[sought; 2], |op, part| {
+            let [shifts] = self.shifts(op, part, |push, columns, springs| [push.shifts(columns, springs)])?;
+            Some(held(shifts))
+        })?;
+        Some(Bounds {
+            at_rest: self.extremes(most)?,
+            at_entry: None,
+        })
+    }
+
+    /// Whether teeth make some of these cuts.
+    fn are_milled(&self, cuts: &[Whole]) -> bool {
+        let forms = |whole: &Whole| self.cuts.get(whole.op).map(Cut::forms);
+        cuts.iter().any(|whole| forms(whole) == Some(Forms::Wall))
     }
 
     /// None where they are not known.
@@ -162,10 +184,10 @@ impl<'c> Deviations<'c> {
     }
 
     /// How far an edge is off along the normal of its flank where so much of an op is done and the axes have these values, in mm, with
-    /// forces and joints as they are stated: positive into the waste. None where it does not cut.
+    /// forces and joints as they are stated: positive into the waste. None where it does not cut, and under a disc.
     #[must_use]
     pub fn in_place(&self, op: OpId, done: f64, joints: &Joints) -> Option<Shift> {
-        let cut = self.cuts.get(op)?;
+        let cut = self.cuts.get(op).filter(|cut| cut.forms().has_deviation())?;
         let push = self.cuts.push_at(cut, done)?;
         let shares = push.shares(&self.cuts.columns_at(cut.tool, joints), &self.springs);
         let offset = self.cuts.offset_along_normal(cut).map_or(0.0, Interval::middle);
@@ -226,6 +248,15 @@ impl<'c> Deviations<'c> {
         let columns = self.cuts.columns_on(cut.tool, axes);
         Some(push.shifts_by(&weights, &columns, &self.springs))
     }
+}
+
+/// The most either way, in the middle of a part and everywhere on it.
+fn held([middle, everywhere]: [Ways; 2]) -> [Held; 2] {
+    let ways: [fn(Ways) -> f64; 2] = [|ways| ways.into_waste, |ways| ways.into_part];
+    ways.map(|bound| Held {
+        met: bound(middle),
+        most: bound(everywhere),
+    })
 }
 
 /// How far an edge is off either way, in m.

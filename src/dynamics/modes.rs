@@ -6,7 +6,9 @@
 
 pub mod cells;
 pub mod figures;
+pub mod meeting;
 mod samples;
+pub mod teeth;
 
 use crate::arm::{Arm, State};
 use crate::chain::JOINTS;
@@ -96,4 +98,4 @@ fn one_way(swings: [f64; JOINTS]) -> [f64; JOINTS] {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -1,10 +1,11 @@
-//! How the work pushes the edge of a blade.
+//! How the work pushes a blade.
 //!
 //! All directions are seen from the hand. They stay the same along a straight cut; on others they are those in the middle of a part of
 //! it, and what they are off by there is bounded.
 
 mod entry;
 mod loaded;
+mod round;
 
 use crate::chain::{Column, JOINTS};
 use crate::springs::Springs;
@@ -12,7 +13,7 @@ use crate::vector::{Number, Vector};
 use glam::{DMat3, DVec3};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::number::{Along, Interval};
-use vcutc_job::forces::{Forces, Parts};
+use vcutc_job::forces::{EdgeForces, EdgeParts};
 use vcutc_machine::body::MILLIMETRES;
 
 /// A plane that rises less than this across the work is upright: it has no upper side.
@@ -29,12 +30,17 @@ pub(crate) struct Posture {
     pub(crate) way: DVec3,
     /// How far that way and the blade are turned away from this at most.
     pub(crate) turns: Angle,
-    pub(crate) half_apex: Angle,
-    /// How much edge is in the material at most.
-    pub(crate) edge: Length,
 }
 
-/// What pushes an edge that is in the material up to a length of it, uniformly along that.
+impl Posture {
+    /// Which share of its way the tip goes across the tool axis.
+    pub(crate) fn across(&self) -> f64 {
+        self.blade_in_work.z_axis.cross(self.way).length()
+    }
+}
+
+/// What pushes an edge that is in the material up to a length of it. The teeth of a crusher are taken as such an edge along its axis, and
+/// the rim of a disc as one of no length about its centre.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Push {
     /// The length, in m.
@@ -44,11 +50,24 @@ pub(crate) struct Push {
     /// The normal of the blade's plane, into the waste.
     pub(crate) normal: Vector<f64>,
     pub(crate) sides: Sides,
+    spread_along: SpreadAlong,
+    /// Against the way, of teeth along it.
     drag: Force,
     axial: Force,
     side: Force,
     /// How far the way of the tip may be off its direction, in rad.
     turns: f64,
+    /// The largest moment about any axis that comes on top, in Nm.
+    moment: f64,
+}
+
+/// How a force is spread along the edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum SpreadAlong {
+    /// All parts alike, wherever some of the edge is in the material.
+    Evenly,
+    /// Each part in its own way, and in both directions at a time.
+    Anyhow,
 }
 
 /// On which sides of the blade's plane the part may be.
@@ -71,6 +90,8 @@ struct Force {
 /// So much, and so much more or less.
 #[derive(Clone, Copy, Debug)]
 struct Amount {
+    /// As it was measured.
+    stated: f64,
     centre: f64,
     off: f64,
 }
@@ -88,6 +109,7 @@ impl Force {
 impl Amount {
     fn of(force: f64, spread: f64) -> Self {
         Self {
+            stated: force,
             centre: force,
             off: force * spread,
         }
@@ -96,8 +118,9 @@ impl Amount {
     /// The same in either direction.
     fn either_way(self) -> Self {
         Self {
+            stated: 0.0,
             centre: 0.0,
-            off: self.centre + self.off,
+            off: self.any().magnitude(),
         }
     }
 
@@ -116,8 +139,8 @@ pub struct Shift {
 }
 
 impl Push {
-    /// The push on a blade whose edge has these forces.
-    pub(crate) fn new(forces: &Forces, held: &Posture) -> Self {
+    /// The push on a blade whose edge has these forces, with up to a length of it in the material.
+    pub(crate) fn on_edge(forces: &EdgeForces, half_apex: Angle, length: Length, held: &Posture) -> Self {
         let work_in_blade = held.blade_in_work.transpose();
         let way = work_in_blade * held.way;
         let up = work_in_blade.z_axis;
@@ -128,13 +151,13 @@ impl Push {
             Sides::Either
         };
         let leading = if way.x < 0.0 { -DVec3::X } else { DVec3::X };
-        let (sine, cosine) = libm::sincos(held.half_apex.to_rad());
+        let (sine, cosine) = libm::sincos(half_apex.to_rad());
         let in_hand = |direction: DVec3| (held.blade_in_hand * direction).to_array();
-        let Parts { drag, axial, side } = forces.edge;
-        let spread = forces.spread.value;
+        let EdgeParts { drag, axial, side } = forces.edge;
+        let spread = forces.statement.spread.value;
         let force = |direction: DVec3, along: f64, tip: f64| Force {
             direction: in_hand(direction),
-            edge: Amount::of(along * held.edge.to_mm(), spread),
+            edge: Amount::of(along * length.to_mm(), spread),
             tip: Amount::of(tip, spread),
         };
         let mut side = force(into_waste, side.to_n_per_mm(), forces.tip.side.to_n());
@@ -142,14 +165,16 @@ impl Push {
             (side.edge, side.tip) = (side.edge.either_way(), side.tip.either_way());
         }
         Self {
-            edge: held.edge.to_mm() / MILLIMETRES,
+            edge: length.to_mm() / MILLIMETRES,
             along_edge: in_hand(leading * sine - DVec3::Z * cosine),
             normal: in_hand(into_waste),
             sides,
+            spread_along: SpreadAlong::Evenly,
             drag: force(-way, drag.to_n_per_mm(), forces.tip.drag.to_n()),
             axial: force(-DVec3::Z, axial.to_n_per_mm(), forces.tip.axial.to_n()),
             side,
             turns: held.turns.to_rad(),
+            moment: 0.0,
         }
     }
 
@@ -160,14 +185,14 @@ impl Push {
     /// The force as it was measured, of the whole edge and the tip, seen from the hand, in N.
     pub(crate) fn stated(&self) -> DVec3 {
         let part =
-            |force: &Force| DVec3::from_array(force.direction) * (force.edge.centre + force.tip.centre);
+            |force: &Force| DVec3::from_array(force.direction) * (force.edge.stated + force.tip.stated);
         self.forces().into_iter().map(part).sum()
     }
 
     /// The largest parts that it may have, in N: drag, axial and side.
-    pub(crate) fn largest(&self) -> Parts<f64> {
+    pub(crate) fn largest(&self) -> EdgeParts<f64> {
         let [drag, axial, side] = self.forces().map(Force::most);
-        Parts { drag, axial, side }
+        EdgeParts { drag, axial, side }
     }
 
     /// The largest size that it may have, in N.
@@ -218,7 +243,7 @@ impl Push {
             let tip = self.torques(columns, force.direction, 0.0);
             let edge = self.torques(columns, force.direction, 0.5 * self.edge);
             for (axis, torque) in all.iter_mut().enumerate() {
-                *torque += force.tip.centre * tip[axis] + force.edge.centre * edge[axis];
+                *torque += force.tip.stated * tip[axis] + force.edge.stated * edge[axis];
             }
         }
         all
@@ -284,9 +309,20 @@ impl Push {
             };
             let by_tip = shift(|force| force.tip, &tip);
             let [near, far] = [&tip, &end].map(|yielded| shift(|force| force.edge, yielded));
+            let edge = match self.spread_along {
+                SpreadAlong::Evenly => core::array::from_fn(|view| near[view].hull(far[view])),
+                SpreadAlong::Anyhow => {
+                    let amounts = self.forces().map(|force| force.edge);
+                    let turned = self.turned(columns, &normal, &amounts, springs);
+                    let by_parts = core::array::from_fn(|view| by_parts(&amounts, &tip, &end, view));
+                    let [middle, everywhere]: [Interval; 2] = by_parts;
+                    [middle, everywhere + turned]
+                }
+            };
+            let by_moment = self.shifts_by_moment(columns, &normal, springs);
             core::array::from_fn(|view| By {
                 tip: by_tip[view],
-                edge: near[view].hull(far[view]),
+                edge: edge[view] + by_moment[view],
             })
         })
     }
@@ -309,8 +345,21 @@ impl Push {
             };
             core::array::from_fn(|axis| {
                 let tip = sum(|force| force.tip, 0, axis);
-                let [near, far] = [0, 1].map(|end| sum(|force| force.edge, end, axis));
-                let edge = near.hull(far);
+                let edge = match self.spread_along {
+                    SpreadAlong::Evenly => {
+                        let [near, far] = [0, 1].map(|end| sum(|force| force.edge, end, axis));
+                        near.hull(far)
+                    }
+                    SpreadAlong::Anyhow => {
+                        let each = self.forces().into_iter().zip(&ends);
+                        let pushed = each.map(|(force, ends)| {
+                            let [near, far] = [0, 1].map(|end: usize| view(ends[end][axis]));
+                            along_edge(force.edge.any(), near.hull(far))
+                        });
+                        pushed.fold(Interval::ZERO, |sum, next| sum + next)
+                    }
+                };
+                let edge = edge + Interval::around(0.0, self.moment * columns[axis].turning(view));
                 // In the air nothing pushes.
                 Interval::ZERO.hull(tip).hull(edge).hull(tip + edge)
             })
@@ -342,6 +391,29 @@ impl Push {
                 Sides::Either => both.either_way(),
             }
         })
+    }
+
+    /// By how much the moment shifts a place along the normal, which the axes move so: in the middle of a part, and everywhere on it.
+    fn shifts_by_moment(
+        &self,
+        columns: &[Column<Along>; JOINTS],
+        normal: &[Along; JOINTS],
+        springs: &Springs,
+    ) -> [Interval; 2] {
+        if self.moment == 0.0 {
+            return [Interval::ZERO; 2];
+        }
+        let shifts = |view: fn(Along) -> Interval, turns: f64| {
+            let each = columns.iter().zip(normal).zip(springs.each());
+            let yields = each.map(|((column, normal), spring)| {
+                // The normal may be off by a turn, and then moves with all of the place.
+                let off = turns * column.largest(self.edge);
+                let most = view(*normal).magnitude() + off;
+                spring.any().magnitude() * most * column.turning(view)
+            });
+            Interval::around(0.0, self.moment * yields.sum::<f64>())
+        };
+        [shifts(Along::middle, 0.0), shifts(Along::value, self.turns)]
     }
 
     /// What the forces may add where their directions are off.
@@ -412,6 +484,23 @@ fn shift(amounts: &[Amount; 3], yielded: &[Yielded; 3], turned: Interval) -> [In
     }
     let [middle, everywhere] = views(stated);
     [middle + off[0], everywhere + off[1]]
+}
+
+/// What a part of a force does whose bits lie anywhere along an edge: of all bits that push one way and of all that push the other, together
+/// no more than its ends, each bit with a lever within these.
+fn along_edge(any: Interval, lever: Interval) -> Interval {
+    let way = |amount: f64| Interval::ZERO.hull(lever.scaled(amount));
+    way(any.high.max(0.0)) + way(any.low.min(0.0))
+}
+
+/// What parts of a force shift a place by whose bits lie anywhere between the tip and the end of the edge, which yield so.
+fn by_parts(amounts: &[Amount; 3], tip: &[Yielded; 3], end: &[Yielded; 3], view: usize) -> Interval {
+    let each = amounts.iter().zip(tip.iter().zip(end));
+    let shifted = each.map(|(amount, (tip, end))| {
+        let yields = |yielded: &Yielded| views(yielded.stated)[view] + yielded.off[view];
+        along_edge(amount.any(), yields(tip).hull(yields(end)))
+    });
+    shifted.fold(Interval::ZERO, |sum, next| sum + next)
 }
 
 /// By how much torques at the axes shift a place along the normal.

@@ -3,7 +3,7 @@
 //! An operation takes the kind that it cuts with, such as [`StraightBlade`], so nothing after the check asks which kind it has.
 
 use super::Sourced;
-use super::forces::Forces;
+use super::forces::{BladeForces, EdgeForces, RimForces, TeethForces};
 use vcutc_backend_api::ir::{self, Edges, Shape, Straight};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length};
 use vcutc_diagnostics::source::Span;
@@ -97,7 +97,7 @@ pub struct StraightBlade {
     /// The body above the edge; none if the job does not state it.
     pub body: Option<Body>,
     /// What its edge pushes with; none if the job does not state it.
-    pub forces: Option<Forces>,
+    pub forces: Option<EdgeForces>,
 }
 
 /// A thin circular knife. Its heights count from the plane of its edge, along the axis towards the shank.
@@ -118,6 +118,8 @@ pub struct Disc {
     pub spin: Sourced<AngularSpeed>,
     /// Hub, shank and holder: they decide what comes free.
     pub body: Body,
+    /// What its rim pushes with; none if the job does not state it.
+    pub forces: Option<RimForces>,
 }
 
 /// A body that shreds what the edge at its lower rim parts. Its heights count from that edge, along the axis towards the shank.
@@ -136,6 +138,8 @@ pub struct Crusher {
     pub ramp: Sourced<Angle>,
     /// What is above; none if the job does not state it.
     pub body: Option<Body>,
+    /// What its teeth push with; none if the job does not state it.
+    pub forces: Option<TeethForces>,
 }
 
 /// The body of a blade above its edge: round stages about its axis, from the edge up. Each goes on up to the next one, the last
@@ -242,12 +246,13 @@ impl<'b> BladeRef<'b> {
         }
     }
 
-    /// What its edge pushes with; none if the job does not state it.
+    /// What it pushes with; none if the job does not state it.
     #[must_use]
-    pub const fn forces(self) -> Option<&'b Forces> {
+    pub fn forces(self) -> Option<BladeForces<'b>> {
         match self {
-            Self::Straight(blade) => blade.forces.as_ref(),
-            Self::Disc(_) | Self::Crusher(_) => None,
+            Self::Straight(blade) => blade.forces.as_ref().map(BladeForces::Edge),
+            Self::Disc(disc) => disc.forces.as_ref().map(BladeForces::Rim),
+            Self::Crusher(crusher) => crusher.forces.as_ref().map(BladeForces::Teeth),
         }
     }
 
@@ -339,6 +344,9 @@ impl Disc {
         self.width.forget_place(place);
         self.spin.forget_place(place);
         self.body.forget_places(place);
+        if let Some(forces) = &mut self.forces {
+            forces.forget_places(place);
+        }
     }
 }
 
@@ -367,6 +375,9 @@ impl Crusher {
         self.ramp.forget_place(place);
         if let Some(body) = &mut self.body {
             body.forget_places(place);
+        }
+        if let Some(forces) = &mut self.forces {
+            forces.forget_places(place);
         }
     }
 }

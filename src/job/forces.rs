@@ -1,56 +1,64 @@
-//! The forces that an edge needs, as somebody measured them.
+//! The forces that blades need, as somebody measured them: of an edge, of the rim of a disc, and of the teeth of a crusher.
+
+mod edge;
+mod rim;
+mod teeth;
+
+pub use edge::{EdgeForces, EdgeParts, MeasuredEdge};
+pub use rim::{MeasuredRim, RimForces, RimParts};
+pub use teeth::{ChipParts, MeasuredTeeth, TeethForces};
 
 use super::Sourced;
-use vcutc_backend_api::units::{Angle, EdgeForce, Force, Speed};
 use vcutc_diagnostics::source::Span;
 
-/// The force of a straight blade's edge: so much on each millimetre of it that is in the material, and so much at the tip. All
-/// parts are zero or more.
-///
-/// `drag` acts against the motion of the tip, `axial` pushes the blade up along its axis, and `side` pushes it along the normal
-/// of its plane into the waste.
+/// What pushes a blade, by its kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BladeForces<'b> {
+    /// A straight blade.
+    Edge(&'b EdgeForces),
+    /// A disc.
+    Rim(&'b RimForces),
+    /// A crusher.
+    Teeth(&'b TeethForces),
+}
+
+/// How sure forces are, and where they are from.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Forces {
+pub struct Statement {
     /// Where they are stated.
     pub span: Span,
-    pub edge: Parts<EdgeForce>,
-    /// What comes on top at the tip, however much of the edge is in the material.
-    pub tip: Parts<Force>,
     /// By which share of itself each part may be off, either way; at least 0 and below 1.
     pub spread: Sourced<f64>,
-    /// How many times as large they are where the ultrasound fails, when stated; at least 1.
-    pub failed: Option<Sourced<f64>>,
-    pub measured: Measured,
     pub source: String,
 }
 
-/// A force by its parts.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Parts<F> {
-    pub drag: F,
-    pub axial: F,
-    pub side: F,
+impl BladeForces<'_> {
+    /// How sure they are, and where they are from.
+    #[must_use]
+    pub const fn statement(&self) -> &Statement {
+        match self {
+            Self::Edge(forces) => &forces.statement,
+            Self::Rim(forces) => &forces.statement,
+            Self::Teeth(forces) => &forces.statement,
+        }
+    }
+
+    /// How many times as large they are where the ultrasound fails, when stated; at least 1.
+    #[must_use]
+    pub fn failed(&self) -> Option<f64> {
+        let failed = match self {
+            Self::Edge(forces) => forces.failed,
+            Self::Rim(forces) => forces.failed,
+            Self::Teeth(_) => None,
+        };
+        failed.map(|times| times.value)
+    }
 }
 
-/// How an edge was moved when its forces were measured.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measured {
-    pub feed: Sourced<Speed>,
-    pub rake: Sourced<Angle>,
-    /// Of the flank that was cut; zero of an upright one.
-    pub swing: Sourced<Angle>,
-}
-
-impl Forces {
-    /// Replaces the places where they are written by this one.
+impl Statement {
+    /// Replaces the places where it is written by this one.
     pub fn forget_places(&mut self, place: Span) {
         self.span = place;
         self.spread.forget_place(place);
-        if let Some(failed) = &mut self.failed {
-            failed.forget_place(place);
-        }
-        self.measured.feed.forget_place(place);
-        self.measured.rake.forget_place(place);
-        self.measured.swing.forget_place(place);
     }
 }

@@ -45,6 +45,11 @@ pub trait Operation: OperationValue + Any + Debug + Send + Sync {
         None
     }
 
+    /// How wide what its disc meets of a strip is at most, with what the rim runs beyond it; none of an operation without a disc.
+    fn widest_strip(&self) -> Option<Length> {
+        None
+    }
+
     /// How far the forces of its blade may push it off, if that is limited.
     fn deviation_limit(&self) -> Option<Sourced<Length>> {
         None

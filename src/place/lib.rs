@@ -159,7 +159,7 @@ fn by_deviation(ready: &Ready, asked: &Asked<'_>, bounds: Bounds) -> Result<Plac
         return Err(Box::new(compensated_elsewhere(needs)));
     }
     // Without these it is not known anywhere.
-    if driver::dynamics::forces(job).is_empty() {
+    if driver::dynamics::pushed_blades(job).is_empty() {
         return Err(Box::new(not_known(Unknown::Forces, needs, machine)));
     }
     if machine.model.elasticity.is_none() {

@@ -2,12 +2,13 @@
 
 use core::num::NonZeroU32;
 use vcutc_backend_api::geometry::Orientation;
-use vcutc_backend_api::ir::{Action, OperationId, Program, Site, ToolId};
+use vcutc_backend_api::ir::{Action, OpId, OperationId, Program, Site, ToolId};
 use vcutc_backend_api::segments::LinearSegment;
 
 /// A piece of a chain: a line or an arc, with how the tool is held where it begins and ends.
 #[derive(Clone, Debug)]
 pub struct ChainPiece {
+    pub op: OpId,
     pub layer: NonZeroU32,
     pub cut: NonZeroU32,
     pub tool: ToolId,
@@ -33,6 +34,7 @@ pub fn pieces(program: &Program, operation: OperationId) -> impl Iterator<Item =
         let line = segment.line().filter(|_| own == operation)?;
         let [from, to] = [line.from, line.to].map(|pose| program.orientation(pose.orientation));
         Some(ChainPiece {
+            op: segment.id,
             layer,
             cut,
             tool: segment.before.tool,

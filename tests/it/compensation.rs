@@ -132,7 +132,9 @@ proptest! {
         let off = off(&OFFSET, place, Drawn { parts, springs, up, ..STATED_FORCES });
         let of = figures(&OFFSET);
         prop_assert!(off <= of.into_waste.most + 1e-7 && -off <= of.into_part.most + 1e-7, "{off} {of:?}");
-        let each = cut_by_cut(OFFSET.job.as_ref().unwrap(), OFFSET.compiled.as_ref().unwrap()).unwrap();
+        let compiled = OFFSET.compiled.as_ref().unwrap();
+        let figures = compiled.dynamics.deviation.as_ref().unwrap();
+        let each = cut_by_cut(OFFSET.job.as_ref().unwrap(), compiled, figures).unwrap();
         let cut = each.iter().find(|cut| cut.op == place.op).unwrap();
         prop_assert!(off <= cut.into_waste + 1e-7 && -off <= cut.into_part + 1e-7, "{off} {cut:?}");
     }

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use std::collections::BTreeMap;
 use vcutc::diagnostics::{Code, Severity};
 use vcutc::driver::Outcome;
-use vcutc::driver::dynamics::{cut_by_cut, forces};
+use vcutc::driver::dynamics::{cut_by_cut, pushed_blades};
 use vcutc::dynamics::cuts::{Cuts, Known};
 use vcutc::dynamics::deviation::Deviations;
 use vcutc::machine::kinematics::Joints;
@@ -78,7 +78,7 @@ pub(crate) fn compiled(files: &Files) -> Outcome {
 }
 
 /// How a place of the blade moves for each rad of an axis, by differences.
-fn moved(rig: &Rig<'_>, joints: &Joints, in_blade: DVec3, axis: usize) -> DVec3 {
+pub(crate) fn moved(rig: &Rig<'_>, joints: &Joints, in_blade: DVec3, axis: usize) -> DVec3 {
     let there = |by: f64| {
         let mut joints = *joints;
         joints[axis] += by;
@@ -201,7 +201,7 @@ proptest! {
         let off = shift(&Rig::of(machine), &joints, way, used.length.to_mm(), drawn);
         prop_assert!(off <= of.into_waste.most + 1e-7, "{off} {of:?}");
         prop_assert!(-off <= of.into_part.most + 1e-7, "{off} {of:?}");
-        let each = cut_by_cut(outcome.job.as_ref().unwrap(), compiled).unwrap();
+        let each = cut_by_cut(outcome.job.as_ref().unwrap(), compiled, compiled.dynamics.deviation.as_ref().unwrap()).unwrap();
         let cut = each.iter().find(|cut| cut.op == op).unwrap();
         prop_assert!(off <= cut.into_waste + 1e-7 && -off <= cut.into_part + 1e-7, "{off} {cut:?}");
     }
@@ -238,7 +238,12 @@ fn the_figures_are_reached() {
     }
     let high = reached.values().copied().fold(0.0, f64::max);
     assert!(high >= 0.9 * of.into_waste.most, "{high} {of:?}");
-    let each = cut_by_cut(outcome.job.as_ref().unwrap(), compiled).unwrap();
+    let each = cut_by_cut(
+        outcome.job.as_ref().unwrap(),
+        compiled,
+        compiled.dynamics.deviation.as_ref().unwrap(),
+    )
+    .unwrap();
     assert_eq!(each.len(), reached.len());
     for cut in each {
         // Where axes push against each other, the worst springs are not all soft.
@@ -333,7 +338,7 @@ fn a_place_of_a_cut_has_the_shift_of_forces_as_stated() {
         edges: &compiled.report.edges,
         compensations: &compiled.report.compensations,
     };
-    let cuts_of = Cuts::of(known, &forces(checked)).unwrap();
+    let cuts_of = Cuts::of(known, &pushed_blades(checked)).unwrap();
     let deviations = Deviations::of(&cuts_of, None).unwrap();
     let rig = Rig::of(machine);
     let mut seen = 0;

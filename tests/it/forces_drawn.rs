@@ -163,7 +163,12 @@ fn deviations_of_cuts_hold_the_table_and_add_up_to_the_summary() {
     let (rows, summary) = (table(&folder), summary(&folder));
     let outcome = in_memory(&files);
     let compiled = outcome.compiled.as_ref().unwrap();
-    let each = cut_by_cut(outcome.job.as_ref().unwrap(), compiled).unwrap();
+    let each = cut_by_cut(
+        outcome.job.as_ref().unwrap(),
+        compiled,
+        compiled.dynamics.deviation.as_ref().unwrap(),
+    )
+    .unwrap();
     let rounding = 6e-6;
     let mut seen = 0;
     for row in rows.iter().filter(|row| row.contains_key("deviation_tip_mm")) {
@@ -246,7 +251,12 @@ fn sag_widens_the_deviation_of_every_cut() {
             .unwrap()
             .change;
         (
-            cut_by_cut(outcome.job.as_ref().unwrap(), compiled).unwrap(),
+            cut_by_cut(
+                outcome.job.as_ref().unwrap(),
+                compiled,
+                compiled.dynamics.deviation.as_ref().unwrap(),
+            )
+            .unwrap(),
             0.5 * sag,
         )
     };

@@ -96,6 +96,8 @@ mod rect;
 mod redundant;
 mod referees;
 mod repository;
+#[cfg(feature = "krl")]
+mod round_forces;
 mod scallop;
 mod schema;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]

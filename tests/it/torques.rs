@@ -7,7 +7,7 @@ use glam::{DVec3, EulerRot};
 use tempfile::TempDir;
 use vcutc::diagnostics::Code;
 use vcutc::driver::Outcome;
-use vcutc::driver::dynamics::forces;
+use vcutc::driver::dynamics::pushed_blades;
 use vcutc::dynamics::arms::Arms;
 use vcutc::dynamics::cuts::{Cuts, Known};
 use vcutc::dynamics::drives::Drives;
@@ -253,7 +253,7 @@ fn largest_sampled(outcome: &Outcome) -> [f64; 6] {
         edges: &compiled.report.edges,
         compensations: &compiled.report.compensations,
     };
-    let cuts = Cuts::of(known, &forces(job)).unwrap();
+    let cuts = Cuts::of(known, &pushed_blades(job)).unwrap();
     let arms = Arms::of(&machine.model, cell).unwrap();
     let dense = Spacing {
         way: 0.2,

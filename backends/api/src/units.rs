@@ -176,6 +176,12 @@ quantity! {
     n_per_mm / to_n_per_mm = 1.0;
 }
 quantity! {
+    /// A force on each area of a chip; held in N/mm2.
+    CuttingPressure,
+    /// Newtons a square millimetre.
+    n_per_mm2 / to_n_per_mm2 = 1.0;
+}
+quantity! {
     /// An area in the x-z plane; held in mm2.
     Area,
     /// Square millimetres.

@@ -41,6 +41,8 @@ impl Dimension {
     pub const FORCE: Self = Self::new(1, 0, -2, 1);
     /// A force on each length of an edge.
     pub const EDGE_FORCE: Self = Self::new(0, 0, -2, 1);
+    /// A force on each area of a chip.
+    pub const CUTTING_PRESSURE: Self = Self::new(-1, 0, -2, 1);
     /// A moment of inertia.
     pub const INERTIA: Self = Self::new(2, 0, 0, 1);
 
@@ -112,6 +114,7 @@ impl Dimension {
             Self::AREA => return "mm2".to_owned(),
             Self::FORCE => return "N".to_owned(),
             Self::EDGE_FORCE => return "N/mm".to_owned(),
+            Self::CUTTING_PRESSURE => return "N/mm2".to_owned(),
             Self::INERTIA => return "kgm2".to_owned(),
             _ => {}
         }
@@ -152,7 +155,7 @@ impl Dimension {
     pub fn unit_size(self) -> f64 {
         match self {
             // A newton is 1 kg m/s2.
-            Self::FORCE | Self::EDGE_FORCE => return 1000.0,
+            Self::FORCE | Self::EDGE_FORCE | Self::CUTTING_PRESSURE => return 1000.0,
             // A square metre is 1e6 mm2.
             Self::INERTIA => return 1e6,
             _ => {}
@@ -179,6 +182,10 @@ mod tests {
         assert_eq!(
             Dimension::FORCE.over(Dimension::LENGTH),
             Some(Dimension::EDGE_FORCE)
+        );
+        assert_eq!(
+            Dimension::FORCE.over(Dimension::AREA),
+            Some(Dimension::CUTTING_PRESSURE)
         );
         assert_eq!(Dimension::new(0, 0, -1, 0).words(), "a quantity in 1/s");
         assert_eq!(Dimension::new(1, 1, -1, -2).unit(), "mm*deg/s/kg^2");

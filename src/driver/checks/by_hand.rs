@@ -100,6 +100,7 @@ impl Reason {
             }
             Self::NoLoad => "the job does not state the load on the flange",
             Self::NotComputed => "the compiler does not compute it for such a machine",
+            Self::Disc => "the compiler does not compute it for surfaces under a disc",
             Self::NoForces => "not all blades state their forces",
             Self::PlacesOnly => {
                 "the compiler looks at places along the program, not at what lies between them"

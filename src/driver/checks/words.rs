@@ -71,7 +71,8 @@ impl Checks {
         }
         if self.is_made(&Check::Deviation) {
             parts.push(
-                "the forces of its blades push no flank off by more than the stated deviation".to_owned(),
+                "at rest, the forces of its blades push no flank or wall off by more than the stated deviation"
+                    .to_owned(),
             );
         }
         if self.is_made(&Check::Unloaded) {
@@ -256,6 +257,7 @@ impl Reason {
             Self::SectionsOnly => "sections_only",
             Self::NoLoad => "no_load",
             Self::NotComputed => "not_computed",
+            Self::Disc => "disc",
             Self::NoForces => "no_forces",
             Self::PlacesOnly => "places_only",
         }
@@ -276,6 +278,7 @@ impl Reason {
             Self::SectionsOnly => "sections are looked at, 10 mm apart or 200 of them",
             Self::NoLoad => "the job does not state the load on the flange",
             Self::NotComputed => "not computed for such a machine",
+            Self::Disc => "not computed for surfaces under a disc",
             Self::NoForces => "not all blades state their forces",
             Self::PlacesOnly => {
                 "places are looked at, at most 25 mm of the tip's way or 5 deg of turning apart"

@@ -26,7 +26,7 @@ fn named(name: &str, load: Option<Load>) -> Arm {
     Arm::new(&model.mechanism, bodies, load, RISE).unwrap()
 }
 
-fn torques(arm: &Arm, joints: [f64; 6], rates: [f64; 6], accelerations: [f64; 6]) -> [f64; 6] {
+pub(crate) fn torques(arm: &Arm, joints: [f64; 6], rates: [f64; 6], accelerations: [f64; 6]) -> [f64; 6] {
     arm.torques(&State {
         turns: arm.turns(&joints),
         rates,

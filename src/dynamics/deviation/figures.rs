@@ -2,6 +2,7 @@
 
 use super::{Deviations, Extreme, Unknown};
 use crate::arms::Arms;
+use crate::blade::{EngagedPart, PushedBlade};
 use crate::condition::{Condition, hundredths};
 use crate::cuts::{Cuts, Known, LargestForce};
 use crate::figures::word;
@@ -11,8 +12,7 @@ use vcutc_backend_api::ir::{OpId, OperationId};
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::{number, show};
 use vcutc_geometry::number::Interval;
-use vcutc_job::Gravity;
-use vcutc_job::forces::Forces;
+use vcutc_job::{BladeRef, Gravity};
 use vcutc_machine::masses::Backing;
 use vcutc_motion::describe::site_words;
 use vcutc_motion::figures::PlaceFigure;
@@ -45,9 +45,11 @@ pub struct ForceFigure {
     pub axial: f64,
     #[serde(serialize_with = "hundredths")]
     pub side: f64,
-    /// How much edge is in the material, in mm.
+    /// How much of the blade is in the material, in mm.
     #[serde(serialize_with = "hundredths")]
     pub edge: f64,
+    /// What of it that is.
+    pub part: EngagedPart,
     pub at: PlaceFigure,
 }
 
@@ -148,8 +150,8 @@ pub struct Elsewhere {
 /// What figures are asked of.
 #[derive(Clone, Copy)]
 pub struct Asked<'a> {
-    /// The forces of blades, by their names.
-    pub forces: &'a BTreeMap<&'a str, &'a Forces>,
+    /// The blades that state their forces, by their names.
+    pub blades: &'a BTreeMap<&'a str, PushedBlade<'a>>,
     /// The limits of the operations, in order.
     pub limits: &'a [Option<Length>],
     pub gravity: Option<Gravity>,
@@ -215,6 +217,12 @@ impl DeviationFigures {
                 })
                 .collect(),
         })
+    }
+
+    /// The deviation of an operation; none of one that no forces are known of, or whose deviation is not computed.
+    #[must_use]
+    pub fn of_operation(&self, operation: OperationId) -> Option<&OperationDeviation> {
+        self.operations.iter().find(|of| of.operation == operation.0)
     }
 
     /// The lines of a summary: names and texts.
@@ -304,8 +312,10 @@ pub fn millimetres(most: f64) -> String {
 /// How many times as much the blades of an operation push where the ultrasound fails: the most of them.
 fn failed(known: Known<'_>, asked: Asked<'_>, operation: OperationId) -> Option<f64> {
     let blades = known.reached.program().blades_of(operation);
-    let forces = blades.filter_map(|blade| asked.forces.get(blade.name.as_str()));
-    let failed = forces.filter_map(|forces| forces.failed.map(|times| times.value));
+    let stating = blades.filter_map(|blade| asked.blades.get(blade.name.as_str()));
+    // Of discs no deviation is computed.
+    let deviating = stating.filter(|pushed| !matches!(pushed.blade, BladeRef::Disc(_)));
+    let failed = deviating.filter_map(|pushed| pushed.blade.forces()?.failed());
     failed.reduce(f64::max)
 }
 
@@ -325,6 +335,7 @@ fn force(known: Known<'_>, largest: LargestForce) -> ForceFigure {
         axial: largest.parts.axial.to_n(),
         side: largest.parts.side.to_n(),
         edge: largest.edge.to_mm(),
+        part: largest.part,
         at: place(known, largest.op),
     }
 }
@@ -387,10 +398,16 @@ impl ForceFigure {
     fn line(&self) -> String {
         let [force, drag, axial, side] = [self.force, self.drag, self.axial, self.side]
             .map(|newtons| show((newtons * 10.0).round() / 10.0));
+        let [along, across] = match self.part {
+            EngagedPart::Edge => ["drag", "side"],
+            EngagedPart::Rim => ["drag", "radial"],
+            EngagedPart::Teeth => ["along the feed", "across it"],
+        };
         format!(
-            "{force} N at most (parts: drag up to {drag}, axial {axial}, side {side}) at {}, on {} mm of edge",
+            "{force} N at most (parts: {along} up to {drag}, axial {axial}, {across} {side}) at {}, on {} mm of {}",
             self.at.words,
             show((self.edge * 10.0).round() / 10.0),
+            self.part.word(),
         )
     }
 }

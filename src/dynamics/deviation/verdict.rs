@@ -4,10 +4,10 @@ use super::Unknown;
 use super::figures::{DeviationFigures, Elsewhere, OperationDeviation, ShiftFigure, millimetres};
 use crate::condition::Condition;
 use vcutc_backend_api::units::Length;
-use vcutc_diagnostics::number::{number, show};
+use vcutc_diagnostics::number::number;
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_job::forces::Forces;
+use vcutc_job::forces::BladeForces;
 use vcutc_job::{Machine, Sourced};
 use vcutc_machine::masses::Backing;
 
@@ -51,7 +51,10 @@ pub fn above_limit(
     let kept = f64::max(operation.into_part.most, operation.into_waste.most);
     let kept = millimetres((kept * 100.0).ceil() / 100.0);
     let diagnostic = diagnostic
-        .note("to lower it, use smaller layers, move the work nearer to the arm, or use a shorter tool");
+        .note(
+            "to lower it, use smaller layers, move the work nearer to the arm, or use a shorter tool; thinner chips push a crusher \
+             less, by a lower feed or a higher spin",
+        );
     Some(match limit.span {
         Some(span) => diagnostic.fix(format!("`deviation <= {kept}` is kept"), span, kept),
         None => diagnostic,
@@ -135,6 +138,9 @@ pub fn not_known(why: Unknown, needs: Needs, machine: &Machine) -> Diagnostic {
             .help(format!(
                 "state `load` in the machine and `[dynamics]` in its sheet, or {instead}"
             )),
+        Unknown::Disc => needs
+            .fault("for discs, only the torques are computed")
+            .help(format!("{instead} instead")),
         Unknown::ClosedForm => needs
             .fault(&format!("`{name}` is not an arm with a spherical wrist"))
             .and(place, "the machine")
@@ -164,26 +170,18 @@ pub fn without_machine(needs: Needs) -> Diagnostic {
 
 /// A warning of cuts that are made otherwise than the forces were measured.
 #[must_use]
-pub fn elsewhere(found: &Elsewhere, forces: &Forces) -> Diagnostic {
-    let words = |condition: Condition| {
-        format!(
-            "{} mm/s, rake {} deg and swing {} deg",
-            show((condition.feed * 10.0).round() / 10.0),
-            show((condition.rake * 10.0).round() / 10.0),
-            show((condition.swing * 10.0).round() / 10.0),
-        )
-    };
+pub fn elsewhere(found: &Elsewhere, forces: BladeForces<'_>) -> Diagnostic {
     Diagnostic::new(
         Code::ForcesElsewhere,
         format!(
-            "the forces of `{}` were measured at {}; {} is cut at {}",
+            "the forces of `{}` were measured {}; {} is cut {}",
             found.blade,
-            words(Condition::of(&forces.measured)),
+            Condition::from(forces).words(),
             found.at.words,
-            words(found.cut),
+            found.cut.words(),
         ),
-        forces.span,
+        forces.statement().span,
         "used as they are",
     )
-    .help("measure them as you cut")
+    .help("measure them as this cut is made")
 }

@@ -1,6 +1,6 @@
 //! Modes against published cases, against one spring by hand, and against the matrices of [Ha 2019].
 
-use super::cells::shares;
+use super::meeting::shares;
 use super::*;
 use crate::arm::tests::{bodies, parts_of_the_paper, states};
 use crate::push::tests::{STIFFNESS, along_normals_in_a_v, joints_in_a_v};
@@ -15,7 +15,7 @@ use vcutc_machine::kinematics::linkage::Linkage;
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_machine::kinematics::samples::{irb2400, kr210};
 
-fn springs(stiffness: [f64; JOINTS]) -> Springs {
+pub(crate) fn springs(stiffness: [f64; JOINTS]) -> Springs {
     Springs::of(stiffness.map(|stiffness| Spring {
         stated: 1.0 / stiffness,
         off: Interval::ZERO,

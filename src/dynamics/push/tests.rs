@@ -11,7 +11,7 @@ use vcutc_backend_api::motion::{Branch, Elbow, Shoulder, Wrist};
 use vcutc_backend_api::units::{EdgeForce, Speed};
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_job::Sourced;
-use vcutc_job::forces::Measured;
+use vcutc_job::forces::{MeasuredEdge, Statement};
 use vcutc_machine::kinematics::opw::Opw;
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_machine::kinematics::samples::kr210;
@@ -45,23 +45,25 @@ fn nowhere() -> Span {
     Span::of_bytes(sources.add("forces", ""), 0..0)
 }
 
-fn forces(spread: f64) -> Forces {
-    Forces {
-        span: nowhere(),
-        edge: Parts {
+fn forces(spread: f64) -> EdgeForces {
+    EdgeForces {
+        statement: Statement {
+            span: nowhere(),
+            spread: stated(spread),
+            source: "made up".to_owned(),
+        },
+        edge: EdgeParts {
             drag: EdgeForce::n_per_mm(1.0),
             axial: EdgeForce::n_per_mm(0.3),
             side: EdgeForce::n_per_mm(0.2),
         },
-        tip: Parts::default(),
-        spread: stated(spread),
+        tip: EdgeParts::default(),
         failed: None,
-        measured: Measured {
+        measured: MeasuredEdge {
             feed: stated(Speed::mm_per_s(200.0)),
             rake: stated(Angle::deg(60.0)),
             swing: stated(Angle::deg(34.155)),
         },
-        source: "made up".to_owned(),
     }
 }
 
@@ -124,7 +126,7 @@ fn case(side: f64, elbow: Elbow, spread: f64) -> Case {
     of_posture(joints, blade_in_work, tool, &forces(spread), DVec3::Y)
 }
 
-fn of_posture(joints: Joints, blade_in_work: DMat3, tool: Pose, forces: &Forces, way: DVec3) -> Case {
+fn of_posture(joints: Joints, blade_in_work: DMat3, tool: Pose, forces: &EdgeForces, way: DVec3) -> Case {
     let chain = Chain::of(&Mechanism::OrthoParallel(arm())).unwrap();
     let hand = chain.in_hand(tool);
     let posture = Posture {
@@ -132,12 +134,10 @@ fn of_posture(joints: Joints, blade_in_work: DMat3, tool: Pose, forces: &Forces,
         blade_in_hand: hand.rotation,
         way,
         turns: Angle::ZERO,
-        half_apex: Angle::deg(7.13),
-        edge: Length::mm(10.0),
     };
     Case {
         columns: chain.columns(&chain.turns(&joints), hand.position.to_array()),
-        push: Push::new(forces, &posture),
+        push: Push::on_edge(forces, Angle::deg(7.13), Length::mm(10.0), &posture),
         rotation: blade_in_work * hand.rotation.transpose(),
         chain,
         joints,
@@ -404,7 +404,7 @@ fn square(entries: &[f64]) -> SMatrix<f64, JOINTS, JOINTS> {
 fn an_arm_whose_modes_are_alike_swings_as_far_as_the_bound() {
     let springs = IDENTIFIED[0];
     let mut all = forces(0.0);
-    all.edge = Parts {
+    all.edge = EdgeParts {
         drag: EdgeForce::n_per_mm(0.0),
         axial: EdgeForce::n_per_mm(0.0),
         side: EdgeForce::n_per_mm(0.0),

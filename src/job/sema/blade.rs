@@ -12,7 +12,7 @@ use super::heads::BladeHead;
 use super::read::Reader;
 use super::report::Checked;
 use super::session::Session;
-use crate::forces::Forces;
+use crate::forces::{EdgeForces, RimForces, TeethForces};
 use crate::{Blade, BladeKind, Crusher, Disc, Sourced, StraightBlade};
 use body::Edge;
 use kinds::EDGES;
@@ -28,26 +28,31 @@ pub(crate) fn check(
     session: &mut Session<'_>,
 ) -> Checked<Blade> {
     let fields = Fields::sort(spec(head.kind), place, &block.entries, session);
-    let pushing = match head.kind {
-        BladeKind::Straight => {
-            let given = fields.block("forces");
-            let span = fields.place_of("forces").unwrap_or(place.head);
-            given.and_then(|given| forces::check(given.map(|inner| (inner, span)), scope, session))
-        }
-        BladeKind::Disc | BladeKind::Crusher => Ok(None),
-    };
-    let mut reader = Reader::new(scope, &mut session.reports);
+    let span = fields.place_of("forces").unwrap_or(place.head);
+    let forces = forces::Given { span, scope };
     match head.kind {
-        BladeKind::Straight => straight(head, &fields, pushing, &mut reader).map(Blade::Straight),
-        BladeKind::Disc => disc(head, &fields, &mut reader).map(Blade::Disc),
-        BladeKind::Crusher => crusher(head, &fields, &mut reader).map(Blade::Crusher),
+        BladeKind::Straight => {
+            let forces = forces.check(&fields, session, forces::of_edge);
+            let mut reader = Reader::new(scope, &mut session.reports);
+            straight(head, &fields, forces, &mut reader).map(Blade::Straight)
+        }
+        BladeKind::Disc => {
+            let forces = forces.check(&fields, session, forces::of_rim);
+            let mut reader = Reader::new(scope, &mut session.reports);
+            disc(head, &fields, forces, &mut reader).map(Blade::Disc)
+        }
+        BladeKind::Crusher => {
+            let forces = forces.check(&fields, session, forces::of_teeth);
+            let mut reader = Reader::new(scope, &mut session.reports);
+            crusher(head, &fields, forces, &mut reader).map(Blade::Crusher)
+        }
     }
 }
 
 fn straight(
     head: BladeHead<'_>,
     fields: &Fields<'_>,
-    forces: Checked<Option<Forces>>,
+    forces: Checked<Option<EdgeForces>>,
     reader: &mut Reader<'_>,
 ) -> Checked<StraightBlade> {
     let cutting_length = reader.required(fields, "cutting_length");
@@ -69,7 +74,12 @@ fn straight(
     })
 }
 
-fn disc(head: BladeHead<'_>, fields: &Fields<'_>, reader: &mut Reader<'_>) -> Checked<Disc> {
+fn disc(
+    head: BladeHead<'_>,
+    fields: &Fields<'_>,
+    forces: Checked<Option<RimForces>>,
+    reader: &mut Reader<'_>,
+) -> Checked<Disc> {
     let radius: Checked<Sourced<Length>> = reader.required(fields, "radius");
     let thickness = reader.required(fields, "thickness");
     let depth = reader.required(fields, "depth");
@@ -89,10 +99,16 @@ fn disc(head: BladeHead<'_>, fields: &Fields<'_>, reader: &mut Reader<'_>) -> Ch
         width: width?,
         spin: spin?,
         body: body?,
+        forces: forces?,
     })
 }
 
-fn crusher(head: BladeHead<'_>, fields: &Fields<'_>, reader: &mut Reader<'_>) -> Checked<Crusher> {
+fn crusher(
+    head: BladeHead<'_>,
+    fields: &Fields<'_>,
+    forces: Checked<Option<TeethForces>>,
+    reader: &mut Reader<'_>,
+) -> Checked<Crusher> {
     let radius = reader.required(fields, "radius");
     let height = reader.required(fields, "height");
     let spin = reader.required(fields, "spin");
@@ -106,5 +122,6 @@ fn crusher(head: BladeHead<'_>, fields: &Fields<'_>, reader: &mut Reader<'_>) ->
         spin: spin?,
         ramp: ramp?,
         body: body?,
+        forces: forces?,
     })
 }

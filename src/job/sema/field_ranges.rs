@@ -45,6 +45,12 @@ pub const MASS: Range = Range::closed(Dimension::MASS, 0.0, 10_000.0);
 pub const FORCE: Range = Range::closed(Dimension::FORCE, 0.0, 1e5);
 /// Forces on each millimetre of an edge.
 pub const EDGE_FORCE: Range = Range::closed(Dimension::EDGE_FORCE, 0.0, 1e4);
+/// Forces on each square millimetre of a chip.
+pub const CUTTING_PRESSURE: Range = Range::closed(Dimension::CUTTING_PRESSURE, 0.0, 1e5);
+/// How many teeth a crusher has on its outside.
+pub const TEETH: Range = Range::closed(Dimension::PURE, 1.0, 100.0);
+/// Between the teeth of a crusher and its axis.
+pub const HELIX: Range = Range::new(Dimension::ANGLE, Bound::Included(0.0), Bound::Excluded(90.0));
 /// By which share of itself a measured value may be off, either way.
 pub const SPREAD: Range = Range::new(Dimension::PURE, Bound::Included(0.0), Bound::Excluded(1.0));
 /// Shares that a limit leaves of something.

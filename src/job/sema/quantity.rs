@@ -1,7 +1,9 @@
 //! Quantities: a number with its dimension, stored in mm, rad, s and kg.
 
 use super::dimension::Dimension;
-use vcutc_backend_api::units::{Angle, AngularSpeed, Area, Duration, EdgeForce, Force, Length, Mass, Speed};
+use vcutc_backend_api::units::{
+    Angle, AngularSpeed, Area, CuttingPressure, Duration, EdgeForce, Force, Length, Mass, Speed,
+};
 pub use vcutc_diagnostics::number::number;
 
 /// A number with its dimension.
@@ -98,11 +100,12 @@ measured! {
     Mass, MASS, Mass::kg, Mass::to_kg;
     Force, FORCE, from_base_force, to_base_force;
     EdgeForce, EDGE_FORCE, from_base_edge_force, to_base_edge_force;
+    CuttingPressure, CUTTING_PRESSURE, from_base_pressure, to_base_pressure;
     Speed, SPEED, Speed::mm_per_s, Speed::to_mm_per_s;
     AngularSpeed, TURNING_RATE, AngularSpeed::rad_per_s, AngularSpeed::to_rad_per_s;
 }
 
-/// One newton in kg mm/s2, and one newton a millimetre in kg/s2.
+/// One newton in kg mm/s2, one newton a millimetre in kg/s2, and one newton a square millimetre in kg/mm/s2.
 const NEWTON: f64 = 1000.0;
 
 const fn from_base_force(value: f64) -> Force {
@@ -119,6 +122,14 @@ const fn from_base_edge_force(value: f64) -> EdgeForce {
 
 const fn to_base_edge_force(force: EdgeForce) -> f64 {
     force.to_n_per_mm() * NEWTON
+}
+
+const fn from_base_pressure(value: f64) -> CuttingPressure {
+    CuttingPressure::n_per_mm2(value / NEWTON)
+}
+
+const fn to_base_pressure(pressure: CuttingPressure) -> f64 {
+    pressure.to_n_per_mm2() * NEWTON
 }
 
 #[cfg(test)]

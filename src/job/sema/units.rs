@@ -102,6 +102,7 @@ const COMPOUND_ALIASES: &[(&str, &str)] = &[
     ("dps", "deg/s"),
     ("rpm", "rev/min"),
     ("rps", "rev/s"),
+    ("MPa", "N/mm2"),
 ];
 
 fn find(name: &str) -> Option<&'static Unit> {
@@ -133,7 +134,7 @@ pub(super) fn fitting(dimension: Dimension) -> Vec<String> {
     let quotients = COMPOUND_ALIASES
         .iter()
         .map(|(_, unit)| *unit)
-        .chain(["rad/s", "N/mm"]);
+        .chain(["rad/s", "N/mm", "N/mm2"]);
     simple
         .chain(quotients)
         .filter(|unit| quantity(1.0, unit).is_some_and(|one| one.dimension == dimension))
@@ -242,6 +243,10 @@ mod tests {
         assert_eq!(
             quantity(3.0, "kN/m").map(Quantity::text).as_deref(),
             Some("3 N/mm")
+        );
+        assert_eq!(
+            quantity(2.0, "kN/mm2").map(Quantity::text).as_deref(),
+            Some("2000 N/mm2")
         );
         assert_eq!(quantity(5.0, "furlong"), None);
         assert_eq!(quantity(5.0, "mm/furlong"), None);

@@ -44,6 +44,10 @@ impl Operation for FinishDisc {
         self.limits.lead.forget_place(place);
     }
 
+    fn widest_strip(&self) -> Option<Length> {
+        Some(self.disc.width.value)
+    }
+
     fn scallop_limit(&self) -> Option<Sourced<Length>> {
         Some(self.limits.scallop)
     }

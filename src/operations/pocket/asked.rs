@@ -42,6 +42,8 @@ pub struct Limits {
     pub uncut: Sourced<Area>,
     /// How much of the crusher's rim may be in the material at the speed of cutting.
     pub engagement: Option<Sourced<Angle>>,
+    /// How far the forces of the crusher may push it off along the normals of walls; positive.
+    pub deviation: Option<Sourced<Length>>,
 }
 
 /// How passes lie over a region.

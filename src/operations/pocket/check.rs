@@ -56,6 +56,7 @@ const LIMITS: BlockSpec = BlockSpec {
     fields: &[
         limit("uncut", "1 mm2").within(AREAS),
         limit("engagement", "120 deg").within(ENGAGEMENTS),
+        limit("deviation", "0.2 mm").within(SIZE),
     ],
     inner: Inner::Refused,
 };
@@ -156,14 +157,17 @@ fn limits(fields: &Fields<'_>, written: Written<'_>, session: &mut Session<'_>) 
         return Ok(Limits {
             uncut: default(UNCUT),
             engagement: None,
+            deviation: None,
         });
     };
     let fields = Fields::sort(&LIMITS, inner_place(inner), &inner.entries, session);
     let mut reader = Reader::new(written.scope, &mut session.reports);
     let uncut = reader.defaulted(&fields, "uncut", UNCUT);
     let engagement = reader.optional(&fields, "engagement");
+    let deviation = reader.optional(&fields, "deviation");
     Ok(Limits {
         uncut: uncut?,
         engagement: engagement?,
+        deviation: deviation?,
     })
 }

@@ -4,6 +4,7 @@ use crate::asked::ClearPocket;
 use crate::decided::Planned;
 use crate::plan;
 use crate::refused::Refused;
+use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::Span;
 use vcutc_job::follow::Follow;
 use vcutc_job::operation::{Ground, Laid, Operation, Unplanned};
@@ -45,6 +46,13 @@ impl Operation for ClearPocket {
         if let Some(engagement) = &mut self.limits.engagement {
             engagement.forget_place(place);
         }
+        if let Some(deviation) = &mut self.limits.deviation {
+            deviation.forget_place(place);
+        }
+    }
+
+    fn deviation_limit(&self) -> Option<Sourced<Length>> {
+        self.limits.deviation
     }
 
     fn plan<'j>(&'j self, ground: Ground<'j>) -> Result<Laid, Box<dyn Unplanned + 'j>> {

@@ -8,7 +8,8 @@ pub(crate) mod stated;
 use crate::asked::ClearPocket;
 use core::num::NonZeroU32;
 use stated::{Layer, layers};
-use vcutc_backend_api::ir::{Blade, BodyStage, Crusher, OperationId, Program, Shape, ToolId};
+use std::collections::BTreeMap;
+use vcutc_backend_api::ir::{Blade, BodyStage, Crusher, OpId, OperationId, Program, Shape, ToolId};
 use vcutc_backend_api::units::{Angle, Area, Length};
 use vcutc_geometry::curve::Point2;
 use vcutc_job::operation::judged::Judged;
@@ -19,7 +20,9 @@ use vcutc_region::coverage::{Coverage, Tool, coverage, unreachable};
 use vcutc_region::engagement::{Engagement, engagement, on_pieces};
 use vcutc_region::pass::Pass;
 use vcutc_region::place::Place;
-use vcutc_simulation::prove::{Cleared, ClearingFault, CutFault, Finding, Findings, Replay};
+use vcutc_simulation::prove::{
+    Cleared, ClearingFault, CutFault, Finding, Findings, Passes, Replay, UsedEdge,
+};
 use vcutc_simulation::surface::Surface;
 
 /// How far a number of a program may be beyond its limit by rounding, in mm.
@@ -27,20 +30,32 @@ const ROUNDING: f64 = 1e-6;
 
 /// Judges the passes over a region of a program, in what its other cuts leave: adds what is wrong, and what they do.
 pub(crate) fn judge(asked: &ClearPocket, judged: Judged<'_>, replay: &mut Replay) {
+    let later = judged
+        .plan
+        .operations
+        .iter()
+        .skip(usize::from(judged.operation.0) + 1);
+    let mut later = later.map(|planned| planned.bound().passes);
     let judge = Judge {
+        is_last_on_the_stock: later.all(|passes| matches!(passes, Some(Passes::Region))),
         operation: judged.operation,
         asked,
         program: judged.program,
         findings: &mut replay.findings,
+        edges: &mut replay.edges,
     };
     replay.cleared.extend(judge.all(&mut replay.surface));
+    replay.edges.sort_by_key(|used| used.op);
 }
 
 struct Judge<'j> {
     operation: OperationId,
+    /// Whether no later operation changes what a section shows of the stock.
+    is_last_on_the_stock: bool,
     asked: &'j ClearPocket,
     program: &'j Program,
     findings: &'j mut Findings,
+    edges: &'j mut Vec<UsedEdge>,
 }
 
 /// The tool as far as it is asked to reach: what it reaches only from places at which passes have no room for their rounding is beyond
@@ -85,7 +100,14 @@ impl Judge<'_> {
             engagement: Angle::ZERO,
         };
         let mut above = highest(before, &self.asked.region.region, tool.radius);
-        let top = above;
+        // What later operations rough is gone from the surface, but stands while this one cuts.
+        let stands = if self.is_last_on_the_stock {
+            above
+        } else {
+            self.program.stock.height.to_mm()
+        };
+        let top = stands;
+        let mut begins = stands;
         let mut known: Option<(Layer, Seen)> = None;
         for layer in layers {
             self.stands(&layer);
@@ -102,6 +124,10 @@ impl Judge<'_> {
                 },
             };
             self.judge(&layer, &seen, tool);
+            let used = engaged(&layer, &seen.engagement, begins).into_iter();
+            self.edges
+                .extend(used.map(|(op, length)| UsedEdge { op, length }));
+            begins = layer.floor();
             self.bodies(&layer, &seen, (blade, top));
             done.pieces += layer.flat().iter().map(|pass| pass.pieces.len()).sum::<usize>();
             done.way += Length::mm(layer.flat().iter().map(|pass| pass.length()).sum());
@@ -122,6 +148,25 @@ impl Judge<'_> {
         }
         Some(done)
     }
+}
+
+/// How much of the height of the teeth is in the material on each way of a layer that begins at this height: all that is below it, and
+/// nothing on the floor where none of the rim is in the material.
+fn engaged(layer: &Layer, engagement: &Engagement, above: f64) -> BTreeMap<OpId, Length> {
+    let below = |lowest: f64| Length::mm((above - lowest).max(0.0));
+    let sloping = layer.sloping_moves.iter();
+    let mut all: BTreeMap<OpId, Length> = sloping.map(|way| (way.op, below(way.lowest))).collect();
+    for (number, (pass, profile)) in layer.flat().iter().zip(&engagement.profiles).enumerate() {
+        for (stretch, ..) in on_pieces(pass, profile) {
+            if let Some(along) = layer.along(number, stretch.piece) {
+                let is_in = stretch.bound > 0.0;
+                let length = if is_in { below(layer.floor()) } else { Length::ZERO };
+                let known = all.entry(along.op).or_insert(length);
+                *known = known.max(length);
+            }
+        }
+    }
+    all
 }
 
 impl Judge<'_> {
@@ -285,7 +330,8 @@ impl Judge<'_> {
         for (number, (pass, profile)) in layer.flat().iter().zip(&engagement.profiles).enumerate() {
             for (stretch, piece, begun) in on_pieces(pass, profile) {
                 let is_slow = layer
-                    .speed(number, stretch.piece)
+                    .along(number, stretch.piece)
+                    .and_then(|along| along.feed)
                     .is_none_or(|speed| speed <= self.asked.plunge_feed.value);
                 if is_slow || most.is_some_and(|(known, _)| known >= stretch.bound) {
                     continue;

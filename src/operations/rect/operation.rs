@@ -52,6 +52,11 @@ impl Operation for RoughRect {
         forget(&mut self.limits.time, place);
     }
 
+    /// The rim runs on under the next strip.
+    fn widest_strip(&self) -> Option<Length> {
+        Some(self.disc.width.value + self.beyond.value)
+    }
+
     fn scallop_limit(&self) -> Option<Sourced<Length>> {
         self.limits.scallop
     }

@@ -16,14 +16,22 @@ pub fn by_forces<const PLACES: usize>(
     material: &Material<'_>,
     ids: [Prefix; PLACES],
 ) -> Option<[String; PLACES]> {
-    let figures = material.compiled.dynamics.deviation.as_ref()?;
+    let mut figures = material.compiled.dynamics.deviation.clone()?;
     if summary::is_of_regions(material.plan) {
         return None;
     }
+    let planned = &material.plan.operations;
+    figures.operations.retain(|of| {
+        let planned = planned.get(usize::from(of.operation));
+        planned.is_some_and(|planned| !summary::is_of_a_region(&**planned))
+    });
+    if figures.operations.is_empty() {
+        return None;
+    }
     let program = material.compiled.program.verified().program();
-    let each = cut_by_cut(material.job, material.compiled)?;
+    let each = cut_by_cut(material.job, material.compiled, &figures)?;
     let cuts: Option<Vec<by_forces::Cut>> = each.iter().map(|cut| shown(cut, program)).collect();
-    let (cuts, most, limits) = (cuts?, most(figures, program), limits(figures));
+    let (cuts, most, limits) = (cuts?, most(&figures, program), limits(&figures));
     let title = format!("{}: deviation by the forces of the blade", material.plan.name);
     let model = material
         .job

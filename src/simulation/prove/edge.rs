@@ -5,7 +5,7 @@ use super::{Cut, CutFault, Finding, Player, note};
 use vcutc_backend_api::ir::OpId;
 use vcutc_backend_api::units::Length;
 
-/// How much of the edge is in the material at most while an op cuts, from the tip on.
+/// How much of a blade is in the material at most while an op cuts, from the tip on: of its edge, or of the height of its teeth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UsedEdge {
     pub op: OpId,

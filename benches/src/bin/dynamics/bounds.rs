@@ -2,7 +2,7 @@
 //! least time of a few rounds.
 
 use std::time::{Duration, Instant};
-use vcutc::driver::dynamics::forces;
+use vcutc::driver::dynamics::pushed_blades;
 use vcutc::dynamics::arms::Arms;
 use vcutc::dynamics::cuts::{Cuts, Known};
 use vcutc::dynamics::deviation::figures::{Asked, DeviationFigures};
@@ -57,12 +57,12 @@ impl Job {
 
     fn deviation(&self, reached: &Reached) {
         let asked = Asked {
-            forces: &forces(&self.checked),
+            blades: &pushed_blades(&self.checked),
             limits: &[None],
             gravity: None,
         };
         self.known(reached, |known, arms| {
-            let cuts = Cuts::of(known, asked.forces).expect("the arm has a closed form");
+            let cuts = Cuts::of(known, asked.blades).expect("the arm has a closed form");
             let figures = DeviationFigures::of(&cuts, arms, asked).expect("the deviation is known");
             assert!(figures.operations.len() == 1, "the deviation is known");
         });

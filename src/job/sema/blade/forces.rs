@@ -1,119 +1,57 @@
-//! `forces { ... }`: what the edge of a blade pushes with, as it was measured.
+//! `forces { ... }`: what a blade pushes with, as it was measured.
 
-use crate::forces::{Forces, Measured, Parts};
-use crate::sema::arguments::{Parameter, calls};
+mod edge;
+mod rim;
+mod teeth;
+
+pub(super) use edge::{EDGE_FORCES, of_edge};
+pub(super) use rim::{RIM_FORCES, of_rim};
+pub(super) use teeth::{TEETH_FORCES, of_teeth};
+
+use crate::forces::Statement;
 use crate::sema::eval::Scope;
-use crate::sema::field_ranges::{EDGE_FORCE, FORCE, GROWTH, RAKE, SPEED, SPREAD, SWING_OR_UPRIGHT};
-use crate::sema::fields::{BlockSpec, Fields, Inner, Takes, block, value};
-use crate::sema::quantity::Measured as _;
+use crate::sema::field_ranges::SPREAD;
+use crate::sema::fields::{FieldSpec, Fields, value};
 use crate::sema::read::Reader;
 use crate::sema::report::Checked;
 use crate::sema::session::Session;
-use crate::sema::setup::inner_place;
-use vcutc_backend_api::units::Force;
-use vcutc_diagnostics::source::{Span, Spanned};
-use vcutc_syntax::ast::{Block, Expr};
+use vcutc_diagnostics::source::Span;
+use vcutc_syntax::ast::Block;
 
-pub(crate) const FORCES: BlockSpec = BlockSpec {
-    title: "`forces`",
-    fields: &[
-        value("drag", "1.0 N/mm").required().within(EDGE_FORCE),
-        value("axial", "0.3 N/mm").required().within(EDGE_FORCE),
-        value("side", "0.2 N/mm").required().within(EDGE_FORCE),
-        value("tip", TIP).takes(Takes::Calls(TIPS)),
-        value("spread", "30 %").required().within(SPREAD),
-        value("failed", "1.42").within(GROWTH),
-        block("measured", "{ feed = 200 mm/s, rake = 60 deg, swing = 35 deg }")
-            .required()
-            .takes(Takes::Fields(&MEASURED)),
-        value("source", "\"our dynamometer, protocol 12\"").required(),
-    ],
-    inner: Inner::Refused,
-};
+/// How sure all forces are, and where they are from.
+const SPREAD_FIELD: FieldSpec = value("spread", "30 %").required().within(SPREAD);
+const SOURCE_FIELD: FieldSpec = value("source", "\"our dynamometer, protocol 12\"").required();
 
-const MEASURED: BlockSpec = BlockSpec {
-    title: "`measured`",
-    fields: &[
-        value("feed", "200 mm/s").required().within(SPEED),
-        value("rake", "60 deg").required().within(RAKE),
-        value("swing", "35 deg").required().within(SWING_OR_UPRIGHT),
-    ],
-    inner: Inner::Refused,
-};
+/// Where a blade states its forces, if it does.
+#[derive(Clone, Copy)]
+pub(super) struct Given<'s> {
+    pub(super) span: Span,
+    pub(super) scope: Scope<'s>,
+}
 
-const TIP: &str = "force(drag = 2 N, axial = 1 N, side = 0 N)";
-const TIPS: &[(&str, &str)] = &[("force", TIP)];
-const PARTS: &[Parameter<'_>; 3] = &[part("drag", "2 N"), part("axial", "1 N"), part("side", "0 N")];
-
-const fn part(name: &'static str, typical: &'static str) -> Parameter<'static> {
-    Parameter {
-        name,
-        range: FORCE,
-        typical,
+impl<'s> Given<'s> {
+    /// The forces of a blade, if these fields of it state some.
+    pub(super) fn check<F>(
+        self,
+        fields: &Fields<'_>,
+        session: &mut Session<'_>,
+        stated: fn(&Block, Self, &mut Session<'_>) -> Checked<F>,
+    ) -> Checked<Option<F>> {
+        match fields.block("forces")? {
+            Some(inner) => stated(inner, self, session).map(Some),
+            None => Ok(None),
+        }
     }
-}
 
-/// The forces, if the blade states some, and where.
-pub(super) fn check(
-    given: Option<(&Block, Span)>,
-    scope: Scope<'_>,
-    session: &mut Session<'_>,
-) -> Checked<Option<Forces>> {
-    match given {
-        Some((inner, span)) => stated(inner, span, scope, session).map(Some),
-        None => Ok(None),
+    fn statement(self, fields: &Fields<'_>, reader: &mut Reader<'_>) -> Checked<Statement> {
+        let spread = reader.required(fields, "spread");
+        let named = fields.required_value("source", reader.reports);
+        let source = reader.text(fields, "source");
+        named?;
+        Ok(Statement {
+            span: self.span,
+            spread: spread?,
+            source: source?.map(|source| source.node).unwrap_or_default(),
+        })
     }
-}
-
-fn stated(inner: &Block, span: Span, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Forces> {
-    let fields = Fields::sort(&FORCES, inner_place(inner), &inner.entries, session);
-    let conditions = fields
-        .required_block("measured", &mut session.reports)
-        .and_then(|inner| measured(inner, scope, session));
-    let mut reader = Reader::new(scope, &mut session.reports);
-    let drag = reader.required(&fields, "drag");
-    let axial = reader.required(&fields, "axial");
-    let side = reader.required(&fields, "side");
-    let tip = match fields.value("tip") {
-        Ok(Some(expr)) => at_tip(expr, &mut reader),
-        Ok(None) => Ok(Parts::default()),
-        Err(reported) => Err(reported),
-    };
-    let spread = reader.required(&fields, "spread");
-    let failed = reader.optional(&fields, "failed");
-    let named = fields.required_value("source", reader.reports);
-    let source = reader.text(&fields, "source");
-    named?;
-    Ok(Forces {
-        span,
-        edge: Parts {
-            drag: drag?.value,
-            axial: axial?.value,
-            side: side?.value,
-        },
-        tip: tip?,
-        spread: spread?,
-        failed: failed?,
-        measured: conditions?,
-        source: source?.map(|source| source.node).unwrap_or_default(),
-    })
-}
-
-fn measured(inner: &Block, scope: Scope<'_>, session: &mut Session<'_>) -> Checked<Measured> {
-    let fields = Fields::sort(&MEASURED, inner_place(inner), &inner.entries, session);
-    let mut reader = Reader::new(scope, &mut session.reports);
-    let feed = reader.required(&fields, "feed");
-    let rake = reader.required(&fields, "rake");
-    let swing = reader.required(&fields, "swing");
-    Ok(Measured {
-        feed: feed?,
-        rake: rake?,
-        swing: swing?,
-    })
-}
-
-fn at_tip(expr: &Spanned<Expr>, reader: &mut Reader<'_>) -> Checked<Parts<Force>> {
-    let call = calls("tip", expr, TIPS, reader.reports)?;
-    let [drag, axial, side] = call.named(PARTS, reader)?.map(Force::from_base);
-    Ok(Parts { drag, axial, side })
 }

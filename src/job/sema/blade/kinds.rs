@@ -1,6 +1,6 @@
 //! The tables of fields of the kinds of blades.
 
-use super::forces::FORCES;
+use super::forces::{EDGE_FORCES, RIM_FORCES, TEETH_FORCES};
 use crate::BladeKind;
 use crate::sema::field_ranges::{DISTANCE, HALF_APEX, RAMP, SIZE, SPIN};
 use crate::sema::fields::{BlockSpec, Inner, Takes, block, points, value};
@@ -26,13 +26,19 @@ const STRAIGHT: BlockSpec = BlockSpec {
             .required()
             .takes(Takes::Words(|| words_of(EDGES))),
         points("body", "(40 mm, 8 mm) (90 mm, 30 mm)"),
-        block("forces", FORCES_SAMPLE).takes(Takes::Fields(&FORCES)),
+        block("forces", OF_AN_EDGE).takes(Takes::Fields(&EDGE_FORCES)),
     ],
     inner: Inner::Refused,
 };
 
-const FORCES_SAMPLE: &str = "{ drag = 1.0 N/mm, axial = 0.3 N/mm, side = 0.2 N/mm, spread = 30 %, \
+const OF_AN_EDGE: &str = "{ drag = 1.0 N/mm, axial = 0.3 N/mm, side = 0.2 N/mm, spread = 30 %, \
      measured { feed = 200 mm/s, rake = 60 deg, swing = 35 deg }, source = \"our dynamometer\" }";
+const OF_A_RIM: &str = "{ drag = 1.0 N/mm, axial = 0.5 N/mm, radial = 0.2 N/mm, spread = 30 %, \
+     measured { feed = 50 mm/s, spin = 3000 rev/min }, source = \"our dynamometer\" }";
+const OF_TEETH: &str = "{ teeth = 2, helix = 30 deg, \
+     cutting = pressure(tangential = 20 N/mm2, radial = 8 N/mm2, axial = 6 N/mm2), \
+     edge = force(tangential = 0.4 N/mm, radial = 0.5 N/mm, axial = 0.1 N/mm), spread = 30 %, \
+     measured { chip = 0.1 mm, spin = 18000 rev/min }, source = \"our dynamometer\" }";
 
 const DISC: BlockSpec = BlockSpec {
     title: "`disc`",
@@ -43,6 +49,7 @@ const DISC: BlockSpec = BlockSpec {
         value("width", "12 mm").required().within(SIZE),
         value("spin", "3000 rev/min").required().within(SPIN),
         points("body", "(1.5 mm, 8 mm) (60 mm, 25 mm)").required(),
+        block("forces", OF_A_RIM).takes(Takes::Fields(&RIM_FORCES)),
     ],
     inner: Inner::Refused,
 };
@@ -55,6 +62,7 @@ const CRUSHER: BlockSpec = BlockSpec {
         value("spin", "18000 rev/min").required().within(SPIN),
         value("ramp", "5 deg").required().within(RAMP),
         points("body", "(24 mm, 5 mm) (60 mm, 20 mm)"),
+        block("forces", OF_TEETH).takes(Takes::Fields(&TEETH_FORCES)),
     ],
     inner: Inner::Refused,
 };

@@ -1,7 +1,7 @@
 //! The passes over a region as a program states them.
 
 use core::num::NonZeroU32;
-use vcutc_backend_api::ir::{OperationId, Program, ToolId};
+use vcutc_backend_api::ir::{OpId, OperationId, Program, ToolId};
 use vcutc_backend_api::segments::LinearSegment;
 use vcutc_backend_api::units::Speed;
 use vcutc_process::chains::{ChainPiece, pieces};
@@ -19,6 +19,21 @@ const UPRIGHT: f64 = 1e-12;
 /// How far the lines that stand for an arc that goes down may be off it, in mm.
 const CHORD: f64 = 1e-3;
 
+/// An op that moves the tool, and its programmed speed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Move {
+    pub(crate) op: OpId,
+    pub(crate) feed: Option<Speed>,
+}
+
+/// An op that moves the tool off the floor.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sloping {
+    pub(crate) op: OpId,
+    /// How far down, in mm.
+    pub(crate) lowest: f64,
+}
+
 /// The passes of a layer.
 #[derive(Clone, Debug)]
 pub(crate) struct Layer {
@@ -32,9 +47,11 @@ pub(crate) struct Layer {
     pub(crate) leaning: Option<Place>,
     /// How far what stands for ways down may be off them, in mm.
     pub(crate) slack: f64,
+    /// What moves the tool down, up and above the floor.
+    pub(crate) sloping_moves: Vec<Sloping>,
     floor: f64,
-    /// The speed of each piece of `flat`.
-    speeds: Vec<Vec<Option<Speed>>>,
+    /// What moves the tool along each piece of `flat`.
+    moves: Vec<Vec<Move>>,
     flat: Vec<Pass>,
     sloping: Vec<Pass>,
 }
@@ -50,9 +67,9 @@ impl Layer {
         &self.flat
     }
 
-    /// The programmed speed of a piece of that.
-    pub(crate) fn speed(&self, pass: usize, piece: usize) -> Option<Speed> {
-        *self.speeds.get(pass)?.get(piece)?
+    /// What moves the tool along a piece of that.
+    pub(crate) fn along(&self, pass: usize, piece: usize) -> Option<Move> {
+        self.moves.get(pass)?.get(piece).copied()
     }
 
     /// All ways, those down and up among them.
@@ -88,14 +105,15 @@ fn layer(pieces: &[ChainPiece]) -> Option<Layer> {
         lowest: place_of(lowest),
         leaning: None,
         slack: 0.0,
+        sloping_moves: Vec::new(),
         floor: lowest.z,
-        speeds: Vec::new(),
+        moves: Vec::new(),
         flat: Vec::new(),
         sloping: Vec::new(),
     };
     for chain in pieces.chunk_by(|one, next| one.cut == next.cut) {
         let mut flat = Vec::new();
-        let mut speeds = Vec::new();
+        let mut moves = Vec::new();
         for piece in chain {
             if !is_upright(piece) && layer.leaning.is_none() {
                 layer.leaning = Some(place_of(piece.line.from.tip));
@@ -103,13 +121,22 @@ fn layer(pieces: &[ChainPiece]) -> Option<Layer> {
             match along_floor(&piece.line, layer.floor) {
                 Some(level) => {
                     flat.push(level);
-                    speeds.push(piece.line.feed);
+                    moves.push(Move {
+                        op: piece.op,
+                        feed: piece.line.feed,
+                    });
                 }
-                None => layer.slopes(&piece.line),
+                None => {
+                    layer.sloping_moves.push(Sloping {
+                        op: piece.op,
+                        lowest: piece.line.from.tip.z.min(piece.line.to.tip.z),
+                    });
+                    layer.slopes(&piece.line);
+                }
             }
         }
         if !flat.is_empty() {
-            layer.speeds.push(speeds);
+            layer.moves.push(moves);
             layer.flat.push(Pass {
                 level: 0,
                 pieces: flat,

@@ -335,6 +335,7 @@ fn blades_of_a_job() {
             span,
             stages: vec![stage(0.0, 8.0), stage(60.0, 25.0)],
         },
+        forces: None,
     };
     let hold = Hold {
         lead: Angle::ZERO,
