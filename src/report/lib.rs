@@ -5,6 +5,7 @@ mod html;
 mod base64;
 mod digest;
 mod facts;
+mod packing;
 pub mod page;
 pub mod pictures;
 pub mod playback;

@@ -8,7 +8,6 @@
 
 pub mod bodies;
 mod document;
-mod packing;
 pub mod taken;
 pub mod timeline;
 pub mod track;
@@ -203,14 +202,17 @@ pub const SCRIPT: &str = concat!(
     "\n(() => {\n\"use strict\";\n",
     include_str!("assets/player/surface.js"),
     include_str!("assets/player/matrix.js"),
+    include_str!("assets/player/bytes.js"),
     include_str!("assets/player/data.js"),
     include_str!("assets/player/machine.js"),
     include_str!("assets/player/timeline.js"),
     include_str!("assets/player/ground.js"),
     include_str!("assets/player/workpiece.js"),
+    include_str!("assets/player/triangles.js"),
     include_str!("assets/player/meshes.js"),
     include_str!("assets/player/canvas.js"),
     include_str!("assets/player/camera.js"),
+    include_str!("assets/player/pointers.js"),
     include_str!("assets/player/scene.js"),
     include_str!("assets/player/controls.js"),
     include_str!("assets/player/start.js"),

@@ -1,11 +1,11 @@
 //! The data of a playback as JSON, in a form that may stand inside of a page.
 
 use super::bodies::{Body, Carrier, Shape};
-use super::packing::column;
 use super::taken::Taken;
 use super::timeline::Timeline;
 use super::track::Track;
 use super::{Cell, Playback};
+use crate::packing::{self, column};
 use serde_json::{Value, json};
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{
@@ -17,7 +17,7 @@ use vcutc_machine::kinematics::linkage::{Joint, Linkage};
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_simulation::cross_section::Crack;
 
-/// The data as JSON text. What could end the element that holds it is written as an escape: a `<` can stand in strings only.
+/// The data as JSON text, for an element of the page.
 pub(super) fn text(playback: &Playback<'_>) -> String {
     let value = json!({
         "stock": stock(playback.stock),
@@ -34,11 +34,7 @@ pub(super) fn text(playback: &Playback<'_>) -> String {
         "timeline": timeline(&playback.timeline),
         "cell": playback.cell.as_ref().map(cell),
     });
-    value
-        .to_string()
-        .replace('<', "\\u003c")
-        .replace('>', "\\u003e")
-        .replace('&', "\\u0026")
+    packing::document(&value)
 }
 
 fn stock(stock: Stock) -> Value {

@@ -51,17 +51,6 @@ const CUT_RIGHT = 6;
 const FOLLOW = 7;
 
 /**
- * The bytes of a column. Its numbers have their least significant byte first, as every machine has it that runs browsers.
- * @param {string} text
- */
-function bytesOf(text) {
-  const packed = atob(text);
-  const bytes = new Uint8Array(packed.length);
-  for (let i = 0; i < packed.length; i += 1) bytes[i] = packed.charCodeAt(i);
-  return bytes.buffer;
-}
-
-/**
  * What came before each entry, and at the end the sum of all.
  * @template {Float64Array | Uint32Array} T
  * @param {ArrayLike<number>} parts

@@ -198,3 +198,10 @@ function boxed(low, high) {
   return [x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, low[0], low[1], low[2], 1];
 }
 
+/**
+ * @param {number} factor
+ * @returns {Matrix}
+ */
+function scaled(factor) {
+  return [factor, 0, 0, 0, 0, factor, 0, 0, 0, 0, factor, 0, 0, 0, 0, 1];
+}

@@ -15,11 +15,6 @@ const COLOURS = {
   way: [0.25, 0.45, 0.25],
   kerf: [0.35, 0.05, 0.05],
   floor: [0.5, 0.53, 0.56],
-  axes: [
-    [0.85, 0.15, 0.15],
-    [0.1, 0.6, 0.15],
-    [0.15, 0.3, 0.9],
-  ],
 };
 
 /** How many lines stand for an arc. */
@@ -202,19 +197,6 @@ class Scene {
   drawTriad(frame, size) {
     this.canvas.lines(this.triad, product(frame, scaled(size)));
   }
-}
-
-/**
- * @param {number} factor
- * @returns {Matrix}
- */
-function scaled(factor) {
-  return [factor, 0, 0, 0, 0, factor, 0, 0, 0, 0, factor, 0, 0, 0, 0, 1];
-}
-
-function triad() {
-  const ends = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
-  return new Float32Array(ends.flatMap((end, i) => [0, 0, 0, ...COLOURS.axes[i], ...end, ...COLOURS.axes[i]]));
 }
 
 /**

@@ -8,9 +8,6 @@ const SIDES = {
   iso: [0.6, 0.5],
 };
 
-/** How long, in ms, a page is still before the wheel is the picture's. */
-const STILL = 300;
-
 /**
  * The ball around the work, or around the machine as well.
  * @param {Player} player
@@ -52,71 +49,14 @@ function lookFrom(player, camera, name) {
 }
 
 /**
- * Mouse, fingers and wheel.
- * @param {Camera} camera
- * @param {() => void} changed
- */
-function bindPointers(camera, changed) {
-  const canvas = element("canvas");
-  /** @type {Map<number, {x: number, y: number}>} */
-  const fingers = new Map();
-  const spread = () => {
-    const [a, b] = [...fingers.values()];
-    return Math.hypot(a.x - b.x, a.y - b.y);
-  };
-  canvas.addEventListener("pointerdown", (/** @type {PointerEvent} */ event) => {
-    fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-    canvas.setPointerCapture(event.pointerId);
-    canvas.focus({ preventScroll: true });
-  });
-  for (const name of ["pointerup", "pointercancel"]) {
-    canvas.addEventListener(name, (/** @type {PointerEvent} */ event) => fingers.delete(event.pointerId));
-  }
-  canvas.addEventListener("pointermove", (/** @type {PointerEvent} */ event) => {
-    const before = fingers.get(event.pointerId);
-    if (before === undefined) return;
-    const [dx, dy] = [event.clientX - before.x, event.clientY - before.y];
-    const apart = fingers.size === 2 ? spread() : 0;
-    fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-    const height = Math.max(1, canvas.clientHeight);
-    if (fingers.size === 2) {
-      // Each finger moves the scene by half of its own way.
-      camera.pan(dx / height / 2, dy / height / 2);
-      camera.zoom(apart / Math.max(1, spread()));
-    } else if (event.shiftKey || event.buttons & 6) {
-      camera.pan(dx / height, dy / height);
-    } else {
-      camera.orbit((-dx / height) * 4, (dy / height) * 4);
-    }
-    changed();
-  });
-  canvas.addEventListener("contextmenu", (/** @type {Event} */ event) => event.preventDefault());
-  // Who scrolls past the picture goes on scrolling: the wheel is the picture's when the page has been still for a moment.
-  let scrolled = -Infinity;
-  addEventListener("scroll", () => {
-    scrolled = performance.now();
-  }, { passive: true });
-  canvas.addEventListener("wheel", (/** @type {WheelEvent} */ event) => {
-    if (performance.now() - scrolled < STILL && !event.ctrlKey) return;
-    event.preventDefault();
-    camera.zoom(Math.exp(Math.max(-100, Math.min(100, event.deltaY)) * 0.002));
-    changed();
-  }, { passive: false });
-}
-
-/**
  * Keys on the picture.
  * @param {Player} player
  * @param {Camera} camera
  * @param {() => void} changed
  */
 function bindKeys(player, camera, changed) {
-  const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
   const plain = {
     " ": () => toggle(player),
-    "+": () => camera.zoom(0.85),
-    "=": () => camera.zoom(0.85),
-    "-": () => camera.zoom(1 / 0.85),
     ",": () => step(player, -1),
     ".": () => step(player, 1),
     PageUp: () => stepCut(player, -1),
@@ -129,11 +69,8 @@ function bindKeys(player, camera, changed) {
   };
   element("canvas").addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const way = ways[event.key];
-    if (way !== undefined && event.shiftKey) camera.pan(way[0] * 0.05, -way[1] * 0.05);
-    else if (way !== undefined) camera.orbit(way[0] * 0.1, way[1] * 0.1);
-    else if (plain[event.key] !== undefined) plain[event.key]();
-    else return;
+    if (plain[event.key] !== undefined) plain[event.key]();
+    else if (!lookByKey(camera, event)) return;
     event.preventDefault();
     changed();
   });
@@ -193,7 +130,7 @@ function start() {
   };
 
   bindControls(player, changed);
-  bindPointers(camera, changed);
+  bindPointers(element("canvas"), camera, changed);
   bindKeys(player, camera, changed);
   for (const name of ["front", "side", "top", "iso", "whole"]) {
     element(name).addEventListener("click", () => {
