@@ -129,6 +129,51 @@ pub fn draw(map: &PlanMap<'_>) -> String {
     .draw()
 }
 
+/// A map in the classes of its colours, for a view of another kind with the same colours and words.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Classed {
+    /// The classes, from the least values on.
+    pub classes: Vec<Class>,
+    /// Where the first class begins.
+    pub from: f64,
+    /// How wide each class is.
+    pub step: f64,
+    /// The number of the class of each cell, in the order of the map.
+    pub cells: Vec<Option<u32>>,
+    /// With how many decimals values are shown.
+    pub decimals: usize,
+}
+
+/// A class of values.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Class {
+    /// Its colour, as `#` and six hexadecimal digits.
+    pub colour: &'static str,
+    /// From which value to which one, with the unit.
+    pub words: String,
+}
+
+/// Divides a map into the classes in which it is drawn.
+#[must_use]
+pub fn classed(map: &PlanMap<'_>) -> Classed {
+    let classes = Classes::of(map);
+    let class = |class| Class {
+        colour: tiles::colour(class, classes.count),
+        words: classes.words(class),
+    };
+    Classed {
+        classes: (0..classes.count).map(class).collect(),
+        from: classes.first * classes.step.size,
+        step: classes.step.size,
+        cells: map
+            .heights
+            .iter()
+            .map(|height| height.map(|height| classes.class(height)))
+            .collect(),
+        decimals: map.decimals().0,
+    }
+}
+
 fn edges(length: f64, count: u32) -> Vec<f64> {
     let count = count.max(1);
     let edge = |number| length * f64::from(number) / f64::from(count);

@@ -10,6 +10,7 @@ pub mod page;
 pub mod pictures;
 pub mod playback;
 pub mod sheet;
+pub mod space;
 
 use vcutc_driver::ways::Comparison;
 use vcutc_driver::{Compiled, Outcome};

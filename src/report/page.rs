@@ -24,7 +24,7 @@ mod times;
 mod top;
 
 use super::html::Html;
-use super::{Material, playback};
+use super::{Material, playback, space};
 pub use live::Served;
 use policy::Requests;
 use vcutc_diagnostics::Diagnostic;
@@ -173,7 +173,7 @@ pub fn served_errors(job: &str, messages: &str, last: Option<&Content>, served: 
     }
     let scripts: &[&str] = match last {
         None => &[],
-        Some(_) => &[SCRIPT, playback::SCRIPT],
+        Some(_) => &[SCRIPT, playback::SCRIPT, space::SCRIPT],
     };
     around(&body, &format!("{job} - errors"), scripts, Some(served))
 }
@@ -199,7 +199,7 @@ fn document(content: &Content, served: Option<&Served>) -> String {
         script = Html::trusted(SCRIPT),
     );
     let title = format!("{} - vcutc report", content.name);
-    around(&body, &title, &[SCRIPT, playback::SCRIPT], served)
+    around(&body, &title, &[SCRIPT, playback::SCRIPT, space::SCRIPT], served)
 }
 
 /// A document around its body, with a policy for its scripts and, where a server shows it, one more.

@@ -110,6 +110,8 @@ mod serial_arm;
 mod shop;
 mod skim;
 mod slit;
+#[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
+mod space;
 #[cfg(feature = "krl")]
 mod spine;
 mod status;

@@ -31,7 +31,7 @@ fn data(page: &str) -> Value {
     serde_json::from_str(text).unwrap()
 }
 
-fn bytes(text: &Value) -> Vec<u8> {
+pub(crate) fn bytes(text: &Value) -> Vec<u8> {
     let digit = |c: char| {
         let alphabet = ('A'..='Z').chain('a'..='z').chain('0'..='9').chain(['+', '/']);
         alphabet.into_iter().position(|other| other == c)
@@ -46,13 +46,13 @@ fn bytes(text: &Value) -> Vec<u8> {
         .collect()
 }
 
-fn numbers<const SIZE: usize, N>(text: &Value, read: fn([u8; SIZE]) -> N) -> Vec<N> {
+pub(crate) fn numbers<const SIZE: usize, N>(text: &Value, read: fn([u8; SIZE]) -> N) -> Vec<N> {
     let bytes = bytes(text);
     let chunks = bytes.chunks_exact(SIZE);
     chunks.map(|chunk| read(chunk.try_into().unwrap())).collect()
 }
 
-fn list(value: &Value) -> Vec<f64> {
+pub(crate) fn list(value: &Value) -> Vec<f64> {
     let numbers = value.as_array().unwrap().iter();
     numbers.map(|number| number.as_f64().unwrap()).collect()
 }

@@ -3,6 +3,7 @@
 use super::figure::{Ids, Zoom, figure, slide};
 use super::{Section, Subject};
 use crate::pictures::{DiscTracks, SurfaceMap, SurfaceSections};
+use crate::space;
 
 /// The section; none of a part that is a profile.
 pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
@@ -43,7 +44,7 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
         ),
         &|ids| residual.draw(ids),
     );
-    let after = finished.map(|finished| {
+    let after = finished.as_ref().map(|finished| {
         figure(
             &Ids {
                 page: "finished-",
@@ -59,7 +60,8 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
             &|ids| finished.draw(ids),
         )
     });
-    let tilt = SurfaceMap::of_tilt(&subject.material).map(|tilt| {
+    let leaning = SurfaceMap::of_tilt(&subject.material);
+    let tilt = leaning.as_ref().map(|tilt| {
         figure(
             &Ids {
                 page: "tilt-",
@@ -116,7 +118,9 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
             &|ids| sections.draw(ids),
         )
     });
-    let mut body = heights + left;
+    let maps = [Some(&part), Some(&residual), finished.as_ref(), leaning.as_ref()];
+    let maps: Vec<&SurfaceMap> = maps.into_iter().flatten().collect();
+    let mut body = space::figure(&subject.material, &maps).unwrap_or_default() + heights + left;
     for figure in [after, tilt, tracks].into_iter().flatten() {
         body += figure;
     }

@@ -6,7 +6,7 @@ use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::number::{rounded, show};
 use vcutc_job::operation::judged::Tilts;
 use vcutc_picture::Prefix;
-use vcutc_picture::plan_map::{self, Decimals, Heading, Limit, PlanMap, Quantity};
+use vcutc_picture::plan_map::{self, Classed, Decimals, Heading, Limit, PlanMap, Quantity};
 use vcutc_surface::map::{Cells, Map, Standing};
 use vcutc_surface::residual::Over;
 use vcutc_surface::surface::Surface;
@@ -215,11 +215,40 @@ impl SurfaceMap {
     /// Writes it as SVG.
     #[must_use]
     pub fn draw(&self, ids: Prefix) -> String {
-        plan_map::draw(&PlanMap {
+        plan_map::draw(&self.headed(ids, &self.figures()))
+    }
+
+    /// Its values in the classes of its colours.
+    pub(crate) fn classed(&self) -> Classed {
+        plan_map::classed(&self.headed(Prefix::NONE, ""))
+    }
+
+    /// What its values are.
+    pub(crate) const fn what(&self) -> &'static str {
+        self.what
+    }
+
+    /// What they are in.
+    pub(crate) const fn unit(&self) -> &'static str {
+        self.quantity.unit()
+    }
+
+    /// The cells, all maps of a part have the same ones.
+    pub(crate) const fn cells(&self) -> Cells {
+        self.cells
+    }
+
+    /// The value of each cell.
+    pub(crate) fn values(&self) -> &[Option<f64>] {
+        &self.values.cells
+    }
+
+    fn headed<'a>(&'a self, ids: Prefix, subtitle: &'a str) -> PlanMap<'a> {
+        PlanMap {
             heading: Heading {
                 ids,
                 title: &self.title,
-                subtitle: &self.figures(),
+                subtitle,
             },
             what: self.what,
             quantity: self.quantity,
@@ -230,7 +259,7 @@ impl SurfaceMap {
             lowest: self.values.lowest,
             mean: self.values.mean,
             limit: self.limit.map(|(name, value)| Limit { name, value }),
-        })
+        }
     }
 }
 

@@ -13,7 +13,7 @@ use vcutc::process::verdict;
 use vcutc::report::page::Further;
 
 /// The report of an example, in a folder of its own.
-fn report(example: &str, more: &[&str]) -> (TempDir, PathBuf) {
+pub(super) fn report(example: &str, more: &[&str]) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("report.html");
     let job = format!("examples/{example}.vcut");
@@ -23,7 +23,7 @@ fn report(example: &str, more: &[&str]) -> (TempDir, PathBuf) {
     (folder, file)
 }
 
-fn assert_is_calm(tab: &Tab<'_>) {
+pub(super) fn assert_is_calm(tab: &Tab<'_>) {
     let complaints = tab.complaints();
     assert!(complaints.is_empty(), "{complaints:#?}");
 }
