@@ -32,7 +32,7 @@ const FINEST: f64 = 1e-9;
 /// a value rounded by itself would not at a border.
 const PARTS: u16 = 7000;
 
-/// The figure; none where there is no map of a part.
+/// The figure; none of a part without maps.
 pub(crate) fn figure(material: &Material<'_>, maps: &[&SurfaceMap]) -> Option<Html> {
     let surface = material.job.part.surface()?;
     let cells = maps.first()?.cells();

@@ -140,6 +140,46 @@ fn the_part_is_turned_and_zoomed_by_mouse_and_keys() {
     assert_is_calm(&tab);
 }
 
+/// The page of the dome, with the first rows of corners and all cells of the first map without a value: as 16 bits that are all set.
+fn with_holes(page: &str) -> String {
+    let (before, rest) = page.split_once("id=\"vcut-space-data\">").unwrap();
+    let (data, after) = rest.split_once("</script>").unwrap();
+    let mut data: Value = serde_json::from_str(data).unwrap();
+    let heights = data["heights"]["values"].as_str().unwrap();
+    data["heights"]["values"] = json!("/".repeat(4000) + &heights[4000..]);
+    let values = data["maps"][0]["values"].as_str().unwrap();
+    data["maps"][0]["values"] = json!("/".repeat(values.len()));
+    format!("{before}id=\"vcut-space-data\">{data}</script>{after}")
+}
+
+#[test]
+fn what_has_no_value_is_grey() {
+    let Some(browser) = Browser::start() else { return };
+    let (_folder, file) = report("finished_dome", &[]);
+    let page = std::fs::read_to_string(&file).unwrap();
+    std::fs::write(&file, with_holes(&page)).unwrap();
+    let tab = browser.open(&file, 1280, 900);
+    assert!(text(&tab, "legend").ends_with("34 to 35 mmno value"));
+    tab.value("document.querySelector('[data-look=top]').click()");
+    let (grey, yellow) = ([163.0, 167.0, 173.0], [253.0, 231.0, 37.0]);
+    let drawn = tab.value(COLOURS);
+    assert_eq!(pixels_of(&drawn, yellow), 0.0);
+    assert!(pixels_of(&drawn, grey) > 10_000.0, "{drawn}");
+    // The second map has values where the first has none.
+    choose(&tab, 1);
+    let drawn_with = tab.value(COLOURS);
+    assert!(pixels_of(&drawn_with, grey) < 0.5 * pixels_of(&drawn, grey));
+    // In front, up to row 14, there are no heights, so there is nothing to point at.
+    let least = tab.number(
+        "(() => { const canvas = document.getElementById('vcut-space-canvas'); \
+         const places = Array.from({ length: 200 }, (_, i) => vcutSpace.pointed(canvas.clientWidth / 2, canvas.clientHeight * i / 200)); \
+         return Math.min(...places.filter((place) => place !== null).map(([, y]) => y)); })()",
+    );
+    assert!((18.6..22.0).contains(&least), "{least}");
+    assert!(text(&tab, "legend").contains(" mm"));
+    assert_is_calm(&tab);
+}
+
 #[test]
 fn a_telephone_shows_the_part_and_its_legend() {
     let Some(browser) = Browser::start() else { return };

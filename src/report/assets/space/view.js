@@ -62,7 +62,8 @@ class View {
   lookFrom(name) {
     const [yaw, pitch] = LOOKS_FROM[name] || LOOKS_FROM.iso;
     const target = /** @type {Vector} */ (this.relief.size.map((length) => length / 2));
-    const radius = Math.hypot(...target) * 0.9;
+    // Upright pictures need room for the letters at both sides.
+    const radius = Math.hypot(...target) * (this.aspect() < 1 ? 1 : 0.9);
     this.camera.lookAt(yaw, pitch, target, radius, this.aspect());
     this.camera.farthest = 8 * radius;
   }
