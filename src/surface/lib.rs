@@ -10,6 +10,7 @@
 //!    [`residual`] says what cuts leave over it.
 //! 6. A [`deviation`] is the part's upper side as a file, with what is left above each corner.
 //! 7. A [`map`] has the highest place of each of its cells, of the surface or of what is left over it.
+//! 8. A [`mod@bend`] is the curvature at a place, exact or estimated from triangles, and puts it into a [`mod@class`].
 //!
 //! For discs that finish surfaces:
 //!
@@ -20,6 +21,8 @@
 //! 4. A [`section`] in any direction, with [`normals`], carries a [`track`] of poses, as close as that bound asks for.
 //! 5. [`scallop`] and [`swath`] say what tracks leave, [`strip`] what comes free.
 
+pub mod bend;
+pub mod class;
 pub mod coverage;
 pub mod curvature;
 pub mod deviation;

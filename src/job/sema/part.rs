@@ -21,6 +21,8 @@ use vcutc_diagnostics::source::Span;
 use vcutc_geometry::curve::{Curve, Point2};
 use vcutc_geometry::profile::{Profile, ProfileError};
 use vcutc_geometry::spine::Spine;
+use vcutc_surface::bend::{Bend, Exact};
+use vcutc_surface::map::Cells;
 use vcutc_surface::residual::Machined;
 use vcutc_surface::spine::{Fitted, Rising};
 use vcutc_surface::surface::Surface;
@@ -45,6 +47,8 @@ enum Shape {
 #[derive(Debug)]
 pub struct Shaded {
     surface: Arc<Surface>,
+    /// Its curvature, where what it is given by has derivatives.
+    exact: Option<Exact>,
     /// How cuts follow it; none where they are level.
     followed: Option<Followed>,
     /// Its greatest height over each x, with the spine taken off.
@@ -70,9 +74,10 @@ struct Followed {
 }
 
 impl Shaded {
-    fn of(surface: Arc<Surface>, followed: Option<Followed>, shadow: Profile) -> Self {
+    fn of(surface: Arc<Surface>, exact: Option<Exact>, followed: Option<Followed>, shadow: Profile) -> Self {
         Self {
             surface,
+            exact,
             followed,
             shadow,
             ways: [const { OnceLock::new() }; 2],
@@ -111,7 +116,8 @@ impl Shaded {
             spine: Arc::new(spine.clone()),
             levelled,
         };
-        Some(Self::of(Arc::clone(&self.surface), Some(followed), shadow))
+        let exact = self.exact.clone();
+        Some(Self::of(Arc::clone(&self.surface), exact, Some(followed), shadow))
     }
 
     /// The spine of all cuts that rough the surface; none where they are level.
@@ -133,7 +139,8 @@ impl Shaded {
 impl PartialEq for Shaded {
     fn eq(&self, other: &Self) -> bool {
         let is_same = || Arc::ptr_eq(&self.surface, &other.surface) || self.surface == other.surface;
-        core::ptr::eq(self, other) || (self.spine() == other.spine() && is_same())
+        let is_as_exact = self.exact.is_some() == other.exact.is_some();
+        core::ptr::eq(self, other) || (self.spine() == other.spine() && is_as_exact && is_same())
     }
 }
 
@@ -177,11 +184,11 @@ impl Part {
         )
     }
 
-    /// Of a surface that was checked on the stock, with its shadow.
-    pub(crate) fn of_surface(surface: Surface, shadow: Profile) -> Self {
+    /// Of a surface that was checked on the stock, with its curvature, where that is known exactly, and its shadow.
+    pub(crate) fn of_surface(surface: Surface, exact: Option<Exact>, shadow: Profile) -> Self {
         let width = surface.plan().width.to_mm();
         Self {
-            shape: Shape::Surface(Arc::new(Shaded::of(Arc::new(surface), None, shadow))),
+            shape: Shape::Surface(Arc::new(Shaded::of(Arc::new(surface), exact, None, shadow))),
             width,
         }
     }
@@ -214,6 +221,15 @@ impl Part {
     pub fn surface(&self) -> Option<&Surface> {
         match &self.shape {
             Shape::Surface(shaded) => Some(shaded.surface()),
+            Shape::Profile(_) => None,
+        }
+    }
+
+    /// How it bends at the middles of cells; none of a part that is a profile.
+    #[must_use]
+    pub fn bends(&self, cells: Cells) -> Option<Vec<Option<Bend>>> {
+        match &self.shape {
+            Shape::Surface(shaded) => Some(shaded.surface.bends(cells, shaded.exact.as_ref())),
             Shape::Profile(_) => None,
         }
     }

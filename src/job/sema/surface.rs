@@ -27,6 +27,7 @@ use vcutc_diagnostics::schema::faults;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::profile::Profile;
+use vcutc_surface::bend::Exact;
 use vcutc_surface::mesh::Mesh;
 use vcutc_surface::surface::{Accuracy, Placement, Plan, Surface, SurfaceError};
 use vcutc_syntax::ast::{Block, Entry, Expr, HeadPart};
@@ -82,6 +83,8 @@ struct Drawn {
     surface: Surface,
     /// The profile that it is at every y, if it is one: finer than the triangles.
     profile: Option<Profile>,
+    /// Its curvature, if it has derivatives.
+    exact: Option<Exact>,
 }
 
 /// The plan of a stock.

@@ -11,6 +11,7 @@ use crate::sema::report::Reports;
 use std::cell::Cell;
 use vcutc_diagnostics::source::Spanned;
 use vcutc_geometry::number::{Interval, Scalar};
+use vcutc_surface::curvature::Curvature;
 use vcutc_syntax::ast::{Argument, Expr, Operator};
 
 /// Most steps of evaluation that a formula is worth: some seconds where nothing is optimised.
@@ -20,6 +21,9 @@ const MOST_STEPS: u64 = 8_000_000;
 /// that of the inverse of a root grows by 32.
 const NEAR: [f64; 2] = [1e-3, 1e-6];
 const GROWTH: f64 = 10.0;
+
+/// Slopes and second derivatives (in 1/mm) that are enclosed more widely are not known.
+const UNSURE: f64 = 1e-6;
 
 /// Directions in which it is looked for: none along an axis, on which formulas like to change.
 const RING: [[f64; 2]; 8] = [
@@ -92,6 +96,20 @@ impl Compiled {
             return Around::Steps;
         }
         Around::Unknown
+    }
+
+    /// The curvature at a place, in mm, by the derivatives there. None at an edge, at which they are not known.
+    pub(super) fn curvature(&self, [x, y]: [f64; 2]) -> Option<Curvature> {
+        let exactly = |axis, value| Height::coordinate(axis, Interval::exactly(value));
+        let height = self.root.value([exactly(0, x), exactly(1, y)])?;
+        let is_known = |part: &Interval| part.width() < UNSURE;
+        let is_known = height.by.iter().chain(&height.curve).all(is_known);
+        is_known.then(|| {
+            Curvature::of_height(
+                height.by.map(Interval::middle),
+                height.curve.map(Interval::middle),
+            )
+        })?
     }
 
     /// The heights at so many mm from a place, where there are any.

@@ -183,6 +183,7 @@ fn seated(seat: &Seat<'_>, head: Span, stock: Spanned<Stock>, session: &mut Sess
             let drawn = Drawn {
                 surface,
                 profile: None,
+                exact: None,
             };
             judge::part(drawn, head, stock, &offer, &mut session.reports)
         }

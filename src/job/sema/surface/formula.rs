@@ -12,6 +12,7 @@ use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_geometry::profile::Profile;
+use vcutc_surface::bend::Exact;
 use vcutc_surface::formula::{FormulaError, formula, roughest};
 use vcutc_surface::surface::Surface;
 use vcutc_syntax::ast::Expr;
@@ -70,8 +71,10 @@ pub(super) fn drawn(
     scope: Scope<'_>,
     reports: &mut Reports,
 ) -> Checked<Drawn> {
+    let (surface, exact) = surface(written, stock, scope, reports)?;
     Ok(Drawn {
-        surface: surface(written, stock, scope, reports)?,
+        surface,
+        exact: Some(exact),
         profile: profile(written, stock.node.width, scope),
     })
 }
@@ -98,7 +101,7 @@ fn surface(
     stock: Spanned<Stock>,
     scope: Scope<'_>,
     reports: &mut Reports,
-) -> Checked<Surface> {
+) -> Checked<(Surface, Exact)> {
     // Names and dimensions are the same everywhere, so one place shows what is wrong with them.
     let middle = [stock.node.width.to_mm() / 2.0, stock.node.depth.to_mm() / 2.0];
     let mut found = Reports::default();
@@ -122,7 +125,9 @@ fn surface(
     let span = written.value.span;
     match mesh {
         Ok(mesh) => {
-            super::made(&mesh, stock.node).map_err(|error| reports.push(super::not_made(error, span)))
+            let surface =
+                super::made(&mesh, stock.node).map_err(|error| reports.push(super::not_made(error, span)))?;
+            Ok((surface, Exact::new(move |place| compiled.curvature(place))))
         }
         Err(FormulaError::NoValue { x, y }) if !meter.is_used_up() => match compiled.around([x, y]) {
             Around::Unknown => Err(written.without_value([x, y], scope, reports)),

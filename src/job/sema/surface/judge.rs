@@ -18,7 +18,11 @@ pub(super) type Offer<'a> = dyn Fn(Diagnostic) -> Diagnostic + 'a;
 
 /// The part of a surface that covers the stock and lies within it.
 pub(super) fn part(
-    Drawn { surface, profile }: Drawn,
+    Drawn {
+        surface,
+        profile,
+        exact,
+    }: Drawn,
     span: Span,
     stock: Spanned<Stock>,
     offer: &Offer<'_>,
@@ -45,7 +49,7 @@ pub(super) fn part(
         }
     };
     match shadow {
-        Ok(shadow) => Ok(Part::of_surface(surface, shadow)),
+        Ok(shadow) => Ok(Part::of_surface(surface, exact, shadow)),
         // Not of a surface that covers the stock.
         Err(error) => Err(reports.push(Diagnostic::new(
             Code::SurfaceIncomplete,

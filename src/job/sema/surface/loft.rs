@@ -56,7 +56,11 @@ pub(super) fn drawn(
         Ok(mesh) => match super::made(&mesh, stock.node) {
             Ok(surface) => {
                 let profile = same(&profiles).cloned();
-                return Ok(Drawn { surface, profile });
+                return Ok(Drawn {
+                    surface,
+                    profile,
+                    exact: None,
+                });
             }
             Err(error) => super::not_made(error, head),
         },

@@ -124,6 +124,7 @@ pub(super) fn drawn(
         Ok(surface) => Ok(Drawn {
             surface,
             profile: None,
+            exact: None,
         }),
         Err(diagnostic) => Err(session.reports.push(diagnostic)),
     }
