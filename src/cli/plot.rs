@@ -114,7 +114,10 @@ fn without(what: What, material: &Material<'_>) -> Failure {
             Failure::new("too many triangles of the surface lie over each other to draw it")
         }
         What::Finished | What::Tilt | What::Tracks => without_finishing(what, material),
-        What::Surface | What::Residual => Failure::new(
+        What::Curvature | What::Class if material.job.part.surface().is_some() => {
+            Failure::new("the part has edges everywhere, and no place with a curvature")
+        }
+        What::Surface | What::Curvature | What::Class | What::Residual => Failure::new(
             "the part is a profile, the same at every y, so there is nothing to show from above",
         )
         .help("draw `--what contour` or `--what deviation`, or write `surface { ... }` instead of `profile`"),
@@ -192,6 +195,8 @@ fn picture(what: What, material: &Material<'_>) -> Option<String> {
         What::Time => Some(pictures::time(material, ids)),
         What::Process => pictures::process(material, ids),
         What::Surface => pictures::surface(material, ids),
+        What::Curvature => pictures::curvature(material, ids),
+        What::Class => pictures::class(material, ids),
         What::Residual => pictures::residual(material, ids),
         What::Finished => pictures::finished(material, ids),
         What::Tilt => pictures::tilt(material, ids),

@@ -10,6 +10,7 @@ mod band;
 pub mod blade;
 pub mod by_forces;
 mod chart;
+pub mod class_map;
 pub mod contour;
 pub mod correlation;
 pub mod deviation;

@@ -11,7 +11,7 @@ use super::trace::number;
 
 pub use super::sheet::Heading;
 
-/// What a map shows; lengths in mm, angles in degrees.
+/// What a map shows; lengths in mm, angles in degrees, curvatures in 1/m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanMap<'a> {
     /// What it is about.
@@ -41,6 +41,8 @@ pub enum Quantity {
     Height,
     /// Angles, in degrees.
     Angle,
+    /// Curvatures, in 1/m.
+    Curvature,
 }
 
 impl Quantity {
@@ -50,6 +52,7 @@ impl Quantity {
         match self {
             Self::Height => "mm",
             Self::Angle => "deg",
+            Self::Curvature => "1/m",
         }
     }
 
@@ -58,6 +61,7 @@ impl Quantity {
         match self {
             Self::Height => "at its highest place",
             Self::Angle => "where it is the largest",
+            Self::Curvature => "at its middle",
         }
     }
 
@@ -66,6 +70,7 @@ impl Quantity {
         match self {
             Self::Height => "a place higher",
             Self::Angle => "an angle larger",
+            Self::Curvature => "a curvature greater",
         }
     }
 }
@@ -174,7 +179,8 @@ pub fn classed(map: &PlanMap<'_>) -> Classed {
     }
 }
 
-fn edges(length: f64, count: u32) -> Vec<f64> {
+/// Where cells along a side begin and end.
+pub(super) fn edges(length: f64, count: u32) -> Vec<f64> {
     let count = count.max(1);
     let edge = |number| length * f64::from(number) / f64::from(count);
     (0..=count).map(edge).collect()

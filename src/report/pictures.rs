@@ -25,7 +25,7 @@ pub use by_forces::by_forces;
 pub use joints::{joints, joints_twice};
 pub use passes::{figures as pocket_figures, passes};
 pub use paths::paths;
-pub use plan_maps::{SurfaceMap, finished, residual, surface, tilt};
+pub use plan_maps::{ClassMap, Curved, SurfaceMap, class, curvature, finished, residual, surface, tilt};
 pub use process::process;
 pub use sections::SurfaceSections;
 pub use time::time;

@@ -5,12 +5,12 @@
 //! colour that it has in the map from above. Without scripts the figure stays hidden: the maps from above show the same values.
 //!
 //! A map has at most 120 by 120 cells ([`vcutc_picture::plan_map::cells`]), and each number has 16 bits. So heights and each map take
-//! at most 39 kB in base64, and with script and style the page grows by at most 240 kB for four maps.
+//! at most 39 kB in base64, and with script and style the page grows by at most 320 kB for six maps.
 
 use crate::Material;
 use crate::html::Html;
 use crate::packing::{column, document};
-use crate::pictures::SurfaceMap;
+use crate::pictures::{ClassMap, SurfaceMap};
 use serde_json::{Value, json};
 use vcutc_picture::plan_map::{Class, Classed};
 use vcutc_surface::map::Cells;
@@ -32,18 +32,40 @@ const FINEST: f64 = 1e-9;
 /// a value rounded by itself would not at a border.
 const PARTS: u16 = 7000;
 
-/// The figure; none of a part without maps.
-pub(crate) fn figure(material: &Material<'_>, maps: &[&SurfaceMap]) -> Option<Html> {
+/// A map that the surface can have the colours of.
+#[derive(Clone, Copy)]
+pub(crate) enum Shown<'a> {
+    /// Values in steps.
+    Values(&'a SurfaceMap),
+    /// Classes.
+    Classes(&'a ClassMap),
+}
+
+impl Shown<'_> {
+    fn packed(self) -> Value {
+        match self {
+            Self::Values(map) => packed(map),
+            Self::Classes(map) => packed_classes(map),
+        }
+    }
+}
+
+/// The figure, of maps with the cells of the first one; none of a part without maps.
+pub(crate) fn figure(material: &Material<'_>, first: &SurfaceMap, others: &[Shown<'_>]) -> Option<Html> {
     let surface = material.job.part.surface()?;
-    let cells = maps.first()?.cells();
+    let cells = first.cells();
     let stock = material.job.stock;
     let size = [stock.width, stock.depth, stock.height].map(|length| length.to_mm());
+    let maps = [Shown::Values(first)]
+        .into_iter()
+        .chain(others.iter().copied())
+        .take(MOST_MAPS);
     let data = json!({
         "size": size,
         "cells": [cells.columns, cells.rows],
         "heights": heights(surface, cells),
         "parts": PARTS,
-        "maps": maps.iter().take(MOST_MAPS).map(|map| packed(map)).collect::<Vec<_>>(),
+        "maps": maps.map(Shown::packed).collect::<Vec<_>>(),
     });
     Some(html!(
         "space.html",
@@ -108,6 +130,25 @@ fn packed(map: &SurfaceMap) -> Value {
         "step": step,
         "classes": classes.iter().map(class).collect::<Vec<_>>(),
         "values": column(&numbers),
+    })
+}
+
+/// A map of classes: it has no decimals, and the number of a cell is where its class begins.
+fn packed_classes(map: &ClassMap) -> Value {
+    let numbers = map
+        .classes()
+        .iter()
+        .map(|class| class.map_or(NONE, |class| number(class, f64::from(class))));
+    json!({
+        "what": ClassMap::what(),
+        "unit": "",
+        "figures": map.figures(),
+        "limit": null,
+        "decimals": null,
+        "from": 0,
+        "step": 1,
+        "classes": ClassMap::legend(),
+        "values": column(&numbers.collect::<Vec<_>>()),
     })
 }
 

@@ -31,6 +31,7 @@ mod consistency;
 mod convert;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod curve;
+mod curved;
 mod drawn;
 mod effort;
 #[cfg(feature = "krl")]

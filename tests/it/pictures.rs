@@ -41,7 +41,7 @@ rough vcut {
 ";
 
 /// The pictures of `docs/pictures.md`: example, what is drawn.
-const SHOWN: [(&str, &str); 12] = [
+const SHOWN: [(&str, &str); 14] = [
     ("fairing", "lattice"),
     ("fairing", "contour"),
     ("fairing", "deviation"),
@@ -50,6 +50,8 @@ const SHOWN: [(&str, &str); 12] = [
     ("spoiler_clarky", "torques"),
     ("wavy_panel", "time"),
     ("bent_hill", "surface"),
+    ("canopy", "curvature"),
+    ("canopy", "class"),
     ("bent_hill", "residual"),
     ("finished_dome", "finished"),
     ("finished_dome", "tracks"),
@@ -71,6 +73,8 @@ pub(crate) fn picture(what: &str, outcome: &Outcome, ids: Prefix) -> String {
         "joints" => pictures::joints(&material, ids).unwrap(),
         "time" => pictures::time(&material, ids),
         "surface" => pictures::surface(&material, ids).unwrap(),
+        "curvature" => pictures::curvature(&material, ids).unwrap(),
+        "class" => pictures::class(&material, ids).unwrap(),
         "residual" => pictures::residual(&material, ids).unwrap(),
         "finished" => pictures::finished(&material, ids).unwrap(),
         "tilt" => pictures::tilt(&material, ids).unwrap(),
@@ -89,7 +93,7 @@ pub(crate) fn picture(what: &str, outcome: &Outcome, ids: Prefix) -> String {
 }
 
 const ALL: [&str; 6] = ["lattice", "contour", "deviation", "correlation", "joints", "time"];
-const MAPS: [&str; 2] = ["surface", "residual"];
+const MAPS: [&str; 4] = ["surface", "curvature", "class", "residual"];
 
 #[test]
 fn pictures_in_the_documentation_are_true() {

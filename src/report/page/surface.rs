@@ -2,8 +2,9 @@
 
 use super::figure::{Ids, Zoom, figure, slide};
 use super::{Section, Subject};
-use crate::pictures::{DiscTracks, SurfaceMap, SurfaceSections};
-use crate::space;
+use crate::html::Html;
+use crate::pictures::{Curved, DiscTracks, SurfaceMap, SurfaceSections};
+use crate::space::{self, Shown};
 
 /// The section; none of a part that is a profile.
 pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
@@ -118,9 +119,18 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
             &|ids| sections.draw(ids),
         )
     });
-    let maps = [Some(&part), Some(&residual), finished.as_ref(), leaning.as_ref()];
-    let maps: Vec<&SurfaceMap> = maps.into_iter().flatten().collect();
-    let mut body = space::figure(&subject.material, &maps).unwrap_or_default() + heights + left;
+    let curved = Curved::of(&subject.material);
+    let mut maps = Vec::new();
+    if let Some(Curved { curvature, class }) = &curved {
+        maps.extend([Shown::Values(curvature), Shown::Classes(class)]);
+    }
+    let others = [Some(&residual), finished.as_ref(), leaning.as_ref()];
+    maps.extend(others.into_iter().flatten().map(Shown::Values));
+    let mut body = space::figure(&subject.material, &part, &maps).unwrap_or_default() + heights;
+    if let Some(curved) = &curved {
+        body += bends(curved);
+    }
+    body += left;
     for figure in [after, tilt, tracks].into_iter().flatten() {
         body += figure;
     }
@@ -132,4 +142,35 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
             None => body,
         },
     })
+}
+
+/// How the part bends, in two maps.
+fn bends(Curved { curvature, class }: &Curved) -> Html {
+    let greatest = figure(
+        &Ids {
+            page: "curvature-",
+            phone: "curvature-phone-",
+        },
+        Zoom::Free,
+        &format!(
+            "The greatest curvature of the part over all directions, at the middle of each cell, positive where the part is hollow: {}. A \
+             disc of the radius R needs a tilt whose sine is R times the curvature. On a part that no formula gives, these are estimates.",
+            curvature.figures()
+        ),
+        &|ids| curvature.draw(ids),
+    );
+    let classes = figure(
+        &Ids {
+            page: "class-",
+            phone: "class-phone-",
+        },
+        Zoom::Free,
+        &format!(
+            "The class of the part at the middle of each cell: {}. A bowl is hollow in all directions, a trough in one; a saddle is hollow \
+             in one direction and convex in another; a ridge is convex in one direction, a dome in all.",
+            class.figures()
+        ),
+        &|ids| class.draw(ids),
+    );
+    greatest + classes
 }

@@ -1,4 +1,9 @@
-//! Maps over the plan of a part that changes along y: its height, what the cuts leave above it, and how a disc leans over it.
+//! Maps over the plan of a part that changes along y: its height and how it bends, what the cuts leave above it, and how a disc leans over
+//! it.
+
+mod curved;
+
+pub use curved::{ClassMap, Curved};
 
 use super::{corners, limit};
 use crate::Material;
@@ -37,6 +42,18 @@ pub fn tilt(material: &Material<'_>, ids: Prefix) -> Option<String> {
     Some(SurfaceMap::of_tilt(material)?.draw(ids))
 }
 
+/// The greatest curvature of the part at each place (`picture::plan_map`); none of a part that is a profile.
+#[must_use]
+pub fn curvature(material: &Material<'_>, ids: Prefix) -> Option<String> {
+    Some(Curved::of(material)?.curvature.draw(ids))
+}
+
+/// The classes of the part (`picture::class_map`); none of a part that is a profile.
+#[must_use]
+pub fn class(material: &Material<'_>, ids: Prefix) -> Option<String> {
+    Some(Curved::of(material)?.class.draw(ids))
+}
+
 /// A map that is computed once and drawn in several places.
 #[derive(Clone, Debug)]
 pub struct SurfaceMap {
@@ -48,9 +65,11 @@ pub struct SurfaceMap {
     values: Values,
     /// What limits the values, and the limit.
     limit: Option<(&'static str, f64)>,
+    /// What there is to say of them in addition.
+    note: Option<String>,
 }
 
-/// The values of a map as numbers: heights in mm, angles in degrees.
+/// The values of a map as numbers: heights in mm, angles in degrees, curvatures in 1/m.
 #[derive(Clone, Debug)]
 struct Values {
     cells: Vec<Option<f64>>,
@@ -93,6 +112,7 @@ impl SurfaceMap {
             cells,
             values: Values::of(&surface.heights(cells).ok()??, Length::to_mm),
             limit: None,
+            note: None,
         })
     }
 
@@ -126,6 +146,7 @@ impl SurfaceMap {
             cells,
             values: Values::of(&surface.left_over(&machined, cells).ok()??, Length::to_mm),
             limit: limit(material).map(|limit| (SCALLOP, limit)),
+            note: None,
         })
     }
 
@@ -156,6 +177,7 @@ impl SurfaceMap {
                 .asked()
                 .scallop_limit()
                 .map(|limit| (SCALLOP, limit.value.to_mm())),
+            note: None,
         })
     }
 
@@ -184,6 +206,7 @@ impl SurfaceMap {
             cells,
             values: Values::of(&Map::of_bands(&bands, cells, size).ok()??, degrees),
             limit,
+            note: None,
         })
     }
 
@@ -199,10 +222,15 @@ impl SurfaceMap {
         let decimals = Decimals::of([least, most]);
         let unit = self.quantity.unit();
         let [least, mean, most] = [least, mean, most].map(|value| decimals.shown(value));
-        if least == most {
-            return format!("{mean} {unit} everywhere");
+        let figures = if least == most {
+            format!("{mean} {unit} everywhere")
+        } else {
+            format!("least {least} {unit}, mean {mean} {unit}, most {most} {unit}")
+        };
+        match &self.note {
+            Some(note) => format!("{figures}; {note}"),
+            None => figures,
         }
-        format!("least {least} {unit}, mean {mean} {unit}, most {most} {unit}")
     }
 
     /// The limit on the values, in words, if there is one.
@@ -215,7 +243,9 @@ impl SurfaceMap {
     /// Writes it as SVG.
     #[must_use]
     pub fn draw(&self, ids: Prefix) -> String {
-        plan_map::draw(&self.headed(ids, &self.figures()))
+        // The legend has the other figures.
+        let subtitle = self.note.clone().unwrap_or_else(|| self.figures());
+        plan_map::draw(&self.headed(ids, &subtitle))
     }
 
     /// Its values in the classes of its colours.

@@ -56,7 +56,7 @@ fn another_map_gives_other_colours_and_another_legend() {
     let tab = browser.open(&file, 1280, 900);
     assert!(tab.holds("!document.getElementById('vcut-space').hidden"));
     let names = "[...document.getElementById('vcut-space-map').options].map((option) => option.text)";
-    assert_eq!(tab.value(names).as_array().unwrap().len(), 4);
+    assert_eq!(tab.value(names).as_array().unwrap().len(), 6);
     tab.middle("#vcut-space-canvas");
     // Yellow is the highest class; the dome has it at its top, what roughing leaves nearly nowhere.
     let yellow = [253.0, 231.0, 37.0];
@@ -65,16 +65,40 @@ fn another_map_gives_other_colours_and_another_legend() {
     assert!(pixels_of(&height, yellow) > 0.05 * area, "{height}");
     assert!(text(&tab, "legend").starts_with("39 to 40 mm38 to 39 mm"));
 
-    choose(&tab, 1);
+    choose(&tab, 3);
     let left = tab.value(COLOURS);
     assert!(pixels_of(&left, yellow) < 0.5 * pixels_of(&height, yellow));
     assert!(!text(&tab, "legend").contains("39 to 40 mm"));
     assert!(text(&tab, "limit").contains("scallop limit, 3 mm"));
-    choose(&tab, 3);
+    choose(&tab, 5);
     assert_ne!(tab.value(COLOURS), left);
     assert!(text(&tab, "legend").contains(" deg"));
     choose(&tab, 0);
     assert_eq!(tab.value(COLOURS), height);
+    assert_is_calm(&tab);
+}
+
+/// Curvature has a legend in steps, and classes have one of words; the place under the pointer has the word of its class.
+#[test]
+fn the_part_is_coloured_by_its_class() {
+    let Some(browser) = Browser::start() else { return };
+    let (_folder, file) = report("finished_dome", &[]);
+    let tab = browser.open(&file, 1280, 900);
+    let middle = tab.middle("#vcut-space-canvas");
+    choose(&tab, 1);
+    assert!(text(&tab, "legend").contains(" 1/m"));
+    assert!(text(&tab, "limit").starts_with("curvature of the disc, "));
+    assert!(text(&tab, "figures").contains("nowhere hollow"));
+
+    choose(&tab, 2);
+    assert_eq!(text(&tab, "legend"), "bowltroughsaddleflatridgedome");
+    assert_eq!(text(&tab, "figures"), "The class of the part: dome everywhere.");
+    let drawn = tab.value(COLOURS);
+    assert!(pixels_of(&drawn, [213.0, 94.0, 0.0]) > 10_000.0, "{drawn}");
+    tab.mouse("mouseMoved", middle, &json!({}));
+    tab.wait_until(
+        "document.getElementById('vcut-space-here').textContent.endsWith('class of the part dome')",
+    );
     assert_is_calm(&tab);
 }
 
@@ -165,8 +189,8 @@ fn what_has_no_value_is_grey() {
     let drawn = tab.value(COLOURS);
     assert_eq!(pixels_of(&drawn, yellow), 0.0);
     assert!(pixels_of(&drawn, grey) > 10_000.0, "{drawn}");
-    // The second map has values where the first has none.
-    choose(&tab, 1);
+    // Another map has values where the first has none.
+    choose(&tab, 3);
     let drawn_with = tab.value(COLOURS);
     assert!(pixels_of(&drawn_with, grey) < 0.5 * pixels_of(&drawn, grey));
     // In front, up to row 14, there are no heights, so there is nothing to point at.

@@ -49,8 +49,10 @@ fn maps_are_drawn_of_a_surface_and_refused_for_a_profile() {
     assert_eq!(
         drawn,
         [
+            "class",
             "contour",
             "correlation",
+            "curvature",
             "deviation",
             "lattice",
             "residual",
@@ -59,7 +61,7 @@ fn maps_are_drawn_of_a_surface_and_refused_for_a_profile() {
         ]
         .map(|what| format!("hill_{what}.svg"))
     );
-    for what in ["surface", "residual"] {
+    for what in ["surface", "curvature", "class", "residual"] {
         let one = vcutc(out.path(), &["plot", "hill.vcut", "--what", what]);
         let path = out.path().join("all").join(format!("hill_{what}.svg"));
         assert_eq!(

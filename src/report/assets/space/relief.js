@@ -12,7 +12,7 @@ const LOOKS = 3;
  * @property {string} unit
  * @property {string} figures least, mean and greatest value, in words
  * @property {string | null} limit
- * @property {number} decimals
+ * @property {number | null} decimals null where classes have no order of size
  * @property {[string, string][]} classes colour and words of each, from the least values on
  * @property {(cell: number) => number | null} classOf
  * @property {(cell: number) => number | null} valueOf

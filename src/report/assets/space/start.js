@@ -47,10 +47,21 @@ function row(colour, words) {
 function wordsOf(relief, map, place) {
   if (place === null) return "\u00a0";
   const [column, row] = relief.cellAt(place[0], place[1]);
-  const value = map.valueOf(row * relief.columns + column);
+  const cell = row * relief.columns + column;
   const at = ["x", "y", "z"].map((axis, i) => `${axis} ${place[i].toFixed(1)} mm`).join(", ");
-  const shown = value === null ? "no value" : `${value.toFixed(map.decimals).replace(/^-(0\.?0*)$/, "$1")} ${map.unit}`;
-  return `${at}: ${map.what} ${shown}`;
+  return `${at}: ${map.what} ${valueInWords(map, cell)}`;
+}
+
+/**
+ * The value of a cell, or the name of its class.
+ * @param {PlanMap} map
+ * @param {number} cell
+ */
+function valueInWords(map, cell) {
+  const [value, number] = [map.valueOf(cell), map.classOf(cell)];
+  if (value === null || number === null) return "no value";
+  if (map.decimals === null) return map.classes[number][1];
+  return `${value.toFixed(map.decimals).replace(/^-(0\.?0*)$/, "$1")} ${map.unit}`;
 }
 
 function start() {
