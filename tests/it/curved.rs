@@ -267,3 +267,18 @@ fn maps_are_in_the_page_as_by_themselves() {
     assert_eq!(pictures::curvature(&material, Prefix::NONE), None);
     assert_eq!(pictures::class(&material, Prefix::NONE), None);
 }
+
+#[test]
+fn an_edge_of_a_formula_has_no_curvature() {
+    let part = "surface { z(x, y) = 40 mm - abs(x - 60 mm) / 3 + y^2 / 2000 mm }";
+    let outcome = checked(part, Files::default());
+    let cells = Cells { columns: 3, rows: 2 };
+    let bends = outcome.job.as_ref().unwrap().part.bends(cells).unwrap();
+    // The middles are at 20, 60 and 100 mm across; the edge is at 60 mm.
+    for row in bends.chunks(3) {
+        assert_eq!(row[1], None);
+        for bend in [row[0].unwrap(), row[2].unwrap()] {
+            assert_eq!(bend.class(), Class::Trough, "{bend:?}");
+        }
+    }
+}
