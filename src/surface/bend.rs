@@ -10,7 +10,7 @@
 //!   in long triangles they say what corners do not. Where there are hardly any corners, all count alike.
 //!
 //! So these are estimates, not bounds. What is smaller than the reach is smoothed, and where the part has an edge or a step within
-//! it, no paraboloid fits and there is no value. The scatter about the fit says how far off a curvature may be: two standard errors.
+//! it, no paraboloid fits and the value is missing. The scatter about the fit says how far off a curvature may be: two standard errors.
 
 mod crowd;
 mod fit;
