@@ -12,6 +12,7 @@
 
 pub mod cone;
 pub mod curve;
+pub mod fan;
 pub mod grid;
 pub mod import;
 pub mod number;

@@ -133,6 +133,13 @@ impl Profile {
         Self::from_ascending(self.points.iter().map(higher).collect())
     }
 
+    /// The profile with corners above this height put on it.
+    #[must_use]
+    pub fn not_above(&self, most: Length) -> Self {
+        let lower = |point: &Point2| Point2::new(point.x, point.z.min(most.to_mm()));
+        Self::from_ascending(self.points.iter().map(lower).collect())
+    }
+
     /// The profile lower by a length.
     #[must_use]
     pub fn lowered(&self, by: Length) -> Self {
