@@ -30,6 +30,7 @@ pub mod disc;
 pub mod drop;
 mod envelope;
 mod extremes;
+pub mod fan;
 pub mod formula;
 mod frechet;
 pub mod gouge;

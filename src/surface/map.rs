@@ -141,11 +141,16 @@ fn lifted(region: &[[f64; 2]], part: &Part) -> Piece {
 }
 
 /// What a machined profile leaves over a region of a part, segment by segment.
-fn left(machined: &Machined, region: &[[f64; 2]], part: &Part) -> impl Iterator<Item = Piece> {
+fn left(machined: &Machined, region: &[[f64; 2]], part: &Part) -> Vec<Piece> {
+    if let Some(ruled) = machined.vees() {
+        return ruled.above(region, part.plane);
+    }
     let [from, to] = range(region, 0);
     let segments = machined.between(from, to);
     let inside = segments.filter(move |[a, b]| a.x < to - TOUCH && b.x > from + TOUCH);
-    inside.flat_map(move |segment| machined.above(segment, region, part.plane))
+    inside
+        .flat_map(|segment| machined.above(segment, region, part.plane))
+        .collect()
 }
 
 /// The least and the greatest coordinate of places along an axis.

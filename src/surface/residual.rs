@@ -12,6 +12,7 @@
 
 mod distance;
 mod machined;
+mod ruled;
 
 pub use machined::{Machined, MachinedError};
 
@@ -28,6 +29,11 @@ use vcutc_geometry::profile::height_between;
 pub struct Volume(f64);
 
 impl Volume {
+    /// So many cubic millimetres.
+    pub(crate) const fn mm3(volume: f64) -> Self {
+        Self(volume)
+    }
+
     /// Cubic millimetres.
     #[must_use]
     pub const fn to_mm3(self) -> f64 {
@@ -96,7 +102,11 @@ impl Surface {
             return Ok(None);
         };
         let start = Point2::new(highest.1[0], highest.1[1]);
-        let [least, most] = distance::farthest(self, machined, start);
+        let [least, most] = match machined.vees() {
+            // What lies straight below bounds it.
+            Some(_) => [0.0, f64::INFINITY],
+            None => distance::farthest(self, machined, start),
+        };
         // Something of the part lies straight below.
         let most = most.min(highest.0.max(-lowest.0)).max(least);
         let over = |(height, place): (f64, [f64; 2])| Over {
@@ -168,8 +178,16 @@ impl Sum {
         let xs = || part.region.iter().map(|place| place[0]);
         let from = xs().fold(f64::INFINITY, f64::min);
         let to = xs().fold(f64::NEG_INFINITY, f64::max);
-        let segments = machined.between(from, to);
-        for corners in segments.flat_map(|segment| machined.above(segment, &part.region, part.plane)) {
+        let pieces: Vec<Heights> = match machined.vees() {
+            Some(ruled) => ruled.above(&part.region, part.plane),
+            None => {
+                let segments = machined.between(from, to);
+                segments
+                    .flat_map(|segment| machined.above(segment, &part.region, part.plane))
+                    .collect()
+            }
+        };
+        for corners in pieces {
             if counts == Counts::All {
                 for &(place, height) in &corners {
                     if self.highest.is_none_or(|(most, _)| height > most) {

@@ -1,17 +1,21 @@
-//! A height over x that may step.
+//! A height over x that may step, or what the Vs of a fan leave.
 
+use super::ruled::Ruled;
 use core::fmt;
 use std::sync::Arc;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
+use vcutc_geometry::fan::Ruling;
 use vcutc_geometry::profile::height_between;
 use vcutc_geometry::spine::Spine;
 
-/// The surface that straight cuts along y leave: a polyline whose x never decrease. Beyond its ends it goes on level.
+/// The surface that straight cuts along y leave: a polyline whose x never decrease. Beyond its ends it goes on level. Or the surface that
+/// the Vs of a fan leave.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Machined {
     points: Vec<Point2>,
     lid: Option<Lid>,
+    ruled: Option<Arc<Ruled>>,
 }
 
 /// The top of the stock as it is seen with the spine of the cuts taken off: nothing is left above it.
@@ -71,7 +75,11 @@ impl Machined {
             return Err(MachinedError::TurnsBack { index: index + 1 });
         }
         match (points.first(), points.last()) {
-            (Some(first), Some(last)) if first.x < last.x => Ok(Self { points, lid: None }),
+            (Some(first), Some(last)) if first.x < last.x => Ok(Self {
+                points,
+                lid: None,
+                ruled: None,
+            }),
             _ => Err(MachinedError::TooFew),
         }
     }
@@ -85,6 +93,22 @@ impl Machined {
         Self { lid, ..self }
     }
 
+    /// The surface that these Vs leave of a stock of that height, whatever the polyline is: the least of all of them.
+    #[must_use]
+    pub fn ruled(self, vees: Vec<Ruling>, depth: f64, top: Length) -> Self {
+        let ruled = Ruled {
+            vees,
+            depth,
+            top: top.to_mm(),
+        };
+        let ruled = Some(Arc::new(ruled));
+        Self { ruled, ..self }
+    }
+
+    pub(crate) fn vees(&self) -> Option<&Ruled> {
+        self.ruled.as_deref()
+    }
+
     pub(crate) const fn lid(&self) -> Option<&Lid> {
         self.lid.as_ref()
     }
@@ -92,6 +116,9 @@ impl Machined {
     /// How high it stands over a place of the stock, in mm; at a wall its upper end.
     #[must_use]
     pub fn height_over(&self, x: f64, y: f64) -> f64 {
+        if let Some(ruled) = &self.ruled {
+            return ruled.height([x, y]);
+        }
         let height = self.height(x);
         match &self.lid {
             None => height,
