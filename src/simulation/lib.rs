@@ -17,6 +17,7 @@ pub mod prove;
 pub mod report;
 pub mod rim;
 pub mod sides;
+pub mod slab;
 pub mod slit;
 pub mod surface;
 pub mod timing;

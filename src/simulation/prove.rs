@@ -25,8 +25,10 @@ mod cleared;
 mod compensation;
 mod edge;
 mod entry;
+mod fan;
 mod findings;
 mod flank;
+mod half_done;
 mod overcut;
 mod piece;
 mod slit;
@@ -47,9 +49,12 @@ use core::num::NonZeroU32;
 pub use edge::UsedEdge;
 pub use entry::below_top;
 pub(super) use entry::merge_heights;
+use fan::AlongFan;
+pub use fan::FanBound;
 pub use findings::Findings;
 use findings::note;
 use flank::{FlankGeometry, flanks};
+use half_done::HalfDone;
 use piece::Piece;
 pub use slit::{Slit, SlitFault};
 use std::collections::BTreeMap;
@@ -63,6 +68,7 @@ use vcutc_backend_api::state::{State, TipPose};
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
 use vcutc_geometry::curve::Point2;
+use vcutc_geometry::fan::Ruling;
 use vcutc_geometry::profile::Profile;
 use vcutc_geometry::spine::Spine;
 
@@ -81,6 +87,9 @@ pub struct Bound<'p> {
     pub passes: Option<Passes>,
     /// What its cuts follow, with which taken off the part is what it is here; none where they are level.
     pub spine: Option<&'p Spine>,
+    /// The fan that its cuts keep to, of which the part is the section of lower ends; none where they do not. No other operation may
+    /// have cuts then.
+    pub fan: Option<FanBound<'p>>,
     /// How much lower than their tips say flanks of level cuts have to come out.
     pub lower: Length,
     /// How far its tips are offset against forces: it is replayed as it cuts under these. None where they are not, or where it is
@@ -117,6 +126,7 @@ impl<'p> Bound<'p> {
             aside: Length::ZERO,
             passes: None,
             spine: None,
+            fan: None,
             lower: Length::ZERO,
             compensation: None,
         }
@@ -148,7 +158,7 @@ pub enum CutFault {
         /// How deep, along z.
         depth: Length,
     },
-    /// A cut leaves the spine that all cuts of its operation follow.
+    /// A cut leaves the spine or the line that it is to follow.
     Strays {
         /// Where along y.
         y: Length,
@@ -185,6 +195,8 @@ pub struct Replay {
     pub edges: Vec<UsedEdge>,
     /// How far the tips of its operations are offset, operation by operation; none of those that are not compensated.
     pub compensations: Vec<Option<Compensation>>,
+    /// The lines of the tips of a fan whose Vs make up the machined surface; none where cuts follow no fan.
+    pub rulings: Vec<Ruling>,
     /// Cuts of each layer of each operation, in order.
     pub layers: Vec<(OperationId, usize)>,
     /// What tracks on a surface do, operation by operation; empty until they are judged where the surface is known.
@@ -244,9 +256,10 @@ pub fn watched(
     (player.section.taken(), player.section.into_surface())
 }
 
-/// What is needed of the bounds to see what cuts take: where none follows a spine and none is compensated, nothing.
+/// What is needed of the bounds to see what cuts take: where none follows a spine or a fan and none is compensated, nothing.
 fn needed<'b, 'p>(bounds: &'b [Bound<'p>]) -> &'b [Bound<'p>] {
-    let moves_cuts = |bound: &Bound<'_>| bound.spine.is_some() || bound.compensation.is_some();
+    let moves_cuts =
+        |bound: &Bound<'_>| bound.spine.is_some() || bound.fan.is_some() || bound.compensation.is_some();
     if bounds.iter().any(moves_cuts) {
         bounds
     } else {
@@ -352,28 +365,8 @@ struct Player<'p> {
     parts: BTreeMap<OperationId, Vec<Point2>>,
     /// Cuts along a spine.
     along: AlongSpine,
-}
-
-/// Slopes of the flanks that are done, of Vs of which one is: by layer, and there by the number of the cut, which the verifier has
-/// found to go up from 1 without gaps.
-#[derive(Default)]
-struct HalfDone(ByLayer<Vec<Option<f64>>>);
-
-impl HalfDone {
-    /// The slope of the other flank, where it is done; else that of this flank is kept for it.
-    fn other_of(&mut self, cut: &Cut, slope: f64) -> Option<f64> {
-        let slopes = self.0.of((cut.operation, cut.layer));
-        let number = cut.cut.get() as usize - 1;
-        if slopes.len() <= number {
-            slopes.resize(number + 1, None);
-        }
-        let place = slopes.get_mut(number)?;
-        let other = place.take();
-        if other.is_none() {
-            *place = Some(slope);
-        }
-        other
-    }
+    /// Cuts along a fan.
+    fan: AlongFan,
 }
 
 impl<'p> Player<'p> {
@@ -398,6 +391,7 @@ impl<'p> Player<'p> {
             counted: None,
             layers: ByLayer::default(),
             along: AlongSpine::default(),
+            fan: AlongFan::default(),
         }
     }
 
@@ -426,12 +420,13 @@ impl<'p> Player<'p> {
             return;
         };
         let side = cut.side();
-        if let Some(spine) = self
-            .bounds
-            .get(usize::from(cut.operation.0))
-            .and_then(|bound| bound.spine)
-        {
+        let bound = self.bounds.get(usize::from(cut.operation.0));
+        if let Some(spine) = bound.and_then(|bound| bound.spine) {
             self.note_level(cut, spine);
+            return;
+        }
+        if let Some(fan) = bound.and_then(|bound| bound.fan) {
+            self.note_off_fan(cut, fan);
             return;
         }
         if is_single {
@@ -620,6 +615,10 @@ impl<'p> Player<'p> {
             self.follow(segment, spine, straight);
             return;
         }
+        if let (Some(fan), Some(straight)) = (bound.and_then(|bound| bound.fan), blade.straight()) {
+            self.follow_line(segment, fan, straight);
+            return;
+        }
         let passes = bound.and_then(|bound| bound.passes);
         if let Some(Passes::Tracks(_) | Passes::Region) = passes {
             return;
@@ -648,11 +647,13 @@ impl<'p> Player<'p> {
         }
         if before.is_none_or(|(before, _)| before != operation) {
             self.note_half_done();
+            self.note_half_done_of_fan();
         }
     }
 
     fn finish(mut self) -> Replay {
         self.note_half_done();
+        self.note_half_done_of_fan();
         self.note_idle_slits();
         let (overcut, traceless) = (self.overcut(), self.traceless);
         let deepest = match (overcut, traceless) {
@@ -666,6 +667,7 @@ impl<'p> Player<'p> {
             findings: self.findings,
             longest_edge: Length::mm(self.longest_edge),
             edges: self.edges,
+            rulings: self.fan.into_rulings(),
             compensations: self
                 .bounds
                 .iter()

@@ -21,7 +21,7 @@ use vcutc_geometry::grid;
 use vcutc_geometry::spine::{Deviation, Spine, Station};
 
 /// How far a tip, or by its turn the end of the edge, may be off its spine, in mm: rounding of what programs print.
-const OFF: f64 = 0.002;
+pub(super) const OFF: f64 = 0.002;
 
 /// Chains along spines.
 #[derive(Default)]
@@ -74,9 +74,9 @@ impl Followed {
 
 /// Where a chain is not where its spine is.
 #[derive(Clone, Copy, Debug)]
-struct Strayed {
-    y: f64,
-    by: f64,
+pub(super) struct Strayed {
+    pub(super) y: f64,
+    pub(super) by: f64,
 }
 
 impl Player<'_> {
@@ -184,7 +184,7 @@ impl Player<'_> {
         self.note_strayed(cut, Strayed { y: 0.0, by });
     }
 
-    fn note_strayed(&mut self, cut: &Cut, Strayed { y, by }: Strayed) {
+    pub(super) fn note_strayed(&mut self, cut: &Cut, Strayed { y, by }: Strayed) {
         let [y, by] = [y, by].map(Length::mm);
         let finding = cut.finding(self.program, CutFault::Strays { y, by });
         note(&mut self.findings.strays, finding, |a, b| {
@@ -200,7 +200,7 @@ impl Player<'_> {
         self.along.strayed.clear();
     }
 
-    fn note_unfreed(&mut self, cut: &Cut) {
+    pub(super) fn note_unfreed(&mut self, cut: &Cut) {
         let program = self.program;
         self.note_edge(f64::INFINITY, |fault| cut.finding(program, fault));
     }
@@ -285,13 +285,13 @@ fn followed(
 
 /// The plane of a blade by its slopes: rise over x, and rise over y.
 #[derive(Clone, Copy)]
-struct Plane {
-    across: f64,
-    along: f64,
+pub(super) struct Plane {
+    pub(super) across: f64,
+    pub(super) along: f64,
 }
 
 impl Plane {
-    fn of(held: Orientation) -> Self {
+    pub(super) fn of(held: Orientation) -> Self {
         let m = held.matrix();
         let [x, y, z] = [m[0][1], m[1][1], m[2][1]];
         Self {
@@ -301,7 +301,7 @@ impl Plane {
     }
 
     /// Whether it leans, so that it rises across the cuts by a slope that flanks along spines may have.
-    const fn is_inclined(self) -> bool {
+    pub(super) const fn is_inclined(self) -> bool {
         self.along.is_finite() && self.across != 0.0 && self.across.abs() <= Spine::STEEPEST_FLANK
     }
 
@@ -330,12 +330,18 @@ fn edge_per_height(
     blade: Straight,
     slope: f64,
 ) -> f64 {
-    let cos_swing = slope / libm::hypot(1.0, slope);
-    let most = places.iter().zip(stations).map(|((_, held), station)| {
-        let m = held.matrix();
-        let along = (m[1][2] + m[2][2] * station.slope) / libm::hypot(1.0, station.slope);
-        let rake = Angle::rad(libm::acos(along.abs().min(1.0)));
-        1.0 / (cos_swing * (rake - blade.half_apex).sin())
-    });
+    let most = places
+        .iter()
+        .zip(stations)
+        .map(|((_, held), station)| edge_on(*held, station.slope, blade, slope));
     most.fold(0.0, f64::max)
+}
+
+/// Edge length for each millimetre of height of a flank of that slope whose tip runs along a way that rises so, at most.
+pub(super) fn edge_on(held: Orientation, way: f64, blade: Straight, flank: f64) -> f64 {
+    let m = held.matrix();
+    let cos_swing = flank / libm::hypot(1.0, flank);
+    let along = (m[1][2] + m[2][2] * way) / libm::hypot(1.0, way);
+    let rake = Angle::rad(libm::acos(along.abs().min(1.0)));
+    1.0 / (cos_swing * (rake - blade.half_apex).sin())
 }
