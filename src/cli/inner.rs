@@ -72,7 +72,9 @@ pub(super) fn write(
 
 fn deviation_of(job: &CheckedJob, compiled: &Compiled) -> Option<Vec<u8>> {
     let surface = job.part.surface()?;
-    let machined = job.part.left_by(&compiled.report.contour, job.stock)?;
+    let machined = job
+        .part
+        .left_by(&compiled.report.contour, &compiled.report.rulings, job.stock)?;
     Some(deviation::ply(surface, &machined))
 }
 

@@ -1,11 +1,14 @@
 //! What cuts leave over a part that changes along y.
 //!
-//! They leave the same height at every y, with the spine that they follow taken off, so they cannot go below the part's shadow. What
-//! lies between shadow and part is left whatever they do; it shows how well such cuts suit the part.
+//! They leave the same height at every y, with the spine that they follow taken off, so they cannot go below the part's shadow; those of
+//! a fan cannot go below the straight lines that cover the part. What lies between these and the part is left whatever they do; it
+//! shows how well such cuts suit the part.
 
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
+use vcutc_job::follow::Guide;
 use vcutc_job::{CheckedJob, Machine, Part};
+use vcutc_simulation::report::Report;
 use vcutc_surface::residual::{Standing, Volume};
 use vcutc_surface::spine::Rising;
 
@@ -14,10 +17,21 @@ use vcutc_surface::spine::Rising;
 pub struct LeftOver {
     /// All that is left.
     pub all: Standing,
-    /// What of it lies below the shadow.
+    /// What of it lies below the shadow, or below the lines of a fan.
     pub shaded: Volume,
+    /// Below what that lies.
+    pub below: Below,
     /// What cuts that are infinitely close would leave at most, where level ones leave much more than they would along a spine.
     pub follow: Option<Compared>,
+}
+
+/// What cuts cannot go below, however close they are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Below {
+    /// The shadow of the part.
+    Shadow,
+    /// The straight lines that cover it.
+    Lines,
 }
 
 /// How high material stays above a part at most, as a grid of its heights shows.
@@ -36,7 +50,7 @@ impl Compared {
         if machine.is_some_and(|machine| !machine.turns_planes()) {
             return None;
         }
-        let surface = part.surface().filter(|_| part.spine().is_none())?;
+        let surface = part.surface().filter(|_| part.guide().is_none())?;
         let (times, least) = MUCH;
         let level = surface.left_by_straight_cuts();
         let along = part.fitted(Rising::Freely)?.leaves;
@@ -48,18 +62,25 @@ impl Compared {
 }
 
 impl LeftOver {
-    /// What cuts leave that end at this contour, from left to right; none over a profile.
-    pub(crate) fn of(job: &CheckedJob, contour: &[Point2]) -> Option<Self> {
+    /// What the cuts of a program leave; none over a profile.
+    pub(crate) fn of(job: &CheckedJob, report: &Report) -> Option<Self> {
         let (part, stock) = (&job.part, job.stock);
         let surface = part.levelled()?;
-        let shadow = part.tessellated(Part::TOLERANCE)?;
-        let below = |corners: &[Point2]| part.left_by(corners, stock);
+        let below = |corners: &[Point2]| part.left_by(corners, &report.rulings, stock);
         // Checking a job refuses surfaces that are too tangled for this.
-        let all = surface.standing(&below(contour)?).ok()??;
-        let shaded = surface.standing(&below(shadow.points())?).ok()??.volume;
+        let all = surface.standing(&below(&report.contour)?).ok()??;
+        let (shaded, lies_below) = match part.guide().and_then(Guide::fan) {
+            Some(fan) => (surface.below_fan(fan).ok()?, Below::Lines),
+            None => {
+                let shadow = part.tessellated(Part::TOLERANCE)?;
+                let standing = surface.standing(&below(shadow.points())?).ok()??;
+                (standing.volume, Below::Shadow)
+            }
+        };
         Some(Self {
             all,
             shaded,
+            below: lies_below,
             follow: Compared::of(part, job.machine.as_ref()),
         })
     }

@@ -477,7 +477,7 @@ fn compiled(
     }));
     let carried = job.machine.as_ref().zip(program.reached());
     let carried = carried.map(|(machine, reached)| Carried { machine, reached });
-    let left_over = LeftOver::of(job, &report.contour);
+    let left_over = LeftOver::of(job, &report);
     Compiled {
         checks: Checks::of(carried, paced.basis, Bodies::of(job), &report),
         parameters: chosen::figures(plan),

@@ -6,7 +6,7 @@ pub mod processes;
 pub mod times;
 
 use crate::checks::Checks;
-use crate::left_over::{Compared, LeftOver};
+use crate::left_over::{Below, Compared, LeftOver};
 use crate::ways::Comparison;
 use vcutc_backend_api::ir::Site;
 use vcutc_backend_api::script::duration_words;
@@ -146,7 +146,13 @@ pub(crate) fn with_surface(
     left_over: Option<&LeftOver>,
     tracked: &[Tracked],
 ) -> Vec<String> {
-    let Some(LeftOver { all, shaded, follow }) = left_over else {
+    let Some(LeftOver {
+        all,
+        shaded,
+        below,
+        follow,
+    }) = left_over
+    else {
         return lines;
     };
     let Over { height, place } = all.highest;
@@ -165,13 +171,15 @@ pub(crate) fn with_surface(
     if shaded.to_mm3() < LEAST_SHADED {
         return lines;
     }
-    lines.push(row(
-        "shadow",
-        &format!(
-            "{} of that lie below the part's shadow along y, where the cuts do not get; area and scallop are measured from the shadow",
-            litres(*shaded)
-        ),
-    ));
+    let why = match below {
+        Below::Shadow => {
+            "below the part's shadow along y, where the cuts do not get; area and scallop are measured from the shadow"
+        }
+        Below::Lines => {
+            "below the straight lines that cover the part, where the cuts do not get; area and scallop are measured from their lower ends"
+        }
+    };
+    lines.push(row("shadow", &format!("{} of that lie {why}", litres(*shaded))));
     if let Some(Compared { level, along }) = follow {
         lines.push(row(
             "follow",

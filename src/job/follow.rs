@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 use vcutc_backend_api::units::{Angle, Length};
+use vcutc_geometry::fan::Fan;
 use vcutc_geometry::spine::{Deviation, Spine};
 
 /// How cuts follow the part along y.
@@ -13,22 +14,95 @@ pub enum Follow {
     Pitched,
     /// They rise and fall along a polyline, the same for all of them.
     Spine,
-    /// The first of these that leaves hardly more than the best.
+    /// Each is straight and rises or falls at a slope of its own.
+    Fan,
+    /// The first of level, pitched and spine that leaves hardly more than the best.
     Auto,
 }
 
 crate::words! {
-    Follow { Straight = "straight", Pitched = "pitched", Spine = "spine", Auto = "auto" }
+    Follow { Straight = "straight", Pitched = "pitched", Spine = "spine", Fan = "fan", Auto = "auto" }
 }
 
-/// The spine of the cuts of an operation, and how its blade keeps to it.
+/// What the cuts of a job follow.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Guide {
+    /// All of them the same polyline.
+    Spine(Arc<Spine>),
+    /// Each the straight line of its place.
+    Fan(Arc<Fan>),
+}
+
+impl Guide {
+    /// The spine, if it is one.
+    #[must_use]
+    pub fn spine(&self) -> Option<&Spine> {
+        match self {
+            Self::Spine(spine) => Some(spine),
+            Self::Fan(_) => None,
+        }
+    }
+
+    /// The fan, if it is one.
+    #[must_use]
+    pub fn fan(&self) -> Option<&Fan> {
+        match self {
+            Self::Spine(_) => None,
+            Self::Fan(fan) => Some(fan),
+        }
+    }
+
+    /// The largest slope, up or down.
+    #[must_use]
+    pub fn steepest(&self) -> f64 {
+        match self {
+            Self::Spine(spine) => spine.steepest(),
+            Self::Fan(fan) => fan.steepest(),
+        }
+    }
+
+    /// The largest slope at the sides of the stock, up or down.
+    #[must_use]
+    pub fn steepest_at_sides(&self) -> f64 {
+        match self {
+            Self::Spine(spine) => spine.end_slopes().map(f64::abs).into_iter().fold(0.0, f64::max),
+            Self::Fan(fan) => fan.steepest(),
+        }
+    }
+
+    /// How far cuts go down at most over so many mm beyond a side of the stock: from there on, and below their lowest place over the
+    /// stock.
+    #[must_use]
+    pub fn down_beyond(&self, extension: f64) -> [f64; 2] {
+        match self {
+            Self::Spine(spine) => {
+                let ends = [(0.0, -extension), (spine.depth(), spine.depth() + extension)];
+                let fall = ends.map(|(side, end)| spine.rise(side) - spine.rise(end));
+                let sink = ends.map(|(_, end)| -spine.rise(end));
+                [fall, sink].map(|lengths| lengths.into_iter().fold(0.0, f64::max))
+            }
+            Self::Fan(fan) => [fan.steepest() * extension; 2],
+        }
+    }
+}
+
+/// Where lines twist by more of the slope of flanks, on a few places at most, plans count on so much: more would rule all of them out, and the
+/// proof measures what is needed. A judgement, from no source.
+const MOST_SHEARED: f64 = 0.5;
+
+/// How far a blade is off the straight line of a fan, in mm: rounding of places and postures.
+const ROUNDED: f64 = 0.003;
+
+/// What the cuts of an operation follow, and how its blade keeps to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Along {
-    /// The spine.
-    pub spine: Arc<Spine>,
+    /// What they follow.
+    pub guide: Guide,
     /// How far flanks lie off the Vs of their tips where the blade is where it is to be.
     deviation: Deviation,
     edge: Length,
+    /// What of the edge shows itself across the cuts.
+    across: Length,
     /// How far the tip may leave its way.
     blend: Length,
     /// How much higher than their Vs say other blades may have left the work, in mm.
@@ -41,30 +115,32 @@ impl Along {
     /// Seen along the work, such an edge reaches `L cos(angle)` ahead of its tip where the way is level, and up to
     /// `L sin(angle) sin(mu)` more where it rises by `mu`. The other edge of the blade lies nearer.
     ///
-    /// `others` is the longest edge of the other operations that follow the spine, if there are any.
+    /// `others` is the longest edge of the other operations that follow it, if there are any.
     #[must_use]
-    pub fn new(
-        spine: &Arc<Spine>,
-        edge: Length,
-        angle: Angle,
-        blend: Length,
-        others: Option<Length>,
-    ) -> Self {
-        let pitch = Angle::rad(libm::atan(spine.steepest()));
+    pub fn new(guide: &Guide, edge: Length, angle: Angle, blend: Length, others: Option<Length>) -> Self {
+        let pitch = Angle::rad(libm::atan(guide.steepest()));
         let overhang = edge * (angle.cos().abs() + angle.sin() * pitch.sin());
+        let spine = guide.spine();
+        // Straight lines do not bend, and a fan has its job to itself.
+        let deviation = spine.map_or(Deviation::default(), |spine| spine.deviation(overhang.to_mm()));
+        let left_above = |spine: &Spine| others.map_or(0.0, |longest| spine.left_above(longest, blend));
         Self {
-            spine: Arc::clone(spine),
-            deviation: spine.deviation(overhang.to_mm()),
+            guide: guide.clone(),
+            deviation,
             edge,
+            across: edge * angle.sin(),
             blend,
-            others: others.map_or(0.0, |longest| spine.left_above(longest, blend)),
+            others: spine.map_or(0.0, left_above),
         }
     }
 
     /// How far flanks that rise by `slope` across the cuts may lie off the Vs of their tips.
     #[must_use]
     pub fn deviation(&self, slope: f64) -> Deviation {
-        let off = self.spine.off(self.edge, self.blend, slope);
+        let off = match &self.guide {
+            Guide::Spine(spine) => spine.off(self.edge, self.blend, slope),
+            Guide::Fan(fan) => ROUNDED * (1.0 + slope * slope + fan.steepest() * fan.steepest()).sqrt(),
+        };
         Deviation {
             above: self.deviation.above + off,
             below: self.deviation.below + off,
@@ -75,12 +151,21 @@ impl Along {
     #[must_use]
     pub fn lower(&self, slope: f64) -> f64 {
         let Deviation { above, below } = self.deviation(slope);
-        below + above.max(self.others)
+        below + above.max(self.others) + self.reserve(slope)
+    }
+
+    /// How much of their reach flanks of a fan may need because older tips rise beside them at another slope. Towards steeper lines a
+    /// flank meets them as if it rose by less than its slope `c`, by up to the shear `l` of the fan: of a reach that all its edge makes,
+    /// that takes the share `l / (c + l)` [derived]. The proof measures it.
+    fn reserve(&self, slope: f64) -> f64 {
+        let reach = self.across.to_mm() * slope / libm::hypot(1.0, slope);
+        let shear = self.guide.fan().map_or(0.0, Fan::shear).min(slope * MOST_SHEARED);
+        reach * shear / (slope + shear)
     }
 
     /// How much more of a distance counts along z than where cuts are level.
     #[must_use]
     pub fn steepness(&self) -> f64 {
-        libm::hypot(1.0, self.spine.steepest())
+        libm::hypot(1.0, self.guide.steepest())
     }
 }

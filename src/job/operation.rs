@@ -11,19 +11,17 @@ pub mod planned;
 pub mod planning;
 pub mod search;
 
-use super::follow::Follow;
+use super::follow::{Follow, Guide};
 use super::{BladeRef, Setup, Sourced};
 use core::any::Any;
 use core::fmt::Debug;
 use planned::PlannedOperation;
 use planning::PlanningJob;
 use search::SearchSpace;
-use std::sync::Arc;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_cancellation::{Effort, Wanted};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::Span;
-use vcutc_geometry::spine::Spine;
 use vcutc_simulation::surface::Surface;
 
 /// An operation as the job asks for it.
@@ -89,9 +87,9 @@ pub trait Operation: OperationValue + Any + Debug + Send + Sync {
         })
     }
 
-    /// Makes its cuts along a spine: those of all operations of a job follow the part alike.
+    /// Makes its cuts follow what they follow in this job: those of all its operations follow the part alike.
     /// `others` is the longest edge of the straight blades of the other operations, if there are any.
-    fn go_along(&mut self, _spine: &Arc<Spine>, _others: Option<Length>) {}
+    fn go_along(&mut self, _guide: &Guide, _others: Option<Length>) {}
 
     /// What its open parameters are to make least.
     fn aim(&self) -> Aim {

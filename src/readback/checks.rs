@@ -450,7 +450,7 @@ impl Read<'_> {
             }
             CutFault::Strays { y, by } => (
                 format!(
-                    "{place} leaves the spine that all cuts follow by {} mm",
+                    "{place} leaves the way that it is to follow by {} mm",
                     show(by.to_mm())
                 ),
                 format!("at y {} mm", show(y.to_mm())),

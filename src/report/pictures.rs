@@ -38,6 +38,7 @@ use machined::{By, Machined, Taken, machined};
 use strips::Rectangles;
 use vcutc_backend_api::words::counted;
 use vcutc_geometry::curve::Point2;
+use vcutc_job::follow::Guide;
 use vcutc_job::planned::{CutShape, PlannedTip};
 use vcutc_picture::{Prefix, contour, correlation, deviation, lattice};
 use vcutc_process::verdict;
@@ -80,8 +81,9 @@ pub fn lattice(material: &Material<'_>, ids: Prefix) -> String {
 /// The title of a picture of the section. Over a part that changes along y, sections are about its shadow.
 fn titled(material: &Material<'_>, what: &str) -> String {
     let part = &material.job.part;
-    let shadow = match (part.surface(), part.spine()) {
-        (Some(_), Some(_)) => ", over the shadow of the part along the spine of the cuts",
+    let shadow = match (part.surface(), part.guide()) {
+        (Some(_), Some(Guide::Spine(_))) => ", over the shadow of the part along the spine of the cuts",
+        (Some(_), Some(Guide::Fan(_))) => ", over the lower ends of the lines that cover the part",
         (Some(_), None) => ", over the shadow of the part",
         (None, _) => "",
     };

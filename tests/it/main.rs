@@ -36,6 +36,8 @@ mod drawn;
 mod effort;
 #[cfg(feature = "krl")]
 mod examples;
+#[cfg(feature = "krl")]
+mod fan;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod finish;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]

@@ -12,11 +12,11 @@ use vcutc_backend_api::ir::{Action, Joint, Op, Program, Site, Straight, ViaId};
 use vcutc_backend_api::verify::verify;
 
 const WIDTH: f64 = 100.0;
-const DEPTH: f64 = 150.0;
-const HEIGHT: f64 = 70.0;
-const ALLOWANCE: f64 = 0.4;
+pub(crate) const DEPTH: f64 = 150.0;
+pub(crate) const HEIGHT: f64 = 70.0;
+pub(crate) const ALLOWANCE: f64 = 0.4;
 
-const REST: &str = "job \"shell\"
+pub(crate) const REST: &str = "job \"shell\"
 stock { size = (100 mm, 150 mm, 70 mm) }
 blade dagger {
   cutting_length = 25 mm
@@ -26,7 +26,7 @@ blade dagger {
 }
 ";
 
-fn rough(more: &str) -> String {
+pub(crate) fn rough(more: &str) -> String {
     format!(
         "rough vcut {{
   blade     = dagger
@@ -41,10 +41,10 @@ fn rough(more: &str) -> String {
 }
 
 /// Everything given, so that nothing is searched.
-const GIVEN: &str = "lattice = orthogonal\n  swing = 40 deg\n  layer = 8 mm\n  step = 9 mm\n  order = point\n  sequence = rows\n  \
+pub(crate) const GIVEN: &str = "lattice = orthogonal\n  swing = 40 deg\n  layer = 8 mm\n  step = 9 mm\n  order = point\n  sequence = rows\n  \
                      residual = mixed";
 
-fn compiled(surface: &str, more: &str) -> Outcome {
+pub(crate) fn compiled(surface: &str, more: &str) -> Outcome {
     let text = format!("{REST}surface {{ {surface} }}\n{}", rough(more));
     compile("job.vcut", &Files::default().with("job.vcut", text))
 }
@@ -96,24 +96,24 @@ impl Held {
 }
 
 /// One flank of a V: the blade from one end of its cut to the other, as a controller takes it from place to place.
-struct Flank {
+pub(crate) struct Flank {
     site: Site,
     held: Vec<Held>,
 }
 
-fn program_of(outcome: &Outcome) -> &Program {
+pub(crate) fn program_of(outcome: &Outcome) -> &Program {
     outcome.compiled.as_ref().unwrap().program.verified().program()
 }
 
-fn codes(outcome: &Outcome) -> Vec<Code> {
+pub(crate) fn codes(outcome: &Outcome) -> Vec<Code> {
     outcome.diagnostics.iter().map(|found| found.code).collect()
 }
 
-fn blade_of(program: &Program) -> Straight {
+pub(crate) fn blade_of(program: &Program) -> Straight {
     program.blades[0].straight().unwrap()
 }
 
-fn flanks(program: &Program, apart: f64) -> Vec<Flank> {
+pub(crate) fn flanks(program: &Program, apart: f64) -> Vec<Flank> {
     let ends = blade_of(program).edge_ends();
     let long = blade_of(program).cutting_length.to_mm();
     let mut flanks: Vec<Flank> = Vec::new();
@@ -145,7 +145,7 @@ fn flanks(program: &Program, apart: f64) -> Vec<Flank> {
 }
 
 /// How far above the part the blade stays, where it is over the stock: along z, at points of both its sides.
-fn least_gap(flanks: &[Flank], blade: Straight, height: &dyn Fn(f64, f64) -> f64) -> f64 {
+pub(crate) fn least_gap(flanks: &[Flank], blade: Straight, height: &dyn Fn(f64, f64) -> f64) -> f64 {
     let (long, half) = (blade.cutting_length.to_mm(), blade.thickness.to_mm() / 2.0);
     let mut least = f64::INFINITY;
     for held in flanks.iter().flat_map(|flank| &flank.held) {
@@ -187,17 +187,17 @@ fn cut_in(flank: &Flank, y: f64, long: f64) -> Vec<[f64; 2]> {
     cut.collect()
 }
 
-const DEXEL: f64 = 0.1;
+pub(crate) const DEXEL: f64 = 0.1;
 
 /// A section of the stock in columns.
-struct Dexels(Vec<f64>);
+pub(crate) struct Dexels(Vec<f64>);
 
 impl Dexels {
     fn new() -> Self {
         Self(vec![HEIGHT; (WIDTH / DEXEL).round() as usize + 1])
     }
 
-    fn height(&self, x: f64) -> f64 {
+    pub(crate) fn height(&self, x: f64) -> f64 {
         let column = (x / DEXEL).round();
         if column < 0.0 || column as usize >= self.0.len() {
             return f64::NEG_INFINITY;
@@ -237,7 +237,7 @@ impl Dexels {
 }
 
 /// What is left in a section after all cuts; fails where a flank does not come out.
-fn left_in(flanks: &[Flank], y: f64, blade: Straight) -> Dexels {
+pub(crate) fn left_in(flanks: &[Flank], y: f64, blade: Straight) -> Dexels {
     let long = blade.cutting_length.to_mm();
     let mut dexels = Dexels::new();
     let mut half: Vec<(Site, Vec<[f64; 2]>)> = Vec::new();
@@ -544,13 +544,13 @@ proptest! {
     }
 }
 
-fn findings(plan: &PlannedJob, program: &Program) -> Findings {
+pub(crate) fn findings(plan: &PlannedJob, program: &Program) -> Findings {
     let program = verify(program.clone()).unwrap_or_else(|faults| panic!("{faults:?}"));
     replay(plan, &program).findings
 }
 
 /// The ops of one cut.
-fn of_cut(op: &Op, layer: u32, cut: u32) -> bool {
+pub(crate) fn of_cut(op: &Op, layer: u32, cut: u32) -> bool {
     matches!(op.site, Site::Cut { layer: l, cut: c, .. } if (l.get(), c.get()) == (layer, cut))
 }
 

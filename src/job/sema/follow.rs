@@ -2,7 +2,7 @@
 
 use super::part::Part;
 use super::report::{Checked, Reports};
-use crate::follow::Follow;
+use crate::follow::{Follow, Guide};
 use crate::ways::Ways;
 use crate::{BladeRef, Machine, Operation, Sourced};
 use vcutc_backend_api::ir::Stock;
@@ -35,11 +35,12 @@ pub(super) fn decide(asked: Asked<'_>, ways: &mut [Ways], reports: &mut Reports)
     };
     let rising = match (asked.part.surface(), follow.value) {
         (_, Follow::Straight) | (None, Follow::Auto) => None,
-        (None, Follow::Pitched | Follow::Spine) => {
+        (None, Follow::Pitched | Follow::Spine | Follow::Fan) => {
             return Err(reports.push(nothing_to_follow(word, asked.place)));
         }
         (Some(_), Follow::Pitched) => Some(Rising::Evenly),
         (Some(_), Follow::Spine) => Some(Rising::Freely),
+        (Some(_), Follow::Fan) => return fan(asked, word, ways, reports),
         (Some(surface), Follow::Auto) => best(&asked.part, surface, asked.machine),
     };
     // Where nothing is better than level cuts, these are taken.
@@ -53,14 +54,45 @@ pub(super) fn decide(asked: Asked<'_>, ways: &mut [Ways], reports: &mut Reports)
     let Some(part) = asked.part.along(rising, asked.stock) else {
         return Ok(asked.part);
     };
-    if let Some(spine) = part.spine() {
+    if let Some(guide) = part.guide() {
         let longest: Vec<Option<Length>> = ways.iter().map(longest_edge).collect();
         for (number, ways) in ways.iter_mut().enumerate() {
             let others = longest.iter().enumerate().filter(|(other, _)| *other != number);
             let others = others.filter_map(|(_, edge)| *edge).reduce(Length::max);
             for way in ways.iter_mut() {
-                way.operation.go_along(spine, others);
+                way.operation.go_along(guide, others);
             }
+        }
+    }
+    Ok(part)
+}
+
+/// The part with every cut along the line of its place.
+fn fan(asked: Asked<'_>, word: Spanned<Follow>, ways: &mut [Ways], reports: &mut Reports) -> Checked<Part> {
+    if let Some(machine) = asked.machine.filter(|machine| !machine.turns_planes()) {
+        return Err(reports.push(too_few_axes(word, machine)));
+    }
+    if let [_, second, ..] = ways {
+        let second = second.iter().next().map(|way| way.operation.setup().head_span);
+        return Err(reports.push(not_alone(word, second.unwrap_or(asked.place))));
+    }
+    let blades = ways
+        .iter()
+        .flat_map(Ways::iter)
+        .flat_map(|way| way.operation.blades());
+    if let Some(body) = blades.filter_map(BladeRef::body).map(|body| body.span).next() {
+        return Err(reports.push(stated_body(word, body)));
+    }
+    let Some(part) = asked.part.fanned(asked.stock) else {
+        return Err(reports.push(not_covered(word, asked.place)));
+    };
+    let steepest = part.guide().map_or(0.0, Guide::steepest);
+    if steepest == 0.0 {
+        return Ok(asked.part);
+    }
+    if let Some(guide) = part.guide() {
+        for way in ways.iter_mut().flat_map(Ways::iter_mut) {
+            way.operation.go_along(guide, None);
         }
     }
     Ok(part)
@@ -128,6 +160,46 @@ fn nothing_to_follow(follow: Spanned<Follow>, part: Span) -> Diagnostic {
     )
     .and(part, "this part is the same at every y")
     .help("delete `follow`, or describe the part by a `surface`")
+    .fix("cut level: `straight`", follow.span, Follow::Straight.word())
+}
+
+fn not_alone(follow: Spanned<Follow>, second: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::CannotFollow,
+        "cuts that follow a fan have their job to themselves",
+        follow.span,
+        "the slope of each of these cuts is its own",
+    )
+    .and(
+        second,
+        "this operation would have to know what they left at every y",
+    )
+    .note("other operations are planned in one cross-section, and after a fan all of them differ")
+    .help("delete the other operations, or let all of them `follow = spine`")
+}
+
+fn stated_body(follow: Spanned<Follow>, blade: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::CannotFollow,
+        "`follow = fan` does not go with a blade whose `body` is stated",
+        follow.span,
+        "the slope of each of these cuts is its own",
+    )
+    .and(blade, "the body of this blade is stated")
+    .note("how bodies pass the work is computed in one cross-section, and those of a fan differ")
+    .help("delete `body`, or use `follow = spine`")
+    .fix("follow a spine: `spine`", follow.span, Follow::Spine.word())
+}
+
+fn not_covered(follow: Spanned<Follow>, part: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::CannotFollow,
+        "no straight lines cover this part",
+        follow.span,
+        "every cut follows the straight line that covers the part in its place",
+    )
+    .and(part, "this surface has a gap along y")
+    .help("close the gap, or use `follow = straight`")
     .fix("cut level: `straight`", follow.span, Follow::Straight.word())
 }
 

@@ -14,14 +14,17 @@ pub(crate) use formula::{Formula, Sampling};
 pub(crate) use section::Section;
 pub(crate) use strip::{REACHES, SAME, Strip};
 
+use crate::follow::Guide;
 use std::sync::{Arc, OnceLock};
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::Span;
 use vcutc_geometry::curve::{Curve, Point2};
+use vcutc_geometry::fan::Ruling;
 use vcutc_geometry::profile::{Profile, ProfileError};
 use vcutc_geometry::spine::Spine;
 use vcutc_surface::bend::{Bend, Exact};
+use vcutc_surface::fan::Fanned;
 use vcutc_surface::map::Cells;
 use vcutc_surface::residual::Machined;
 use vcutc_surface::spine::{Fitted, Rising};
@@ -51,10 +54,12 @@ pub struct Shaded {
     exact: Option<Exact>,
     /// How cuts follow it; none where they are level.
     followed: Option<Followed>,
-    /// Its greatest height over each x, with the spine taken off.
+    /// Its greatest height over each x, with what cuts follow taken off.
     shadow: Profile,
     /// How cuts might follow it, computed once: a surface outlives a run.
     ways: [OnceLock<Option<Way>>; 2],
+    /// The lines of a fan that cover it, likewise.
+    fanned: OnceLock<Option<Fanned>>,
 }
 
 /// A way to follow a surface.
@@ -65,12 +70,12 @@ struct Way {
     along: OnceLock<Option<Arc<Shaded>>>,
 }
 
-/// How all cuts follow a surface alike.
+/// How all cuts follow a surface.
 #[derive(Debug)]
 struct Followed {
-    spine: Arc<Spine>,
-    /// The surface with the spine taken off.
-    levelled: Surface,
+    guide: Guide,
+    /// The surface with the spine taken off; none where each cut follows a line of its own.
+    levelled: Option<Surface>,
 }
 
 impl Shaded {
@@ -81,6 +86,7 @@ impl Shaded {
             followed,
             shadow,
             ways: [const { OnceLock::new() }; 2],
+            fanned: OnceLock::new(),
         }
     }
 
@@ -113,34 +119,57 @@ impl Shaded {
         // Where the spine rises above the part, cuts go down to the bottom of the stock where the spine is lowest, and no further.
         let shadow = shadow.not_below(Length::ZERO);
         let followed = Followed {
-            spine: Arc::new(spine.clone()),
-            levelled,
+            guide: Guide::Spine(Arc::new(spine.clone())),
+            levelled: Some(levelled),
         };
         let exact = self.exact.clone();
         Some(Self::of(Arc::clone(&self.surface), exact, Some(followed), shadow))
     }
 
+    /// With every cut along the line of its place, in a stock of that height.
+    fn fanned(&self, height: Length) -> Option<Self> {
+        let fanned = self.fanned.get_or_init(|| self.surface.fan()).as_ref()?;
+        let shadow = fanned.fan.shadow().not_above(height);
+        let followed = Followed {
+            guide: Guide::Fan(Arc::new(fanned.fan.clone())),
+            levelled: None,
+        };
+        let exact = self.exact.clone();
+        Some(Self::of(Arc::clone(&self.surface), exact, Some(followed), shadow))
+    }
+
+    /// What all cuts that rough the surface follow; none where they are level.
+    #[must_use]
+    pub fn guide(&self) -> Option<&Guide> {
+        self.followed.as_ref().map(|followed| &followed.guide)
+    }
+
     /// The spine of all cuts that rough the surface; none where they are level.
     #[must_use]
     pub fn spine(&self) -> Option<&Arc<Spine>> {
-        self.followed.as_ref().map(|followed| &followed.spine)
+        match self.guide()? {
+            Guide::Spine(spine) => Some(spine),
+            Guide::Fan(_) => None,
+        }
     }
 
-    /// The surface as it is seen across the cuts: with their spine taken off.
+    /// The surface as it is seen across the cuts: with their spine taken off. A fan has none.
     #[must_use]
     pub fn levelled(&self) -> &Surface {
-        self.followed
+        let levelled = self
+            .followed
             .as_ref()
-            .map_or(&self.surface, |followed| &followed.levelled)
+            .and_then(|followed| followed.levelled.as_ref());
+        levelled.unwrap_or(&self.surface)
     }
 }
 
-/// The shadow follows from surface and spine. A surface of a million triangles is not compared with itself.
+/// The shadow follows from the surface and what cuts follow. A surface of a million triangles is not compared with itself.
 impl PartialEq for Shaded {
     fn eq(&self, other: &Self) -> bool {
         let is_same = || Arc::ptr_eq(&self.surface, &other.surface) || self.surface == other.surface;
         let is_as_exact = self.exact.is_some() == other.exact.is_some();
-        core::ptr::eq(self, other) || (self.spine() == other.spine() && is_as_exact && is_same())
+        core::ptr::eq(self, other) || (self.guide() == other.guide() && is_as_exact && is_same())
     }
 }
 
@@ -216,6 +245,26 @@ impl Part {
         })
     }
 
+    /// The same part, with every cut that roughs it along the line of its place. None where that does not exist.
+    pub(crate) fn fanned(&self, stock: Stock) -> Option<Self> {
+        let Shape::Surface(shaded) = &self.shape else {
+            return None;
+        };
+        Some(Self {
+            shape: Shape::Surface(Arc::new(shaded.fanned(stock.height)?)),
+            width: self.width,
+        })
+    }
+
+    /// What the cuts that rough a part follow; none where they are level.
+    #[must_use]
+    pub fn guide(&self) -> Option<&Guide> {
+        match &self.shape {
+            Shape::Surface(shaded) => shaded.guide(),
+            Shape::Profile(_) => None,
+        }
+    }
+
     /// The surface of a part that changes along y.
     #[must_use]
     pub fn surface(&self) -> Option<&Surface> {
@@ -252,14 +301,15 @@ impl Part {
         }
     }
 
-    /// What cuts leave that end at this contour, seen with their spine taken off, from left to right; none
-    /// where that does not exist.
+    /// What cuts leave that end at this contour, seen with what they follow taken off, from left to right; of a fan what its lines
+    /// leave. None where that does not exist.
     #[must_use]
-    pub fn left_by(&self, contour: &[Point2], stock: Stock) -> Option<Machined> {
+    pub fn left_by(&self, contour: &[Point2], rulings: &[Ruling], stock: Stock) -> Option<Machined> {
         let machined = Machined::new(contour.to_vec()).ok()?;
-        Some(match self.spine() {
+        Some(match self.guide() {
             None => machined,
-            Some(spine) => machined.along(Arc::clone(spine), stock.height),
+            Some(Guide::Spine(spine)) => machined.along(Arc::clone(spine), stock.height),
+            Some(Guide::Fan(fan)) => machined.ruled(rulings.to_vec(), fan.depth(), stock.height),
         })
     }
 

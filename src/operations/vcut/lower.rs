@@ -11,7 +11,7 @@
 //! at the higher of both tips, and straight down to the lower one.
 //!
 //! Along a spine a cut is a chain through its stations, and all places beside the work are as much higher or lower as the spine is
-//! there.
+//! there. In a fan it is a chain of one piece.
 //!
 //! Where a plan is compensated, each V is cut at its offset, and so are the ways to and from it.
 //!
@@ -297,7 +297,7 @@ impl<'b> Writer<'b> {
             (Place::Beside(_), Entrance::Level) => self.go_level(pass, feed),
             (Place::Beside(_), Entrance::Over | Entrance::Straight) => self.go_beside(pass, feed),
         }
-        match self.course.stations(feed) {
+        match self.course.stations(pass.x, feed) {
             None => self.cut_level(pass, feed),
             Some(stations) => self.cut_along(pass, feed, &stations),
         }
@@ -307,7 +307,7 @@ impl<'b> Writer<'b> {
 
     fn cut_level(&mut self, pass: Pass, feed: Feed) {
         let end = Point3 {
-            y: self.course.end(feed.reversed()).y,
+            y: self.course.end(pass.x, feed.reversed()).y,
             ..self.tip
         };
         self.builder.op(
@@ -327,7 +327,7 @@ impl<'b> Writer<'b> {
         let held = self.held_along(pass, feed, stations);
         let last = stations.len() - 1;
         for (number, (station, (posture, orientation))) in stations.iter().zip(held).enumerate().skip(1) {
-            let to = Point3::new(pass.x, station.y, grid::nearest(pass.z + station.rise));
+            let to = Point3::new(pass.x, station.y, self.course.height(pass.z, *station));
             let action = Action::Follow {
                 to,
                 orientation,
@@ -365,29 +365,27 @@ impl<'b> Writer<'b> {
             (posture, self.builder.orientation(posture))
         });
         let held: Vec<(Orientation, OrientationId)> = held.collect();
-        self.along.push(HeldAlong {
-            flank: pass.flank,
-            feed,
-            swing: pass.swing,
-            held: held.clone(),
-        });
+        // In a fan every place has a slope of its own.
+        if let Course::Spine(_) = self.course {
+            self.along.push(HeldAlong {
+                flank: pass.flank,
+                feed,
+                swing: pass.swing,
+                held: held.clone(),
+            });
+        }
         held
     }
 
     /// Where a pass starts.
     fn start(&self, pass: Pass, feed: Feed) -> Point3 {
-        let beside = self.course.end(feed);
-        let z = if beside.rise == 0.0 {
-            pass.z
-        } else {
-            grid::nearest(pass.z + beside.rise)
-        };
-        Point3::new(pass.x, beside.y, z)
+        let beside = self.course.end(pass.x, feed);
+        Point3::new(pass.x, beside.y, self.course.height(pass.z, beside))
     }
 
     /// How the blade is held there.
     fn posture(&self, pass: Pass, feed: Feed) -> Orientation {
-        let slope = self.course.end(feed).slope;
+        let slope = self.course.end(pass.x, feed).slope;
         self.postures.cutting_along(pass.swing, pass.flank, feed, slope)
     }
 

@@ -4,13 +4,11 @@ use crate::asked::{Avoid, Compensate, Objective, Residual, RoughVcut};
 use crate::choice;
 use crate::plan::{PlannedVcut, parameters};
 use core::any::Any;
-use std::sync::Arc;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_cancellation::Effort;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
-use vcutc_geometry::spine::Spine;
-use vcutc_job::follow::{Along, Follow};
+use vcutc_job::follow::{Along, Follow, Guide};
 use vcutc_job::operation::less::Leaves;
 use vcutc_job::operation::{Aim, Ground, Laid, Operation, Settled, Swing, Unplanned, Variant, Variation};
 use vcutc_job::{Auto, BladeRef, Order, PlannedOperation, Setup, Sourced};
@@ -19,7 +17,7 @@ use vcutc_process::lower::BLEND;
 /// By how many degrees the swing is made smaller, one after the other.
 const SMALLER: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
 
-/// The smallest swing of cuts along a spine ([`Spine::STEEPEST_FLANK`]).
+/// The smallest swing of cuts that are not level ([`vcutc_geometry::spine::Spine::STEEPEST_FLANK`]).
 pub(crate) const NARROWEST_ALONG: Angle = Angle::deg(5.0);
 
 impl RoughVcut {
@@ -195,10 +193,10 @@ impl Operation for RoughVcut {
         Some(self.follow)
     }
 
-    fn go_along(&mut self, spine: &Arc<Spine>, others: Option<Length>) {
+    fn go_along(&mut self, guide: &Guide, others: Option<Length>) {
         let angle = self.setup.rake.value - self.blade.half_apex.value;
         // Wider Vs would lay the shank down where cuts fall.
-        if let Some(widest) = parameters::widest_standing(self.setup.rake.value, spine) {
+        if let Some(widest) = parameters::widest_standing(self.setup.rake.value, guide.steepest()) {
             let most = &mut self.limits.swing.most;
             if self.swing.value == Auto::Auto && most.is_none_or(|most| most.value > widest) {
                 *most = Some(Sourced {
@@ -215,7 +213,7 @@ impl Operation for RoughVcut {
             });
         }
         self.along = Some(Along::new(
-            spine,
+            guide,
             self.blade.cutting_length.value,
             angle,
             BLEND,

@@ -51,7 +51,9 @@ use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_geometry::cone;
 use vcutc_geometry::curve::Point2;
+use vcutc_geometry::fan::Fan;
 use vcutc_geometry::profile::Profile;
+use vcutc_geometry::spine::Spine;
 use vcutc_job::{Auto, Order, PlanningJob};
 use vcutc_simulation::prove::Compensation;
 use vcutc_simulation::surface::{Surface, Vee};
@@ -337,15 +339,27 @@ impl PlannedVcut {
         self.decisions.iter().any(|decision| decision.field == PARAMETERS)
     }
 
-    /// The plan with level cuts.
+    /// The plan with level cuts, where all sections along its spine are alike.
     #[must_use]
     pub fn level(&self) -> Cow<'_, Self> {
-        if self.asked.along.is_none() {
+        if self.spine().is_none() {
             return Cow::Borrowed(self);
         }
         let mut level = self.clone();
         level.asked.along = None;
         Cow::Owned(level)
+    }
+
+    /// The spine of its cuts, if they follow one.
+    #[must_use]
+    pub fn spine(&self) -> Option<&Spine> {
+        self.asked.along.as_ref()?.guide.spine()
+    }
+
+    /// The fan of its cuts, if they follow one.
+    #[must_use]
+    pub fn fan(&self) -> Option<&Fan> {
+        self.asked.along.as_ref()?.guide.fan()
     }
 
     /// What becomes of its redundant Vs.

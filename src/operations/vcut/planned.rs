@@ -18,7 +18,7 @@ use vcutc_job::operation::{Operation, Trials, WorksThere};
 use vcutc_job::planned::{Balance, Compile, CutShape, Estimate, PlannedTip};
 use vcutc_job::search::RouteSet;
 use vcutc_job::{Auto, Order, PlannedOperation};
-use vcutc_simulation::prove::{Bound, Compensation, Finding};
+use vcutc_simulation::prove::{Bound, Compensation, FanBound, Finding};
 use vcutc_simulation::report::Report;
 use vcutc_simulation::surface::Surface;
 
@@ -44,6 +44,14 @@ impl PlannedVcut {
 }
 
 impl PlannedVcut {
+    /// The fan that its cuts keep to, if they do.
+    fn fan_bound(&self) -> Option<FanBound<'_>> {
+        Some(FanBound {
+            fan: self.fan()?,
+            allowance: self.asked.allowance.value,
+        })
+    }
+
     /// How much lower a flank begins and lies at most, at any x, when tips are offset by this.
     fn lower_by(&self, by: &Compensation) -> Length {
         let vees = lower::numbers(&self.cuts).into_iter().zip(&self.cuts);
@@ -100,7 +108,8 @@ impl PlannedOperation for PlannedVcut {
         Bound {
             drop: self.parameters.drop - self.parameters.below,
             aside: self.parameters.standoff,
-            spine: self.asked.along.as_ref().map(|along| &*along.spine),
+            spine: self.spine(),
+            fan: self.fan_bound(),
             edge: self.asked.limits.edge.map(|limit| limit.value),
             compensation: self.compensation.as_ref().map(|compensated| &compensated.by),
             lower: self

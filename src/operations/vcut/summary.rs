@@ -10,7 +10,7 @@ use vcutc_backend_api::units::{Angle, Length};
 use vcutc_diagnostics::number::show;
 use vcutc_job::Auto;
 use vcutc_job::description::{ParameterFigure, degrees, millimetres, number, word};
-use vcutc_job::follow::Follow;
+use vcutc_job::follow::{Follow, Guide};
 use vcutc_simulation::report::Report;
 
 /// `scallop <= 5.2 mm (chosen, for the job sets none: ...)`: the limit as the job may say it, and where it is from.
@@ -81,7 +81,15 @@ fn followed(asked: &RoughVcut) -> Option<String> {
         };
         return Some(format!("straight: {why}"));
     };
-    let spine = &along.spine;
+    let spine = match &along.guide {
+        Guide::Spine(spine) => spine,
+        Guide::Fan(fan) => {
+            return Some(format!(
+                "a fan: every cut is straight, pitched by up to {:.2} deg; heights are those of lower ends",
+                libm::atan(fan.steepest()).to_degrees(),
+            ));
+        }
+    };
     let [first, _] = spine.end_slopes();
     let rise = spine.highest(0.0, spine.depth());
     Some(match spine.knots().len() - 1 {

@@ -41,7 +41,7 @@ pub fn explained(asked: &dyn Operation, finding: Finding) -> Diagnostic {
         CutFault::Strays { y, by } => Diagnostic::new(
             Code::Internal,
             format!(
-                "{} leaves its spine by {} mm, which is a fault of the compiler",
+                "{} leaves its way by {} mm, which is a fault of the compiler",
                 place(&finding),
                 show(by.to_mm())
             ),

@@ -5,15 +5,19 @@ use super::{Section, Subject};
 use crate::html::Html;
 use crate::pictures::{Curved, DiscTracks, SurfaceMap, SurfaceSections};
 use crate::space::{self, Shown};
+use vcutc_job::follow::Guide;
 
 /// The section; none of a part that is a profile.
 pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     let part = SurfaceMap::of_part(&subject.material)?;
     let residual = SurfaceMap::of_residual(&subject.material)?;
     let finished = SurfaceMap::of_finished(&subject.material);
-    let alike = match subject.material.job.part.spine() {
+    let alike = match subject.material.job.part.guide() {
         None => "The cuts are the same at every y",
-        Some(_) => "The cuts rise and fall along one spine, and seen along it they are the same at every y",
+        Some(Guide::Fan(_)) => "Every cut is straight and has a slope of its own",
+        Some(Guide::Spine(_)) => {
+            "The cuts rise and fall along one spine, and seen along it they are the same at every y"
+        }
     };
     let is_finished = !subject.material.compiled.report.tracked.is_empty();
     let heights = figure(

@@ -121,10 +121,11 @@ impl SurfaceMap {
     pub fn of_residual(material: &Material<'_>) -> Option<Self> {
         let surface = material.job.part.levelled()?;
         let (size, cells) = laid_out(surface);
-        let machined = material
-            .job
-            .part
-            .left_by(&corners(material), material.job.stock)?;
+        let machined = material.job.part.left_by(
+            &corners(material),
+            &material.compiled.report.rulings,
+            material.job.stock,
+        )?;
         // What tracks on the surface take off, sections alone know.
         let is_finished = !material.compiled.report.tracked.is_empty();
         let (title, what) = if is_finished {

@@ -2,6 +2,7 @@
 
 use super::{corners, pairs};
 use crate::Material;
+use vcutc_job::follow::Guide;
 use vcutc_picture::Prefix;
 use vcutc_picture::sections::{self, Heading, Shown};
 use vcutc_simulation::prove::Across;
@@ -22,9 +23,13 @@ pub struct SurfaceSections {
 }
 
 impl SurfaceSections {
-    /// The sections of a part, from the front of the stock to its back; none of a part that is a profile.
+    /// The sections of a part, from the front of the stock to its back; none of a part that is a profile, nor where the cuts are a fan:
+    /// no contour is the same in all of its sections.
     #[must_use]
     pub fn of(material: &Material<'_>) -> Option<Self> {
+        if let Some(Guide::Fan(_)) = material.job.part.guide() {
+            return None;
+        }
         let surface = material.job.part.levelled()?;
         let stock = material.plan.stock;
         let finished = material.compiled.report.tracked.last();

@@ -3,6 +3,7 @@
 use super::Contender;
 use crate::asked::{Objective, RoughVcut};
 use crate::plan::decision::Standing;
+use crate::plan::parameters::widest_swing;
 use crate::plan::redundant::{Allowed, without_redundant};
 use crate::plan::removable::Removable;
 use crate::plan::{LaidOut, PlannedVcut, Work};
@@ -130,6 +131,10 @@ impl<'j> Bench<'j> {
     /// on more than what is above it: beside narrower flanks, and on what stands steeper than its own.
     pub(super) fn thinned(&self, laid: &LaidOut) -> Option<LaidOut> {
         let (vcut, part): (_, &Profile) = (&laid.vcut, &self.job.profile);
+        // A V of a fan that takes nothing in one section may do so in another.
+        if vcut.fan().is_some() {
+            return None;
+        }
         if vcut.narrowed().next().is_some() || !self.before.is_final_for(vcut.parameters.flanks.slope) {
             return None;
         }
@@ -177,7 +182,8 @@ impl<'j> Bench<'j> {
     pub(super) fn weigh(&self, laid: LaidOut) -> Contender {
         let vcut = &laid.vcut;
         let cuts = vcut.cuts.len();
-        // Along a spine all sections are alike: what is right of a level cut, with as much more room, is right of it.
+        // Along a spine all sections are alike: what is right of a level cut, with as much more room, is right of it. A fan is proven as
+        // it is cut.
         let level = vcut.level();
         let Some(program) = program(&self.job, &level) else {
             return Contender {
@@ -244,14 +250,23 @@ impl<'j> Bench<'j> {
 }
 
 /// The part with an operation's allowance. Where the way rises, its ball is taken for one that is as high as the ellipse that it
-/// makes across the cuts: over a slope `m` of the spine that is `sqrt(1 + m^2)` times as high as wide.
+/// makes across the cuts: over a slope `m` of the spine that is `sqrt(1 + m^2)` times as high as wide. Of a fan what the lower ends of
+/// its tips must stay above.
 fn bound(job: &PlanningJob<'_>, asked: &RoughVcut) -> Profile {
+    if let Some(fan) = asked.along.as_ref().and_then(|along| along.guide.fan()) {
+        // No flank that may be chosen is flatter.
+        let flattest = 1.0 / widest_swing(asked).tan();
+        return fan.section(flattest, asked.allowance.value);
+    }
     let steepness = asked.along.as_ref().map_or(1.0, Along::steepness);
     offset_up(&job.profile, asked.allowance.value * steepness)
 }
 
-/// What the level cuts of an operation must stay out of, with all the room that cuts along a spine need.
+/// What the level cuts of an operation must stay out of, with all the room that cuts along a spine need; of a fan just what they must.
 fn bound_of(level: &PlannedVcut) -> Bound<'_> {
+    if level.fan().is_some() {
+        return PlannedOperation::bound(level);
+    }
     Bound {
         drop: level.parameters.drop,
         lower: level.parameters.flanks.lower,
@@ -266,11 +281,11 @@ fn program(job: &CheckedJob, vcut: &PlannedVcut) -> Option<VerifiedProgram> {
 
 /// How long an operation takes whose cuts were made level: along their spine they take longer as that is longer.
 fn as_long_as_its_way(vcut: &PlannedVcut, level: &VerifiedProgram) -> Duration {
-    match &vcut.asked.along {
+    match vcut.spine() {
         None => total(level),
-        Some(along) => {
+        Some(spine) => {
             let timing = timing(level).all;
-            timing.total() + timing.cutting * (along.spine.lengthening() - 1.0)
+            timing.total() + timing.cutting * (spine.lengthening() - 1.0)
         }
     }
 }

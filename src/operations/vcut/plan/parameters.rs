@@ -12,6 +12,7 @@ mod search;
 mod swung;
 
 pub use grid_forms::largest_layers;
+pub use search::widest_swing;
 pub use swung::Swung;
 
 use super::blade_reach::{self, Flanks};
@@ -25,7 +26,6 @@ use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::number::show;
 use vcutc_geometry::grid;
-use vcutc_geometry::spine::Spine;
 use vcutc_job::{Auto, Direction, PlanningJob};
 use vcutc_process::posture::Holder;
 
@@ -533,15 +533,11 @@ impl Beyond {
         let Some(along) = &asked.along else {
             return Self::default();
         };
-        let (spine, extension) = (&along.spine, extension.to_mm());
-        let ends = [(0.0, -extension), (spine.depth(), spine.depth() + extension)];
-        let fall = ends.map(|(side, end)| spine.rise(side) - spine.rise(end));
-        let sink = ends.map(|(_, end)| -spine.rise(end));
-        let most = |lengths: [f64; 2]| Length::mm(lengths.into_iter().fold(0.0, f64::max));
+        let [falls, sinks] = along.guide.down_beyond(extension.to_mm()).map(Length::mm);
         Self {
-            falls: most(fall),
+            falls,
             // Rounded to the grid.
-            sinks: most(sink) + Length::mm(2.0 * grid::SPACING),
+            sinks: sinks + Length::mm(2.0 * grid::SPACING),
         }
     }
 }
@@ -591,12 +587,12 @@ impl Lean {
 /// How high the end of a shank of 1 mm stands above its tip at least.
 const STANDS: f64 = 0.05;
 
-/// The widest swing, in whole thousandths of a degree, at which a shank stands up all along a spine, as it is held by a rake. Where a
+/// The widest swing, in whole thousandths of a degree, at which a shank stands up on slopes up to that, as it is held by a rake. Where a
 /// cut falls by `mu` the shank rises by `sin(rake) cos(a') cos(mu) - cos(rake) sin(mu)`, with `tan(a') = tan(swing) / cos(mu)`. None
 /// where it stands at no swing.
 #[must_use]
-pub fn widest_standing(rake: Angle, spine: &Spine) -> Option<Angle> {
-    let mu = Angle::rad(libm::atan(spine.steepest()));
+pub fn widest_standing(rake: Angle, steepest: f64) -> Option<Angle> {
+    let mu = Angle::rad(libm::atan(steepest));
     let least = (STANDS + rake.cos() * mu.sin()) / (rake.sin() * mu.cos());
     let opened = Angle::rad(libm::acos(least.clamp(-1.0, 1.0)));
     let widest = Angle::rad(libm::atan(opened.tan() * mu.cos()));
@@ -609,13 +605,7 @@ fn pitch(asked: &RoughVcut) -> Angle {
     let Some(along) = &asked.along else {
         return Angle::ZERO;
     };
-    let steepest = along
-        .spine
-        .end_slopes()
-        .map(f64::abs)
-        .into_iter()
-        .fold(0.0, f64::max);
-    Angle::rad(libm::atan(steepest))
+    Angle::rad(libm::atan(along.guide.steepest_at_sides()))
 }
 
 /// Half the angle of a V, seen along a pitched way, that has this swing seen along y: `tan(a) = tan(swing) / cos(pitch)`.

@@ -13,14 +13,14 @@ use vcutc_job::{Auto, Bounds, Sourced};
 pub(super) fn check_standing(asked: &RoughVcut, diagnostics: &mut Vec<Diagnostic>) {
     let Some(along) = &asked.along else { return };
     let rake = asked.setup.rake;
-    let widest = super::widest_standing(rake.value, &along.spine);
+    let widest = super::widest_standing(rake.value, along.guide.steepest());
     let swing = match (asked.swing.value, widest) {
         (Auto::Auto, Some(_)) => return,
         (Auto::Given(swing), Some(widest)) if swing <= widest => return,
         (Auto::Auto, None) => None,
         (Auto::Given(swing), _) => Some(swing),
     };
-    let steepest = Angle::rad(libm::atan(along.spine.steepest()));
+    let steepest = Angle::rad(libm::atan(along.guide.steepest()));
     let held = swing.map_or_else(String::new, |swing| {
         format!(" and a swing of {} deg", show(swing.to_deg()))
     });

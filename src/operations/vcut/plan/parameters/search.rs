@@ -59,6 +59,19 @@ pub(super) fn lattices(asked: &RoughVcut) -> Vec<Lattice> {
     }
 }
 
+/// The swings to choose from.
+fn open_swings(asked: &RoughVcut) -> Range<Angle> {
+    match asked.swing.value {
+        Auto::Given(swing) => point(swing),
+        Auto::Auto => within(asked.limits.swing, OPEN_SWINGS),
+    }
+}
+
+/// The widest swing to choose from.
+pub fn widest_swing(asked: &RoughVcut) -> Angle {
+    open_swings(asked).most
+}
+
 /// The problem that a job poses for one of its operations. The rake is above the half apex angle.
 pub(super) fn problem(
     job: &PlanningJob<'_>,
@@ -71,10 +84,7 @@ pub(super) fn problem(
     // Where nothing is left to cut, the planner says so; the choice only must not fail before.
     let deepest = if depth > Length::ZERO { depth } else { stock.height };
     let least = Length::mm(grid::SPACING);
-    let swing = match asked.swing.value {
-        Auto::Given(swing) => point(swing),
-        Auto::Auto => within(asked.limits.swing, OPEN_SWINGS),
-    };
+    let swing = open_swings(asked);
     let open = |value: Auto<Length>, bounds: Bounds<Length>, most: Length| match value {
         Auto::Given(value) => point(value),
         Auto::Auto => within(
