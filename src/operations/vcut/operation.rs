@@ -196,7 +196,9 @@ impl Operation for RoughVcut {
     fn go_along(&mut self, guide: &Guide, others: Option<Length>) {
         let angle = self.setup.rake.value - self.blade.half_apex.value;
         // Wider Vs would lay the shank down where cuts fall.
-        if let Some(widest) = parameters::widest_standing(self.setup.rake.value, guide.steepest()) {
+        let standing = parameters::widest_standing(self.setup.rake.value, guide.steepest());
+        let in_fan = guide.fan().map(parameters::widest_in_fan);
+        if let Some(widest) = standing.into_iter().chain(in_fan).reduce(Angle::min) {
             let most = &mut self.limits.swing.most;
             if self.swing.value == Auto::Auto && most.is_none_or(|most| most.value > widest) {
                 *most = Some(Sourced {
