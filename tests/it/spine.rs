@@ -205,11 +205,11 @@ impl Dexels {
         self.0[column as usize]
     }
 
-    /// How much more edge a flank would have needed to come out, at least along z; and where it does come out.
-    fn exit(&self, cut: &[[f64; 2]]) -> (f64, usize) {
+    /// How much more edge a flank would have needed to come out, at least along z; and where it does come out: next to the surface.
+    fn exit(&self, cut: &[[f64; 2]], near: f64) -> (f64, usize) {
         let room = |[x, z]: [f64; 2]| self.height(x) - z;
         let last = cut.len() - 1;
-        match cut.iter().position(|&point| room(point) <= 0.3) {
+        match cut.iter().position(|&point| room(point) <= near) {
             Some(out) => (0.0, out),
             None => (room(cut[last]), last),
         }
@@ -236,14 +236,14 @@ impl Dexels {
     }
 }
 
-/// What is left in a section after all cuts; fails where a flank does not come out.
-pub(crate) fn left_in(flanks: &[Flank], y: f64, blade: Straight) -> Dexels {
+/// What is left in a section after all cuts; fails where a flank does not come out. Where less than `near` is left above one, it is out.
+pub(crate) fn left_in(flanks: &[Flank], y: f64, blade: Straight, near: f64) -> Dexels {
     let long = blade.cutting_length.to_mm();
     let mut dexels = Dexels::new();
     let mut half: Vec<(Site, Vec<[f64; 2]>)> = Vec::new();
     for flank in flanks {
         let mut cut = cut_in(flank, y, long);
-        let (missing, out) = dexels.exit(&cut);
+        let (missing, out) = dexels.exit(&cut, near);
         assert!(missing <= 0.0, "{:?} lacks {missing} mm at y {y}", flank.site);
         cut.truncate(out + 1);
         match half.iter().position(|(site, _)| *site == flank.site) {
@@ -274,7 +274,7 @@ fn is_right(outcome: &Outcome, height: &dyn Fn(f64, f64) -> f64) {
     let off = spine.deviation(blade.cutting_length.to_mm()).both() + 0.1;
     let contour = &compiled.report.contour;
     for y in [0.05, 31.0, 75.0, 118.3, DEPTH - 0.05] {
-        let dexels = left_in(&flanks, y, blade);
+        let dexels = left_in(&flanks, y, blade, 0.3);
         for pair in contour.windows(2) {
             let [a, b] = [pair[0], pair[1]];
             let x = f64::midpoint(a.x, b.x);
