@@ -40,6 +40,7 @@ pub(crate) const POCKET_CELLS: &[(&str, &str)] = &[
 pub(crate) const NOT_ON: &[(&str, &str)] = &[
     ("spoiler_rae2822.vcut", "gantry"),
     ("crown.vcut", "gantry"),
+    ("twist.vcut", "gantry"),
     ("shell.vcut", "changing_gantry"),
     ("window.vcut", "pocket_gantry"),
 ];
