@@ -3,12 +3,12 @@
 //! A part `p(x, y)` is covered from above by straight lines along y, one over each x: `p <= R(x, y) = R0(x) (1 - y/D) + R1(x) y/D`.
 //! A tip at `x_i` rises by the slope `m(x_i)` of its place, so that all tips over one x are parallel. Both `R` and the flanks of a V,
 //! `z_i(y) + c |x - x_i|`, are linear in y over each x. So a V that stays above `R` at y = 0 and at y = D does so in between: no cut
-//! enters the part where none enters `R0` and `R1` [derived].
+//! enters the part where none enters `R0` and `R1` (derived here).
 //!
 //! A tip is planned by the height of its lower end. There the two ends ask for at least
 //! `f(x) = max over both ends of C(x) - rise(x, y)`, with `C` the part at that end raised so that no flank is steeper, and
 //! `rise(x, y) >= 0` how far the line through x lies above its lower end. A V over `f` is clear at both ends, whatever the slopes
-//! `m` are [derived].
+//! `m` are (derived here).
 
 use crate::cone::clearance;
 use crate::curve::Point2;

@@ -156,7 +156,7 @@ impl Along {
 
     /// How much of their reach flanks of a fan may need because older tips rise beside them at another slope. Towards steeper lines a
     /// flank meets them as if it rose by less than its slope `c`, by up to the shear `l` of the fan: of a reach that all its edge makes,
-    /// that takes the share `l / (c + l)` [derived]. The proof measures it.
+    /// that takes the share `l / (c + l)` (derived here). The proof measures it.
     fn reserve(&self, slope: f64) -> f64 {
         let reach = self.across.to_mm() * slope / libm::hypot(1.0, slope);
         let shear = self.guide.fan().map_or(0.0, Fan::shear).min(slope * MOST_SHEARED);

@@ -4,7 +4,7 @@
 //! an older one `j`, which lies `u` beside it, at the height `(z_j - z_i + c u) / 2` over its own tip, if it passes above it:
 //! `z_i + c u >= z_j`. Both are linear in y. So an older tip that is passed above at both ends is so at every y, and the
 //! greater of its two heights at the ends bounds the reach. The top of the stock and its sides bound it likewise, and the least
-//! bound holds [derived].
+//! bound holds (derived here).
 //!
 //! All flanks rise by the same slope, so what is left is `min over j of z_j + c |x - x_j|`: nowhere steeper than a flank. A flank that
 //! has come out meets nothing beyond, and a tip of which another one lies nowhere above counts for nothing.

@@ -5,7 +5,7 @@
 //! the section with what comes out. Between two such planes slopes and
 //! heights go on evenly, so that the cover is bilinear there, and it is raised by what any triangle stands above it. Over an edge of
 //! a triangle that is `E(t) = E0 + (E1 - E0) t + dm dy t (1 - t)`, by how slope and place change along the edge; in the inside a
-//! bilinear function has no extreme [derived].
+//! bilinear function has no extreme (derived here).
 
 use crate::coverage::Tangled;
 use crate::residual::{Machined, Volume};
