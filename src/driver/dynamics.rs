@@ -156,7 +156,7 @@ pub fn deviating<T>(
     let is_weighed = machine.gravity.map(|gravity| gravity.value) == Some(Gravity::Uncompensated);
     let found = cutting(job, machine, reached, report, |_, arms, cuts| {
         let deviations = Deviations::of(cuts?, arms.ok()).ok_or(deviation::Unknown::Elasticity)?;
-        if deviations.are_none() {
+        if !deviations.have_cuts() {
             let mut unknown = job
                 .operations
                 .iter()

@@ -89,10 +89,10 @@ impl<'c> Deviations<'c> {
         Some(Self { cuts, springs, arms })
     }
 
-    /// Whether there is no cut whose deviation is computed.
+    /// Whether the deviation of any cut is computed.
     #[must_use]
-    pub fn are_none(&self) -> bool {
-        self.cuts.wholes().next().is_none()
+    pub fn have_cuts(&self) -> bool {
+        self.cuts.wholes().next().is_some()
     }
 
     /// How far the cuts of an operation are off at most; none of one that no forces are known of. `limit` is to be kept.

@@ -55,7 +55,7 @@ impl Columns {
             Side::Right => self.0.range(own..),
         };
         let older = columns.flat_map(|(_, column)| column);
-        let bounds = older.filter_map(|older| behind(tip, *older));
+        let bounds = older.filter_map(|older| beyond(tip, *older));
         bounds.fold(bound, f64::min).max(0.0)
     }
 
@@ -69,7 +69,7 @@ impl Columns {
 }
 
 /// How high above its tip a flank comes out at most beside an older tip; none where it does not pass above that at both ends.
-fn behind(tip: Ruling, older: Ruling) -> Option<f64> {
+fn beyond(tip: Ruling, older: Ruling) -> Option<f64> {
     let aside = tip.flank * (older.x - tip.x).abs();
     let [front, back] = [0, 1].map(|end| older.ends[end] - tip.ends[end]);
     (aside >= front && aside >= back).then(|| (front.max(back) + aside) / 2.0)

@@ -11,10 +11,11 @@
 use super::flank::FlankGeometry;
 use super::{Cut, CutFault, Player, VNumber, note};
 use crate::surface::{Side, Vee};
+use core::num::NonZeroU32;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{Action, Flank, Joint, OperationId, OrientationId, Site, Straight};
-use vcutc_backend_api::segments::Segment;
+use vcutc_backend_api::segments::{LinearSegment, Segment};
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::grid;
@@ -79,18 +80,47 @@ pub(super) struct Strayed {
     pub(super) by: f64,
 }
 
-impl Player<'_> {
-    /// A piece of a chain along a spine.
-    pub(super) fn follow(&mut self, segment: &Segment<'_>, spine: &Spine, blade: Straight) {
-        let (
-            Site::Cut {
+/// A piece of a chain through the work.
+pub(super) struct ChainPiece {
+    pub(super) operation: OperationId,
+    pub(super) layer: NonZeroU32,
+    pub(super) cut: NonZeroU32,
+    pub(super) joint: Joint,
+    pub(super) line: LinearSegment,
+}
+
+impl ChainPiece {
+    pub(super) fn of(segment: &Segment<'_>) -> Option<Self> {
+        match (segment.op.site, segment.op.action) {
+            (
+                Site::Cut {
+                    operation,
+                    layer,
+                    cut,
+                },
+                Action::Follow { joint, .. },
+            ) => Some(Self {
                 operation,
                 layer,
                 cut,
-            },
-            Action::Follow { joint, .. },
-            Some(line),
-        ) = (segment.op.site, segment.op.action, segment.line())
+                joint,
+                line: segment.line()?,
+            }),
+            _ => None,
+        }
+    }
+}
+
+impl Player<'_> {
+    /// A piece of a chain along a spine.
+    pub(super) fn follow(&mut self, segment: &Segment<'_>, spine: &Spine, blade: Straight) {
+        let Some(ChainPiece {
+            operation,
+            layer,
+            cut,
+            joint,
+            line,
+        }) = ChainPiece::of(segment)
         else {
             return;
         };

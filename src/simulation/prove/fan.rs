@@ -8,14 +8,14 @@
 //! What the cuts leave is shown as it is seen from the lower ends of lines, and there by Vs that open less than these do, as the
 //! steepest section of each shows it: what is left is nowhere higher.
 
-use super::along::{OFF, Plane, Strayed, edge_on};
+use super::along::{ChainPiece, OFF, Plane, Strayed, edge_on};
 use super::flank::FlankGeometry;
 use super::{Cut, Player, VNumber};
 use crate::slab::{Columns, Walls};
 use crate::surface::{Side, Vee};
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_backend_api::geometry::Point3;
-use vcutc_backend_api::ir::{Action, Flank, Joint, OrientationId, Site, Straight};
+use vcutc_backend_api::ir::{Flank, Joint, OrientationId, Straight};
 use vcutc_backend_api::segments::Segment;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::cone::clearance;
@@ -71,15 +71,13 @@ struct Line {
 impl Player<'_> {
     /// A piece of a chain of an operation whose cuts keep to a fan.
     pub(super) fn follow_line(&mut self, segment: &Segment<'_>, bound: FanBound<'_>, blade: Straight) {
-        let (
-            Site::Cut {
-                operation,
-                layer,
-                cut,
-            },
-            Action::Follow { joint, .. },
-            Some(line),
-        ) = (segment.op.site, segment.op.action, segment.line())
+        let Some(ChainPiece {
+            operation,
+            layer,
+            cut,
+            joint,
+            line,
+        }) = ChainPiece::of(segment)
         else {
             return;
         };
