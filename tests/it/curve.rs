@@ -1,13 +1,12 @@
 //! A small operation that only this test has: `mark curve`, a slit that goes into the work along y, turns aside on a quarter
 //! circle, turns back on another one and leaves along y. It is one chain, so it shows that chains go through every stage.
 
-use crate::pipeline::Files;
-use crate::repository::root;
+use crate::own_operation::{self, Emitted};
 use core::num::NonZeroU32;
 use glam::DQuat;
 use vcutc::diagnostics::source::Span;
 use vcutc::diagnostics::{Code, Diagnostic, has_errors};
-use vcutc::driver::{self, Outcome, Request, SearchEffort, Typed};
+use vcutc::driver::Outcome;
 use vcutc::geometry::curve::Point2;
 use vcutc::geometry::grid;
 use vcutc::geometry::profile::Profile;
@@ -25,19 +24,15 @@ use vcutc::job::sema::written::Written;
 use vcutc::job::{BladeRef, PlannedOperation, Setup, Sourced, StraightBlade};
 use vcutc::process::posture::{Feed, Holder};
 use vcutc::process::verdict::words::explained;
-use vcutc::readback::{Fresh, Reference};
-use vcutc::registry;
 use vcutc::report;
 use vcutc::report::page::Further;
 use vcutc::simulation::prove::{Bound, Finding};
-use vcutc::simulation::report::Report;
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{
     Action, FeedId, Flank, Joint, OperationKind, OrientationId, RateId, Site, SourceRef, Stock, Switch, ViaId,
 };
-use vcutc_backend_api::readback::ProgramFile;
-use vcutc_backend_api::units::{Angle, Area, Duration, Length};
+use vcutc_backend_api::units::{Angle, Duration, Length};
 
 #[derive(Debug)]
 struct Curve;
@@ -171,10 +166,6 @@ impl PlannedOperation for Marked {
         }]
     }
 
-    fn swing(&self) -> Angle {
-        Angle::ZERO
-    }
-
     fn extension(&self) -> Length {
         Length::mm(OUT)
     }
@@ -216,21 +207,7 @@ impl PlannedOperation for Marked {
         let first = builder.via(Point3::new(x + short, middle - radius + long, z));
         let second = builder.via(Point3::new(x + radius + long, middle + short, z));
         let start = Point3::new(x, -OUT, safe);
-        let start = match builder.knows_tip() {
-            true => Action::Travel {
-                to: start,
-                orientation: along,
-                feed: travel,
-                rate,
-            },
-            false => Action::AxisTravel {
-                to: start,
-                orientation: along,
-            },
-        };
-        builder.op(way, start);
-        builder.op(way, Action::Ultrasonic { state: Switch::On });
-        builder.op(way, Action::AwaitReady);
+        own_operation::start(builder, way, (start, along), (travel, rate));
         let to = Point3::new(x, -OUT, z);
         builder.op(site, Action::Approach { to, feed: travel });
         let piece = |to: [f64; 2], via: Option<ViaId>, orientation: OrientationId, joint: Joint| {
@@ -261,19 +238,11 @@ impl PlannedOperation for Marked {
         explained(&self.asked, finding)
     }
 
-    fn to_remove(&self, _: &Profile, _: &[Point2]) -> Area {
-        Area::mm2(0.0)
-    }
-
     fn tables(&self) -> Vec<ParameterTable> {
         vec![ParameterTable {
             caption: "Curve",
             rows: vec![ParameterRow::of("depth", self.asked.depth, length_text)],
         }]
-    }
-
-    fn summary(&self, _: &Report) -> Vec<(&'static str, String)> {
-        Vec::new()
     }
 
     fn chosen(&self, field: &str) -> Option<(String, String)> {
@@ -323,18 +292,7 @@ fn job(depth: &str) -> String {
 }
 
 fn compiled(depth: &str, machine: &str) -> Outcome {
-    let files = Files::of(root().join("examples")).with("curve.vcut", job(depth));
-    let request = Request {
-        path: "curve.vcut",
-        loader: &files,
-        overrides: &[],
-        machine: Some(machine),
-        options: Typed::default(),
-        effort: SearchEffort::Normal,
-        operations: KNOWN,
-        targets: &registry::backends(),
-    };
-    driver::compile(request, &mut |_| {}).unwrap()
+    own_operation::compiled(KNOWN, job(depth), machine)
 }
 
 /// A text, and what takes its place.
@@ -371,32 +329,14 @@ fn a_chain_goes_through_all_stages_and_targets() {
         assert!(done.report.removed.to_mm2() < 1e-9);
         let page = report::page::page(&outcome, Further::NOTHING).unwrap();
         assert!(page.contains("<caption>Curve</caption>"));
-        let backend = registry::backend(target).unwrap();
-        let written = driver::write(&outcome, backend).unwrap().unwrap();
-        let text: String = written.files.iter().map(|file| file.text.as_str()).collect();
+        let emitted = Emitted::of(&outcome, target);
+        let text = emitted.text();
         assert!(text.contains("operation 1: mark curve with blade"), "{target}");
         assert!(text.contains(arc), "{target}: {text}");
-        let (job, plan) = (outcome.job.as_ref(), outcome.plan.as_ref());
-        let is_clear = |files: &[ProgramFile]| {
-            let fresh = Fresh::of(
-                job,
-                plan,
-                done.program.reached(),
-                &written,
-                backend.reader().unwrap(),
-            );
-            let verdict = Reference::new(fresh.unwrap()).verify(files, &[], &mut outcome.sources.clone());
-            !has_errors(&verdict.diagnostics)
-        };
-        assert!(is_clear(&written.files), "{target}");
+        assert!(emitted.is_kept_by("", ""), "{target}");
         for (from, to) in edits {
-            let mut files = written.files.clone();
-            let has_it = files.iter().any(|file| file.text.contains(from));
-            assert!(has_it, "{target}: no {from} in {text}");
-            for file in &mut files {
-                file.text = file.text.replacen(from, to, 1);
-            }
-            assert!(!is_clear(&files), "{target}: {from} to {to}");
+            assert!(text.contains(from), "{target}: no {from} in {text}");
+            assert!(!emitted.is_kept_by(from, to), "{target}: {from} to {to}");
         }
     }
 }

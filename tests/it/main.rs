@@ -72,6 +72,7 @@ mod mutations;
 mod narrower;
 mod offers;
 mod optimum_table;
+mod own_operation;
 #[cfg(feature = "krl")]
 mod pace;
 mod pages;

@@ -1,12 +1,11 @@
 //! A small operation that only this test has: `skim top`, one pass of a disc along y. It takes a blade that spins through every
 //! stage, every target, the read-back and the report.
 
-use crate::pipeline::Files;
-use crate::repository::root;
+use crate::own_operation::{self, Emitted};
 use core::num::NonZeroU32;
 use vcutc::diagnostics::source::Span;
 use vcutc::diagnostics::{Code, Diagnostic, has_errors};
-use vcutc::driver::{self, Outcome, Request, SearchEffort, Typed};
+use vcutc::driver::Outcome;
 use vcutc::geometry::curve::Point2;
 use vcutc::geometry::profile::Profile;
 use vcutc::job::description::{ParameterRow, ParameterTable, length_text};
@@ -23,17 +22,13 @@ use vcutc::job::sema::written::Written;
 use vcutc::job::{BladeRef, Disc, PlannedOperation, Setup, Sourced};
 use vcutc::process::posture::{Feed, Holder};
 use vcutc::process::verdict::words::explained;
-use vcutc::readback::{Fresh, Reference};
-use vcutc::registry;
 use vcutc::report;
 use vcutc::report::page::Further;
 use vcutc::simulation::prove::{Bound, Finding};
-use vcutc::simulation::report::Report;
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::{Action, Edges, Flank, Joint, OperationKind, Site, SourceRef, Switch};
-use vcutc_backend_api::readback::ProgramFile;
-use vcutc_backend_api::units::{Angle, Area, Duration, Length};
+use vcutc_backend_api::units::{Angle, Duration, Length};
 
 #[derive(Debug)]
 struct Top;
@@ -145,10 +140,6 @@ impl PlannedOperation for Skimmed {
         }]
     }
 
-    fn swing(&self) -> Angle {
-        Angle::ZERO
-    }
-
     fn extension(&self) -> Length {
         self.asked.disc.radius.value + self.asked.setup.run_out.value
     }
@@ -190,16 +181,7 @@ impl PlannedOperation for Skimmed {
         );
         let at = |y: f64, z: f64| Point3::new(self.centre.x, y, z);
         let start = at(-out, safe);
-        builder.op(
-            way,
-            Action::AxisTravel {
-                to: start,
-                orientation,
-            },
-        );
-        builder.op(way, Action::Spin { state: Switch::On });
-        builder.op(way, Action::Ultrasonic { state: Switch::On });
-        builder.op(way, Action::AwaitReady);
+        own_operation::start(builder, way, (start, orientation), (travel, rate));
         let to = at(-out, self.centre.z);
         builder.op(site, Action::Approach { to, feed: travel });
         let through = Action::Follow {
@@ -221,19 +203,11 @@ impl PlannedOperation for Skimmed {
         explained(&self.asked, finding)
     }
 
-    fn to_remove(&self, _: &Profile, _: &[Point2]) -> Area {
-        Area::mm2(0.0)
-    }
-
     fn tables(&self) -> Vec<ParameterTable> {
         vec![ParameterTable {
             caption: "Pass",
             rows: vec![ParameterRow::of("depth", self.asked.depth, length_text)],
         }]
-    }
-
-    fn summary(&self, _: &Report) -> Vec<(&'static str, String)> {
-        Vec::new()
     }
 
     fn layout(&self) -> [String; 2] {
@@ -271,18 +245,7 @@ fn job(depth: &str, spindle: &str) -> String {
 const SPINDLE: &str = "spindle = output(13)";
 
 fn compiled(text: String, machine: &str) -> Outcome {
-    let files = Files::of(root().join("examples")).with("skim.vcut", text);
-    let request = Request {
-        path: "skim.vcut",
-        loader: &files,
-        overrides: &[],
-        machine: Some(machine),
-        options: Typed::default(),
-        effort: SearchEffort::Normal,
-        operations: KNOWN,
-        targets: &registry::backends(),
-    };
-    driver::compile(request, &mut |_| {}).unwrap()
+    own_operation::compiled(KNOWN, text, machine)
 }
 
 /// A text, and what takes its place.
@@ -314,34 +277,17 @@ fn a_disc_goes_through_all_stages_and_targets() {
             "{machine}: {:?}",
             outcome.diagnostics
         );
-        let done = outcome.compiled.as_ref().unwrap();
         let page = report::page::page(&outcome, Further::NOTHING).unwrap();
         assert!(page.contains("<caption>Pass</caption>"));
-        let backend = registry::backend(target).unwrap();
-        let written = driver::write(&outcome, backend).unwrap().unwrap();
-        let text: String = written.files.iter().map(|file| file.text.as_str()).collect();
+        let emitted = Emitted::of(&outcome, target);
+        let text = emitted.text();
         let heading = "operation 1: skim top with blade wheel";
         assert!(text.to_lowercase().contains(heading), "{target}: {text}");
         for word in words {
             assert!(text.contains(word), "{target}: no {word} in {text}");
         }
-        let is_same = |files: &[ProgramFile]| {
-            let reader = backend.reader().unwrap();
-            let (job, plan, reached) = (
-                outcome.job.as_ref(),
-                outcome.plan.as_ref(),
-                done.program.reached(),
-            );
-            let fresh = Fresh::of(job, plan, reached, &written, reader).unwrap();
-            let verdict = Reference::new(fresh).verify(files, &[], &mut outcome.sources.clone());
-            !has_errors(&verdict.diagnostics)
-        };
-        assert!(is_same(&written.files), "{target}");
-        let mut files = written.files.clone();
-        for file in &mut files {
-            file.text = file.text.replacen(from, to, 1);
-        }
-        assert!(!is_same(&files), "{target}: {from} to {to}");
+        assert!(emitted.is_kept_by("", ""), "{target}");
+        assert!(!emitted.is_kept_by(from, to), "{target}: {from} to {to}");
     }
 }
 

@@ -103,16 +103,20 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
         self.tips().len()
     }
 
-    /// Its cuts in the order of the plan: layer by layer, each from left to right.
-    fn tips(&self) -> Vec<PlannedTip>;
+    /// Its cuts in the order of the plan: layer by layer, each from left to right. None of one whose cuts no section shows.
+    fn tips(&self) -> Vec<PlannedTip> {
+        Vec::new()
+    }
 
     /// The blade that makes a cut of this shape: the first one, where an operation has one only.
     fn blade_of(&self, _shape: CutShape) -> Option<BladeRef<'_>> {
         self.asked().blades().first().copied()
     }
 
-    /// Half the opening angle of the cuts.
-    fn swing(&self) -> Angle;
+    /// Half the opening angle of the cuts; zero of one that cuts no Vs.
+    fn swing(&self) -> Angle {
+        Angle::ZERO
+    }
 
     /// Order of the flanks.
     fn order(&self) -> Order {
@@ -194,8 +198,10 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
         Vec::new()
     }
 
-    /// The area of the stock's cross-section that it is to cut away.
-    fn to_remove(&self, profile: &Profile, top: &[Point2]) -> Area;
+    /// The area of the stock's cross-section that it is to cut away; zero where no section shows it.
+    fn to_remove(&self, _profile: &Profile, _top: &[Point2]) -> Area {
+        Area::mm2(0.0)
+    }
 
     /// Warns where much of that stays.
     fn explain_what_stays(&self, _balance: Balance<'_>, _compile: &Compile<'_>) -> Option<Diagnostic> {
@@ -216,7 +222,9 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
     fn tables(&self) -> Vec<ParameterTable>;
 
     /// Lines of the summary: names and texts.
-    fn summary(&self, report: &Report) -> Vec<(&'static str, String)>;
+    fn summary(&self, _report: &Report) -> Vec<(&'static str, String)> {
+        Vec::new()
+    }
 
     /// What was chosen for a field that was left open, and why; none for other fields.
     fn chosen(&self, _field: &str) -> Option<(String, String)> {

@@ -6,7 +6,7 @@ use crate::words::Chosen;
 use crate::{lower, words};
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::ir::SourceRef;
-use vcutc_backend_api::units::{Angle, Area, Duration, Length};
+use vcutc_backend_api::units::{Area, Duration, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
@@ -43,10 +43,6 @@ impl PlannedOperation for Planned {
             },
         });
         tips.collect()
-    }
-
-    fn swing(&self) -> Angle {
-        Angle::ZERO
     }
 
     fn extension(&self) -> Length {

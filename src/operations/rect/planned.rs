@@ -7,7 +7,7 @@ use crate::plan::StripOrigin;
 use crate::{verdict, words};
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::ir::SourceRef;
-use vcutc_backend_api::units::{Angle, Area, Length};
+use vcutc_backend_api::units::{Area, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::profile::Profile;
@@ -69,10 +69,6 @@ impl PlannedOperation for Planned {
                 BladeRef::Straight(&self.asked.blade)
             }
         })
-    }
-
-    fn swing(&self) -> Angle {
-        Angle::ZERO
     }
 
     fn extension(&self) -> Length {

@@ -4,15 +4,13 @@ use crate::decided::Planned;
 use crate::{lower, proof, verdict, words};
 use vcutc_backend_api::builder::ProgramBuilder;
 use vcutc_backend_api::ir::{OperationId, Program, SourceRef};
-use vcutc_backend_api::units::{Angle, Area, Length};
+use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::Diagnostic;
-use vcutc_geometry::curve::Point2;
-use vcutc_geometry::profile::Profile;
 use vcutc_job::PlannedOperation;
 use vcutc_job::description::{ParameterFigure, ParameterTable};
 use vcutc_job::operation::judged::{FromAbove, Judged};
 use vcutc_job::operation::{Operation, Trials, WorksThere};
-use vcutc_job::planned::{Estimate, PlannedTip};
+use vcutc_job::planned::Estimate;
 use vcutc_simulation::prove::{Bound, Finding, Passes, Replay};
 use vcutc_simulation::report::Report;
 
@@ -27,15 +25,6 @@ impl PlannedOperation for Planned {
 
     fn cuts(&self) -> usize {
         self.plan.slits.len()
-    }
-
-    /// No section shows its slits.
-    fn tips(&self) -> Vec<PlannedTip> {
-        Vec::new()
-    }
-
-    fn swing(&self) -> Angle {
-        Angle::ZERO
     }
 
     fn extension(&self) -> Length {
@@ -70,11 +59,6 @@ impl PlannedOperation for Planned {
 
     fn explain(&self, finding: Finding, _: usize, _: &mut dyn Trials, _: &mut WorksThere<'_>) -> Diagnostic {
         verdict::explained(&self.asked, &self.plan, finding)
-    }
-
-    /// Nothing that a section shows.
-    fn to_remove(&self, _: &Profile, _: &[Point2]) -> Area {
-        Area::mm2(0.0)
     }
 
     fn parameters(&self) -> Vec<ParameterFigure> {

@@ -97,10 +97,6 @@ impl PlannedOperation for PlannedOnSurface {
         tips.collect()
     }
 
-    fn swing(&self) -> Angle {
-        Angle::ZERO
-    }
-
     fn extension(&self) -> Length {
         self.asked.disc.radius.value + self.asked.setup.run_out.value
     }
