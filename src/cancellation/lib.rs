@@ -1,6 +1,6 @@
 //! Whether an answer is still wanted: work that has become needless ends early.
 //!
-//! While somebody types, what was asked a moment ago is not needed any more, and the answer may take many
+//! While a user types, what was asked a moment ago is not needed any more, and the answer may take many
 //! seconds. The caller holds an [`Interest`] for as long as the answer is wanted; the stages that take the
 //! time carry a [`Wanted`] and look at it before each step of their long loops. Interest that is lost does
 //! not come back. So an answer that is still wanted when it is complete was not cut short: it is, to the last
@@ -58,7 +58,7 @@ impl Wanted {
         self.0.iter().any(|is_lost| is_lost.load(Ordering::Acquire))
     }
 
-    /// Goes on where somebody wants to know.
+    /// Continues if the answer is still wanted.
     ///
     /// # Errors
     /// When the answer is not wanted any more.

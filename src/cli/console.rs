@@ -206,7 +206,7 @@ impl Console {
         self.note("total", text, body);
     }
 
-    /// Prints how a run goes on: a line for people, an object for programs.
+    /// Prints how a run continues: a line for people, an object for programs.
     pub(super) fn note<T: Serialize>(&self, kind: &'static str, text: &str, body: T) {
         match self.format {
             MessageFormat::Json => self.json_line(kind, body),

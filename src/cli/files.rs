@@ -193,7 +193,7 @@ pub(super) fn load_file(path: &Path) -> Result<Vec<u8>, LoadError> {
 
 /// The bytes of a file of at most so many.
 pub(super) fn load_bounded(path: &Path, most: u64) -> Result<Vec<u8>, LoadError> {
-    // Asked before opening: opening a named pipe would wait for somebody to write into it.
+    // Asked before opening: opening a named pipe would wait for a writer.
     let metadata = std::fs::metadata(path).map_err(|error| load_error(&error))?;
     refuse_special(&metadata)?;
     if metadata.len() > most {

@@ -328,7 +328,7 @@ fn in_passes(milling: &Milling, raster: &Raster) -> Inference {
         milling.moves.len()
     );
     let mut others = vec![format!(
-        "{} motions beside or above the blank are made anew",
+        "{} motions beside or above the blank are planned again",
         raster.other_moves
     )];
     if raster.arcs > 0 {

@@ -2,7 +2,7 @@
 //!
 //! It is a program of its own, made from the one that cuts: the same ops in the same order, every tip higher by one height, no
 //! faster than [`TIP_SPEED`] and [`TURNING_RATE`], and the generator off. Where the program that cuts switches the generator on,
-//! this one switches it off, so that it is off even where somebody left it running; waits for the generator are left out. That
+//! this one switches it off, so that it is off even if it was left running; waits for the generator are left out. That
 //! the blade stays above the stock is then a rule of the program's form (`Rule::AirCut`), and that the machine carries it out is
 //! proven again, as for any other program. Nothing is cut, so nothing is said of chips and contour.
 

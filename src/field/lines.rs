@@ -41,7 +41,7 @@ pub enum LinesError {
 /// Points of a grid times sources at most: some ten seconds.
 const MOST_WORK: usize = 300_000_000;
 
-/// How a line of a field goes on at its ends.
+/// How a line of a field continues at its ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Run {
     /// It is closed.

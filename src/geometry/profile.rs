@@ -187,7 +187,7 @@ impl Profile {
     }
 
     /// The area between the profile and z = 0 over a range of x (in mm; nothing when it is empty). Area below z = 0
-    /// counts negative. Beyond its ends the profile goes on at their height.
+    /// counts negative. Beyond its ends the profile continues at their height.
     #[must_use]
     pub fn area_below(&self, from_x: f64, to_x: f64) -> Area {
         if from_x.partial_cmp(&to_x) != Some(Ordering::Less) {

@@ -142,7 +142,7 @@ pub struct Crusher {
     pub forces: Option<TeethForces>,
 }
 
-/// The body of a blade above its edge: round stages about its axis, from the edge up. Each goes on up to the next one, the last
+/// The body of a blade above its edge: round stages about its axis, from the edge up. Each continues up to the next one, the last
 /// one without end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {

@@ -213,7 +213,7 @@ pub struct Done {
 pub(super) enum Finding {
     /// The job was planned.
     Planned(Box<Planned>),
-    /// This much is known of the job, which is refused, or slower than it need be; help is looked for, and the task goes on.
+    /// This much is known of the job, which is refused, or slower than it need be; help is looked for, and the task continues.
     AtOnce(Box<Planned>),
     /// It could not be read.
     Unreadable,

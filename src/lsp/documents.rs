@@ -40,7 +40,7 @@ pub(super) struct Documents {
     pub(super) called: BTreeMap<String, Called>,
     /// What is known of root files, by their paths.
     pub(super) analyses: BTreeMap<String, Analysis>,
-    /// What was known before something changed that they may depend on. What still says the same goes on from there.
+    /// What was known before something changed that they may depend on. What still says the same continues from there.
     earlier: BTreeMap<String, Analysis>,
     /// Roots that are not open documents: a job of the workspace for an open library.
     homes: BTreeSet<String>,

@@ -100,10 +100,7 @@ fn of_entry(entry: &Entry, text: &Text) -> Option<DocumentSymbol> {
     }
 }
 
-#[expect(
-    deprecated,
-    reason = "the protocol's type has a field that nobody sets any more"
-)]
+#[expect(deprecated, reason = "the protocol's type has a field that is deprecated")]
 fn symbol(
     name: &str,
     detail: &str,

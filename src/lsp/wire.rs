@@ -1,6 +1,6 @@
 //! Messages on a stream: headers, an empty line, and a JSON text of the length that the headers say.
 //!
-//! What is not a message gets an answer where that is possible, and the stream goes on after it. Only a stream whose lengths
+//! What is not a message gets an answer where that is possible, and the stream continues after it. Only a stream whose lengths
 //! cannot be trusted any more has to end.
 
 use serde_json::{Value, json};

@@ -9,7 +9,7 @@
 //!   slower decides. The programmed feed and rate bound `u'`; so do the path's acceleration and jerk, over the way of the tip
 //!   and the angle of the blade. Without numbers of the axes the profile is closed ([`profile`]). With their accelerations it
 //!   is the fastest that the axes can follow ([`phase`]), with jerk one that is proven and close to it ([`smooth`]); how the
-//!   axes move along the way is told by [`track`].
+//!   axes move along the way comes from [`track`].
 //! - **Chains** are gone from rest at their beginning to rest at their end ([`chain`]).
 //! - **Axis moves** are synchronous: all axes do the same part of their way, so that the one that needs longest decides.
 //! - **The rest** waits as long as it says.

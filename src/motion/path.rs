@@ -39,7 +39,7 @@
 //! 4. *Bounds are kept.* A span is proven when the ranges of values and rates lie within the limits and the distances from
 //!    singular poses are at least those asked for. Any other span is halved ([`mod@march`]).
 //!
-//! All spans before a refused one are proven, so the breach told is **the first one** of the course. A span is refused for
+//! All spans before a refused one are proven, so the breach that is reported is **the first one** of the course. A span is refused for
 //! good at `2^-24` of the course, of a metre 0.06 um. There an enclosure exceeds the truth by less than 1e-12 rad in all but
 //! singular poses, so a motion that keeps its bounds is refused only where it grazes one that closely. The other way round
 //! limits count as kept when they are exceeded by 1e-9 rad (1e-9 mm, and rates by 1e-9 of themselves), which no controller
@@ -105,7 +105,7 @@ use vcutc_machine::kinematics::{Joints, Mechanism};
 /// within the limits and rates of the rig's axes and no nearer to singular poses than `least`.
 ///
 /// # Errors
-/// The first place where they do not. An axis is there just beyond its bound; [`worst()`] tells how far it would go.
+/// The first place where they do not. An axis is there just beyond its bound; [`worst()`] says how far it would go.
 pub fn prove(
     rig: &Rig<'_>,
     course: &Course,

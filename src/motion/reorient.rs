@@ -68,7 +68,7 @@ fn asked(segment: &Segment<'_>, fastest: f64) -> Option<(AngularSpeed, f64)> {
 
 fn rounded_down(rate: AngularSpeed, share: f64) -> AngularSpeed {
     let units = (rate.to_deg_per_s() * share * UNITS).floor();
-    // Slower than a ten-thousandth of a degree a second nobody asks for.
+    // No job asks for less than a ten-thousandth of a degree a second.
     AngularSpeed::deg_per_s(if units > 0.0 {
         units / UNITS
     } else {

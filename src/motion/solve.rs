@@ -45,8 +45,8 @@ use vcutc_machine::Model;
 use vcutc_machine::kinematics::{Joints, Mechanism};
 
 /// How near a singular pose an arm may come: a degree of axis 5, a degree of the elbow, 10 mm between wrist and axis 1. Nearer
-/// than that a controller's own rounding decides what the axes do; how fast they must go near such a pose is told by the
-/// rates, which usually say no much earlier.
+/// than that a controller's own rounding decides what the axes do; how fast they must go near such a pose is bounded by
+/// the rates, which usually are broken much earlier.
 pub const LEAST_CLEARANCE: Clearance = Clearance {
     wrist: core::f64::consts::PI / 180.0,
     elbow: core::f64::consts::PI / 180.0,
@@ -149,8 +149,8 @@ pub enum Changes {
     InTheAir,
     /// The same, for who has another program to try: the first run that no branch carries is the last to be looked at.
     InTheAirOrElse,
-    /// Nowhere: what needs a change is refused. That is told much sooner, and enough for who asks whether another place or
-    /// speed is better.
+    /// Nowhere: what needs a change is refused. That is known much sooner, and is enough to ask whether another place or speed
+    /// is better.
     Never,
 }
 

@@ -107,8 +107,8 @@ struct Walk<'w> {
 }
 
 impl Walk<'_> {
-    /// The solutions at the first taught pose: those within the ranges of the axes or, so that it can be told which axis
-    /// leaves its own, all if there are none.
+    /// The solutions at the first taught pose: those within the ranges of the axes. If there are none, all, so that the axis
+    /// that leaves its range can be named.
     fn beginnings(&self) -> Vec<Solution> {
         let first = self.paths.iter().find_map(Path::target);
         let Some(pose) = first.and_then(|taught| self.program.frame(taught)) else {

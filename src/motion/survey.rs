@@ -201,7 +201,7 @@ impl Survey<'_> {
         each.collect()
     }
 
-    /// The proof of a course with what the axes do at its end, where it goes on into another one without a stop.
+    /// The proof of a course with what the axes do at its end, where it continues into another one without a stop.
     fn through(&self, op: OpId, before: &Course, branch: Branch, proof: Proof) -> Result<Proof, Breach> {
         let Some(after) = self.goes_on(op) else {
             return Ok(proof);
@@ -214,7 +214,7 @@ impl Survey<'_> {
         prove_through(&self.open, &through, branch, &proof, &self.least)
     }
 
-    /// The course into which an op goes on, where the controller may round what is between them.
+    /// The course into which an op continues, where the controller may round what is between them.
     fn goes_on(&self, op: OpId) -> Option<Course> {
         let Action::Follow {
             joint: Joint::Through,

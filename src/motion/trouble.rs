@@ -1,7 +1,7 @@
 //! What keeps a machine from a program, when it cannot carry it out: the [`Trouble`].
 //!
-//! A motion that no branch carries is told of by itself, as the branch has it that fails least. Where every motion is carried
-//! by some branch but no branch carries all that must be made on one, that is told.
+//! A motion that no branch carries is reported by itself, on the branch that fails least. Where every motion is carried by some
+//! branch but no branch carries all that must be made on one, that is reported.
 
 use super::path::{Breach, Course, Look, Refuted, Violation, prove, worst};
 use super::runs::{Split, Station, StationKind, split};
@@ -51,7 +51,7 @@ pub enum Trouble {
 }
 
 impl Trouble {
-    /// The op that is told of first; none of a machine that reaches nothing.
+    /// The op that is reported first; none of a machine that reaches nothing.
     #[must_use]
     pub const fn op(&self) -> Option<OpId> {
         match self {
@@ -135,7 +135,7 @@ pub(super) fn found(
         };
     }
     let failing = failures(survey, station, branches);
-    // A run that some branch carries is in nobody's way.
+    // A run that some branch carries is no obstacle.
     let all = (stations.iter().zip(all_carried).enumerate())
         .filter(|(_, (_, carried))| carried.is_empty())
         .flat_map(|(index, (other, _))| {
@@ -175,7 +175,7 @@ fn failures(survey: &Survey<'_>, station: &Station, branches: &[Branch]) -> Vec<
 /// How many failures are looked at for the hardest of them.
 const MOST_WEIGHED: usize = 256;
 
-/// Of the failures of a branch, the motion that lacks most, if it lacks notably more than the one that is told of.
+/// Of the failures of a branch, the motion that lacks most, if it lacks notably more than the reported one.
 fn hardest(survey: &Survey<'_>, failures: &[Failure], branch: Branch, reported: &Failure) -> Option<Failing> {
     let notably = 1.05 * lack(survey, &failing_on(survey, reported, branch));
     let (_, hardest) = weighed(survey, failures, branch).max_by(|(a, _), (b, _)| a.total_cmp(b))?;
@@ -212,7 +212,7 @@ fn lack(survey: &Survey<'_>, failing: &Failing) -> f64 {
     }
 }
 
-/// By how many times the speeds of a program may be too high for it to be told that they are.
+/// Speeds that are too high by more than this factor are not reported as the cause.
 const TOO_FAST: f64 = 2.0;
 
 /// Says which motion is too fast, if a branch carries the program but for that.
@@ -361,7 +361,7 @@ fn out_of_reach(station: &Station) -> Trouble {
     }
 }
 
-/// Of several branches that fail equally often the one is told of whose failure is mended most easily.
+/// Of several branches that fail equally often the one is reported whose failure is the easiest to mend.
 const fn rank(violation: Violation) -> u8 {
     match violation {
         Violation::Rate { .. } => 0,
@@ -383,7 +383,7 @@ fn common(failing: &[(Branch, Vec<Failure>)]) -> BTreeSet<OpId> {
     counts.into_keys().collect()
 }
 
-/// How many cuts besides that of `op` some failing ops belong to.
+/// How many cuts, other than that of `op`, some failing ops belong to.
 fn other_cuts(survey: &Survey<'_>, failing: impl Iterator<Item = OpId>, op: OpId) -> usize {
     let site = |op: OpId| survey.program.op(op).map(|op| op.site);
     let own = site(op);

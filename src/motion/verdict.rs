@@ -278,7 +278,7 @@ impl<'s> Scene<'s> {
         }
     }
 
-    /// What lacks most, so that nobody takes a first motion that lacks little for all there is.
+    /// What lacks most: a first motion that lacks little is not all there is to change.
     fn hardest(&self, failing: &Failing) -> String {
         let place = self.place(failing.op);
         let named = |axis: usize| self.axis(axis);

@@ -1,4 +1,4 @@
-//! Points on the way of motions in which the wrist turns far, for controllers that must be told of them.
+//! Points on the way of motions in which the wrist turns far, for controllers that need them.
 //!
 //! The axes are followed along the course in steps that are halved until none of the wrist's axes turns by more than
 //! [`CLOSE`] in one, so that which turn of an axis is meant is never in doubt, near singular poses either. Of these places

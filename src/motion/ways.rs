@@ -223,7 +223,7 @@ impl Ladder for Ways<'_> {
         let (Some(before), Some(after)) = (before, self.rung(run, to)) else {
             return false;
         };
-        // Where the first one is in the way is told; of all others only that they are.
+        // The first one is reported with its place, all others only as being in the way.
         if self.refused.is_some() && is_refuted(self.survey, &before.end, &after.start) {
             return false;
         }

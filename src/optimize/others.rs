@@ -1,4 +1,4 @@
-//! Operations that the formulas of V cuts are not about, and ways to do an operation: what came of them.
+//! Operations that the formulas of V cuts are not about, and ways to do an operation, with their results.
 
 use super::{Optimisation, bounds};
 use serde::Serialize;

@@ -19,7 +19,7 @@ pub struct TradeOff {
     pub curves: Vec<LatticeCurve>,
 }
 
-/// A limit, and what came of it.
+/// A limit, and its result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
     /// In mm or cuts.

@@ -246,7 +246,7 @@ enum Checked {
 }
 
 /// The given files in the order in which the compiler writes those of their names, and the others after them:
-/// in which order somebody names files says nothing about the program.
+/// the order in which files are named says nothing about the program.
 fn in_order(written: &[ProgramFile], given: &[ProgramFile]) -> Vec<usize> {
     let place = |index: &usize| {
         let name = given.get(*index).map_or("", |file| file.name.as_str());

@@ -1,7 +1,7 @@
 //! From what a program was read to do back to a program of ops, so that it can be proven like any other.
 //!
 //! Statements that read as they should keep the exact values of their ops. Others take the values as read, and are the kind
-//! of op that they act like: a circular move and one that goes on without a stop are pieces of a chain, a straight move along y through the stock with the blade held still is a cut, one that only
+//! of op that they act like: a circular move and one that continues without a stop are pieces of a chain, a straight move along y through the stock with the blade held still is a cut, one that only
 //! turns the blade is a turn, any other goes through the air, and must prove that it does.
 
 use super::comparison::Comparison;

@@ -3,7 +3,7 @@
 //! With the rates of the axes left out, the machine's own report says how fast each axis would have to move, and at which op
 //! most. Rates grow in proportion to the speed that paces an op (`docs/process.md`, "Robot moves": the course is the same,
 //! only the time is not), so that one division gives the speed at which that op is just followed. Other ops may be paced by
-//! other speeds: this goes on until no axis is too slow, and then the job is tried with its rates.
+//! other speeds: this continues until no axis is too slow, and then the job is tried with its rates.
 
 use crate::case::Case;
 use crate::change::{Change, Speeds};

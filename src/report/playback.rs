@@ -1,9 +1,9 @@
-//! The playback of a report: the blade, the stock and the machine in space, as time goes on.
+//! The playback of a report: the blade, the stock and the machine in space, as time passes.
 //!
 //! What is shown is taken from the finished program, not from the plan: poses op by op ([`timeline`]), times, and the axes
 //! that were proven ([`track`]). The viewer (`src/report/assets/player`, WebGL 2, no package of others) replays the cuts on a
 //! surface of its own, the one of `src/simulation/surface.rs` over again, and moves the machine by products of matrices
-//! ([`vcutc_machine::kinematics::linkage`]). Within an op the motion goes on evenly: how controllers speed up and slow down within
+//! ([`vcutc_machine::kinematics::linkage`]). Within an op the motion continues evenly: how controllers speed up and slow down within
 //! it is not shown, how long it takes is.
 
 pub mod bodies;

@@ -44,7 +44,7 @@ pub struct CrossSection {
     /// No undercut is wider, in mm.
     widest: f64,
     scratch: Scratch,
-    /// What cuts take, where somebody wants to see it.
+    /// What cuts take, where it is recorded.
     taken: Option<Vec<Taken>>,
 }
 

@@ -1,6 +1,6 @@
 //! How deep the slit that a single flank cuts enters the part.
 //!
-//! The proof of whole V-cuts ([`prove`](super::prove)) takes both flanks from one tip. A program that somebody has changed
+//! The proof of whole V-cuts ([`prove`](super::prove)) takes both flanks from one tip. A program that was changed
 //! need not keep to that, so its cuts are looked at one by one: in the x-z plane the edge lies on a straight line from the
 //! tip up, as far as it is long, and no point of that line may lie below the part.
 

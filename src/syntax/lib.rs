@@ -1,6 +1,6 @@
 //! From text to tree.
 //!
-//! [`parse`] never fails and never panics: what it cannot read it reports and leaves out, and goes on after it. It
+//! [`parse`] never fails and never panics: what it cannot read it reports and leaves out, and continues after it. It
 //! works in three steps:
 //!
 //! 1. `brackets` looks at brackets, quotes and comments, reports what is lost there and balances the text;

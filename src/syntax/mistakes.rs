@@ -125,7 +125,7 @@ const WITH_POINTS: [&str; 8] = [
     "start", "bezier", "spline", "polyline", "circle", "tips", "body", "row",
 ];
 
-/// Whether the statement goes on where the one before it ended, with no comma or line end between.
+/// Whether the statement continues where the one before it ended, with no comma or line end between.
 fn is_leftover(bad: &Bad<'_>) -> bool {
     let between = bad.text.get(bad.previous_end..bad.start);
     bad.previous_end > 0

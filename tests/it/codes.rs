@@ -46,19 +46,19 @@ const WITHOUT_A_JOB: &[(Code, &str, &str, &str)] = &[
     (
         Code::BadManifest,
         "tests/it/cli/build.rs",
-        "a_list_with_faults_is_told_at_its_places",
+        "faults_of_a_list_are_reported_at_their_places",
         "it is about vcut.toml",
     ),
     (
         Code::NoSuchJob,
         "tests/it/cli/build.rs",
-        "jobs_that_are_not_there_are_told",
+        "missing_jobs_are_reported",
         "it is about vcut.toml",
     ),
     (
         Code::NoSuchTarget,
         "tests/it/cli/build.rs",
-        "a_target_that_is_not_there_is_told",
+        "a_missing_target_is_reported",
         "it is about vcut.toml",
     ),
     (

@@ -115,7 +115,7 @@ fn pictures_in_the_documentation_are_true() {
     }
     assert_eq!(
         stale, [""; 0],
-        "UPDATE_PICTURES=1 cargo test --test it pictures writes them anew; look at them before"
+        "UPDATE_PICTURES=1 cargo test --test it pictures writes them again; look at them before"
     );
 }
 

@@ -1,4 +1,4 @@
-//! Programs that somebody has changed: what `vcutc verify` reports of them.
+//! Programs that were changed: what `vcutc verify` reports of them.
 //!
 //! A case is a change of the program of `tests/verify/bench.vcut`, in the form of a diff: after the first
 //! line, which names the codes that are expected, each block is some lines of the program, with `-` in front
@@ -252,7 +252,7 @@ fn no_slit_of_a_proven_program_enters_the_part() {
     }
 }
 
-/// KRL by somebody who swaps two digits of every file.
+/// KRL with two digits of every file swapped.
 struct Careless;
 
 impl Backend for Careless {

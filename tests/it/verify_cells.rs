@@ -193,7 +193,7 @@ fn files_that_were_not_given_are_named() {
     }
 }
 
-/// In which order somebody names the files of a program says nothing about it.
+/// The order in which the files of a program are named says nothing about it.
 #[test]
 fn the_order_of_files_makes_no_difference() {
     for (machine, target) in [("abb_cell", "rapid"), ("gantry", "gcode")] {

@@ -107,7 +107,7 @@ impl CircularArc {
         plus(self.centre, plus(scaled(self.first, x), scaled(self.second, y)))
     }
 
-    /// The direction in which it goes on, so far round from where it begins, in rad; of unit length.
+    /// The direction in which it continues, so far round from where it begins, in rad; of unit length.
     #[must_use]
     pub fn direction(&self, angle: f64) -> [f64; 3] {
         let [x, y] = [-libm::sin(angle), libm::cos(angle)];

@@ -171,7 +171,7 @@ impl ProgramBuilder {
         ViaId(NonZeroU32::new(number).unwrap_or(NonZeroU32::MAX))
     }
 
-    /// Lets the tip leave the pieces of chains by so much where one goes on into the next.
+    /// Lets the tip leave the pieces of chains by so much where one continues into the next.
     pub const fn blend(&mut self, most: Length) {
         self.program.blend = most;
     }

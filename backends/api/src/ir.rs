@@ -53,7 +53,7 @@ pub struct Program {
     /// Points in W by which the ops know their arcs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub vias: Vec<Point3>,
-    /// How far, at most, the tip may leave the pieces of a chain where one goes on into the next. Zero where every piece is to be
+    /// How far, at most, the tip may leave the pieces of a chain where one continues into the next. Zero where every piece is to be
     /// followed exactly.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub blend: Length,
@@ -450,7 +450,7 @@ const fn is_name_of_kind(name: &[u8]) -> bool {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SourceRef {
-    /// File as the compiler was told of it.
+    /// The file, as it was named to the compiler.
     pub file: String,
     /// First byte.
     pub start: u32,

@@ -331,7 +331,7 @@ pub enum Pace {
 pub enum End {
     /// At a standstill on the point.
     Exact,
-    /// Without a stop where the next motion goes on in the same direction, the tip never further off the two ways than this.
+    /// Without a stop where the next motion continues in the same direction, the tip never further off the two ways than this.
     Through {
         /// How far.
         within: Length,

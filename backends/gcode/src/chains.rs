@@ -1,6 +1,6 @@
 //! Chains: how far the tip may leave them where they go on, and what of them a control does not take.
 //!
-//! A chain goes on without a stop under a word that states a distance: `G64 P` of LinuxCNC keeps the tip within P of the programmed
+//! A chain continues without a stop under a word that states a distance: `G64 P` of LinuxCNC keeps the tip within P of the programmed
 //! way [L-GC]; `G641 ADIS=` of Sinumerik leaves a piece no farther than ADIS from its end, so the tip stays within ADIS of that
 //! end, and passes a joint without a corner as it is [S-B1]; cycle 32 of Heidenhain keeps it within T [H-620]. Fanuc's `G64`
 //! and `G05.1 Q1` state none: how far the tip leaves its way depends on parameters and speeds [F-30]; so

@@ -55,7 +55,7 @@ pub(crate) fn american_g_code(code: u32, order: &mut Order<'_>) -> Parsed<bool> 
     Ok(true)
 }
 
-/// Rounding as far as the job says of corners in the air, or else what a chain goes on with. A distance of 0
+/// Rounding as far as the job says of corners in the air, or else what a chain continues with. A distance of 0
 /// means none.
 pub(crate) fn rounding(distance: Option<Number>, scope: Scope<'_>) -> Mode {
     let end = distance.filter(|distance| distance.value > 0.0).map(|distance| {

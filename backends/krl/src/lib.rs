@@ -24,7 +24,7 @@
 //! | `Home` | `PTP XVC_HOME`, the angles being in the `.dat` |
 //! | `AxisTravel` | `PTP {X ..,Y ..,Z ..,A ..,B ..,C ..,S n,T n}` |
 //! | `Travel`, `Approach`, `Retract`, `Cut` | `LIN {X ..,Y ..,Z ..,A ..,B ..,C ..}` |
-//! | `Follow` | `LIN {..}` or `CIRC {..},{..}`, with `C_DIS` where the chain goes on |
+//! | `Follow` | `LIN {..}` or `CIRC {..},{..}`, with `C_DIS` where the chain continues |
 //! | `Turn` | the same with the X, Y, Z of the move before |
 //! | `Ultrasonic` | `$OUT[n]=TRUE`, `$OUT[n]=FALSE` |
 //! | `AwaitReady` | `WAIT FOR $IN[n]` or `WAIT SEC t` |
@@ -43,7 +43,7 @@
 //! turn than that about the axis of the arc. As nothing says whether `$VEL.ORI1` limits a turn that belongs to the way, `$VEL.CP`
 //! is so low on arcs that it takes its time without.
 //!
-//! Where a chain goes on, `C_DIS` with the blend as `$APO.CDIS` lets the robot leave the one piece before its end and join the next
+//! Where a chain continues, `C_DIS` with the blend as `$APO.CDIS` lets the robot leave the one piece before its end and join the next
 //! as far after its beginning. Between them the tip stays as near to both.
 //!
 //! # Long programs

@@ -21,7 +21,7 @@
 //! | `Home` | `MoveAbsJ vc_home\NoEOffs,..` |
 //! | `AxisTravel` | `MoveAbsJ [[j1, .. j6],[9E9, ..]]\NoEOffs,..`; `MoveJ` to the pose where tool or work object are the controller's |
 //! | `Travel`, `Approach`, `Retract`, `Cut` | `MoveL [[x,y,z],[q1,q2,q3,q4],[cf1,cf4,cf6,cfx],[9E9, ..]],vc_speed1,fine,vc_tool\WObj:=vc_wobj;` |
-//! | `Follow` | `MoveL` or `MoveC`, with the zone `vc_blend` where the chain goes on |
+//! | `Follow` | `MoveL` or `MoveC`, with the zone `vc_blend` where the chain continues |
 //! | `Turn` | the same with the position of the move before, timed by `v_ori` |
 //! | `Ultrasonic` | `SetDO do12,1;`, `SetDO do12,0;` after a stop point |
 //! | `AwaitReady` | `WaitDI di7,1;` or `WaitTime t;` |
@@ -37,7 +37,7 @@
 //!
 //! On an arc `CirPathMode\ObjectFrame` has the blade turn as on a line: about one axis, seen from the work object, in even steps. The
 //! default, `\PathFrame`, would turn it relative to the way; for a blade that stands in the plane of its way both are the same turn,
-//! but only the former is timed like that of a line. Where a chain goes on, the zone is as large as the blend: within it of the
+//! but only the former is timed like that of a line. Where a chain continues, the zone is as large as the blend: within it of the
 //! joint the robot goes from the one piece to the next, and never farther from both. Waypoints on a chain are passed likewise, and an
 //! arc that has some is read as several, each by the point in its middle.
 //!

@@ -90,7 +90,7 @@ pub(crate) fn is_name(text: &str) -> bool {
         && !RESERVED.contains(&upper.as_str())
 }
 
-/// Reserved words, data types, instructions, functions and data of RobotWare [A-KER, A-INS], as far as somebody might call
+/// Reserved words, data types, instructions, functions and data of RobotWare [A-KER, A-INS], as far as a user might call
 /// a job so. Upper case.
 #[rustfmt::skip]
 pub(crate) const RESERVED: &[&str] = &[

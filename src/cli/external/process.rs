@@ -28,7 +28,7 @@ const MOST_SAID: usize = 4096;
 /// How long what a program said is waited for when it has ended.
 const LAST_WORDS: Duration = Duration::from_millis(200);
 
-/// How often a program that somebody else is just writing is started again.
+/// How often a program that another process is just writing is started again.
 const MOST_STARTS: u32 = 25;
 
 /// Between two looks whether something has happened.

@@ -42,7 +42,7 @@ pub(super) struct Bell {
 /// What became of a run, seen from outside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Attended {
-    /// The watch goes on.
+    /// The watch continues.
     Ended,
     /// The user wants to end.
     Interrupted,

@@ -1,7 +1,7 @@
 //! Reading a TOML table of a sheet or a profile, with a fault for everything that does not fit.
 //!
 //! A [`Table`] knows the fields that it may have, and reports others and those that are missing; after that each value is
-//! read by its key. What is missing or faulty is `None`, and its fault is in the list: a reader goes on to the end, so that
+//! read by its key. What is missing or faulty is `None`, and its fault is in the list: a reader continues to the end, so that
 //! one run shows all faults.
 
 use super::Wording;

@@ -44,7 +44,7 @@ fn a_plain_is_raised() {
 
 #[test]
 fn a_slope_is_shifted_along_its_normal() {
-    // Slope 3/4, so a rise of 5/4 of the distance; the left end is rounded off by nothing, as it goes on down.
+    // Slope 3/4, so a rise of 5/4 of the distance; the left end is rounded off by nothing, as it continues down.
     let raised = offset_up(&profile(&[(0.0, 0.0), (40.0, 30.0)]), Length::mm(2.0));
     assert!((raised.height(20.0) - (15.0 + 2.5)).abs() < 1e-12);
 }

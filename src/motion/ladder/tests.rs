@@ -114,7 +114,7 @@ proptest! {
 }
 
 #[test]
-fn where_it_ends_is_told() {
+fn where_it_ends_is_reported() {
     let free = Cost {
         margin: 1.0,
         changes: 0,

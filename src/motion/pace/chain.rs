@@ -1,6 +1,6 @@
 //! Chains: pieces of a way that are gone as one course, from rest at its beginning to rest at its end.
 //!
-//! The way is measured in mm of the tip, so that its rate goes on without a jump where one piece passes into the next. Beside the
+//! The way is measured in mm of the tip, so that its rate continues without a jump where one piece passes into the next. Beside the
 //! axes, other things that have bounds are followed along it as if they were axes ([`TRACKS`]):
 //!
 //! - the parts of the programmed feed and of the programmed rate of turning that are used, of which the most is 1;

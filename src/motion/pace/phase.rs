@@ -86,7 +86,7 @@ pub(super) fn steps_of_pieces<const N: usize>(parts: &[Part<N>], axes: &[Bounds;
     gone(parts.iter().map(of_part).collect(), f64::min)
 }
 
-/// `between` tells the highest `z` where two parts meet from that of either.
+/// `between` gives the highest `z` where two parts meet, from that of either.
 fn gone<const N: usize>(segments: Vec<Segment<N>>, between: fn(f64, f64) -> f64) -> Vec<Step> {
     let stoppable = stoppable(&segments, between);
     let mut z = 0.0;

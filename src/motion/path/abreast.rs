@@ -55,7 +55,7 @@ impl<'r> Underway<'r> {
         })
     }
 
-    /// Goes on after what was found of the span at hand; returns what came of the course once that is known.
+    /// Continues after what was found of the span at hand; returns the result of the course once that is known.
     fn goes_on(&mut self, found: Result<Stretch, Violation>) -> Option<Result<Proof, Breach>> {
         let tried = self.progress.add(found, self.effort);
         if let Err((at, why)) = self.march.became(tried) {
@@ -67,7 +67,7 @@ impl<'r> Underway<'r> {
 
     fn proof(&self) -> Proof {
         let enclosed = self.progress.end();
-        // The enclosure of the end tells the turns; this is the end to the last digit.
+        // The enclosure of the end gives the turns; this is the end to the last digit.
         let end = self.way.joints_at(1.0, &enclosed).unwrap_or(enclosed);
         self.progress.done(end, self.march.tries() + 2)
     }

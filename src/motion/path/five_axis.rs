@@ -1,7 +1,7 @@
 //! The path check of five-axis machines.
 //!
 //! A controller with tool-centre-point control (TCPM, G43.4, TRAORI) moves the tip on a straight line or an arc in the work while
-//! **the rotary axes go each at a constant rate to their values at the end**. It does so unless told to interpolate the
+//! **the rotary axes go each at a constant rate to their values at the end**. It does so unless the program asks it to interpolate the
 //! orientation vector (ORIVECT), and it is what is proven here. Between two taught poses the blade is therefore not turned
 //! about one fixed axis as a robot turns it. For cuts, approaches and retracts that makes no difference, since they keep
 //! their orientation; travels and turns happen outside of the work.
@@ -358,7 +358,7 @@ impl<'m> Search<'m> {
             let fine = part.beyond_values <= FINEST && part.beyond_rates / self.duration <= FINEST;
             if fine || self.looks >= MOST_LOOKS {
                 self.settle(&part)?;
-            } else if self.tells(&part) {
+            } else if self.is_settled(&part) {
                 self.take(&part);
             } else {
                 rest.push(self.look(run, f64::midpoint(left.s, right.s))?);
@@ -386,7 +386,7 @@ impl<'m> Search<'m> {
     }
 
     /// Whether all that a part may do is within the limits, and not much beyond what has been found elsewhere.
-    fn tells(&self, part: &Part) -> bool {
+    fn is_settled(&self, part: &Part) -> bool {
         (0..3).all(|axis| {
             let (low, high) = part.values(axis);
             let rate = part.rate(axis) / self.duration;

@@ -33,7 +33,7 @@ use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::opw::{Coupling, Opw};
 use vcutc_machine::kinematics::serial::SerialArm;
 
-/// Where a course goes on into another without a stop.
+/// Where a course continues into another without a stop.
 #[derive(Clone, Copy, Debug)]
 pub struct Through<'c> {
     /// The course that ends here.
@@ -44,10 +44,10 @@ pub struct Through<'c> {
     pub blend: f64,
 }
 
-/// The proof of the first of two courses, with what the axes do where it goes on into the other.
+/// The proof of the first of two courses, with what the axes do where it continues into the other.
 ///
 /// # Errors
-/// What would break around the joint, which is told at the end of the course.
+/// What would break around the joint, which is reported at the end of the course.
 pub fn prove_through(
     rig: &Rig<'_>,
     through: &Through<'_>,

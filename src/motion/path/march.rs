@@ -23,7 +23,7 @@ pub(super) enum Tried<V> {
 
 /// Proves a course from its beginning to its end; returns how many spans were tried.
 ///
-/// `attempt` tries a span that begins where the last proven one ended; the flag tells that loose bounds will do.
+/// `attempt` tries a span that begins where the last proven one ended; the flag says that loose bounds will do.
 ///
 /// # Errors
 /// Where the span begins that can be made no shorter, and why it was refused.
@@ -36,10 +36,10 @@ pub(super) fn march<V>(mut attempt: impl FnMut(Span, Effort) -> Tried<V>) -> Res
     Ok(march.tries)
 }
 
-/// How far a course is proven, and with how long a span it goes on.
+/// How far a course is proven, and with how long a span it continues.
 ///
-/// A span that is refused is halved, so that all before the one that can be made no shorter is proven. How good the bounds of a
-/// span were tells how long the next is to be: they are off by a term of the second order in its length.
+/// A span that is refused is halved, so that all before the one that can be made no shorter is proven. The quality of the bounds of a
+/// span sets the length of the next one: they are off by a term of the second order in its length.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct March {
     at: u32,

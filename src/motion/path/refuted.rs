@@ -1,6 +1,6 @@
 //! Courses that an arm cannot follow, seen from samples.
 //!
-//! The proof of a course that breaks a bound goes on until it has found the first place where it does, in ever shorter spans.
+//! The proof of a course that breaks a bound continues until it has found the first place where it does, in ever shorter spans.
 //! Who only asks whether a branch carries a program needs no such place, and a few samples refute most of what it does not
 //! carry. What they refute is refuted for certain: a pose without axis values, an axis that is out of its range on every turn,
 //! or one that is farther from where it was at the sample before than its rate allows. The last holds by the mean value

@@ -16,7 +16,7 @@
 //! both with an excess that fades with the square of the length.
 //!
 //! **The end.** Newton's method improves the end, and the same contraction, on the box that is known to have the true end
-//! and the improved one, tells that they are the same but for rounding: the pose, as position of the tip and as the vector
+//! and the improved one, shows that they are the same but for rounding: the pose, as position of the tip and as the vector
 //! `w` of the skew part of `R_end^T R(q)`, has a derivative by `q` that differs from `J` in its angular rows by a factor
 //! that is no further from `I` than the angle through which the box can turn the blade. Where that still contracts, the pose
 //! is reached once in the box only.
@@ -24,7 +24,7 @@
 //! **The start** is verified in the same way, so that the axes truly begin within 1e-8 rad of where they are said to.
 //!
 //! **Singular poses.** On a proven span the Jacobian is regular, so that no singular pose is met. How near one is is not
-//! measured: the clearance told is unlimited, and the least one that was asked for is not checked. What keeps these arms away
+//! measured: the clearance that is reported is unlimited, and the least one that was asked for is not checked. What keeps these arms away
 //! from singular poses is the rates of their axes.
 
 use super::bounds::Stretch;

@@ -29,8 +29,8 @@ impl Look {
     }
 }
 
-/// Where on the course what `breach` tells is broken most, and how much. A place out of reach is worse than all others;
-/// the first of these is told. This comes from samples and proves nothing. `start` is that of the breach.
+/// Where on the course the bound of `breach` is broken most, and how much. A place out of reach is worse than all others;
+/// the first of these is reported. This comes from samples and proves nothing. `start` is that of the breach.
 #[must_use]
 pub fn worst(
     rig: &Rig<'_>,

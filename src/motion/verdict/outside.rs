@@ -11,7 +11,7 @@ use vcutc_job::{Auto, BladeRef, CheckedJob, Operation};
 /// How far out of the stock a tip is carried by lengths that are meant, at most, in mm.
 const MEANT: f64 = 1000.0;
 
-/// What is told of an op that leads to such a tip. None where the tip is near the stock, or nothing says that the machine cannot
+/// What is reported of an op that leads to such a tip. None where the tip is near the stock, or nothing says that the machine cannot
 /// reach the stock itself. `place` says which op it is, such as `layer 7, cut 12`.
 pub(super) fn far_outside(job: &CheckedJob, place: &str, op: &Op, tip: Point3) -> Option<Diagnostic> {
     let operation = job.operations.get(usize::from(op.site.operation()?.0))?;

@@ -10,7 +10,7 @@ use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::five_axis::FiveAxis;
 use vcutc_machine::kinematics::pose::Pose;
 
-/// What is told of a pose of the blade in the work that rotary axes without limits do not reach. None for other machines, and
+/// What is reported of a pose of the blade in the work that rotary axes without limits do not reach. None for other machines, and
 /// for poses that they do. `place` says which pose it is, such as `layer 7, cut 12`.
 pub(super) fn lacks_an_axis(
     machine: &Machine,

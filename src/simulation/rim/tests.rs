@@ -169,7 +169,7 @@ proptest! {
     }
 }
 
-/// A strip of 10 mm beside a rim that goes on for half a millimetre, with a lead of 5 deg.
+/// A strip of 10 mm beside a rim that continues for half a millimetre, with a lead of 5 deg.
 #[test]
 fn a_strip_takes_few_chords() {
     let mut chords = Vec::new();

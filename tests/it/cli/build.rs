@@ -114,7 +114,7 @@ fn the_last_object_is_the_total() {
 }
 
 #[test]
-fn a_list_with_faults_is_told_at_its_places() {
+fn faults_of_a_list_are_reported_at_their_places() {
     let repository = repository();
     let text = LIST
         .replace("jobs = \"jobs", "job = \"jobs")
@@ -129,7 +129,7 @@ fn a_list_with_faults_is_told_at_its_places() {
 }
 
 #[test]
-fn jobs_that_are_not_there_are_told() {
+fn missing_jobs_are_reported() {
     let repository = repository();
     let text = LIST
         .replace("jobs/*.vcut", "job/*.vcut")
@@ -139,7 +139,7 @@ fn jobs_that_are_not_there_are_told() {
 }
 
 #[test]
-fn a_target_that_is_not_there_is_told() {
+fn a_missing_target_is_reported() {
     let repository = repository();
     let text = LIST.replacen("\"krl\"", "\"krll\"", 1);
     fs::write(repository.path().join("vcut.toml"), text).unwrap();

@@ -107,7 +107,7 @@ fn the_page_is_true() {
     assert_eq!(
         fs::read_to_string(path).unwrap(),
         drawn,
-        "UPDATE_PICTURES=1 writes it anew"
+        "UPDATE_PICTURES=1 writes it again"
     );
     let text = fs::read_to_string(program.join("panel.src"))
         .unwrap()

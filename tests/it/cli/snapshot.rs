@@ -74,7 +74,7 @@ fn what_differs_is_shown_as_a_diff_and_not_mended() {
 }
 
 #[test]
-fn missing_files_and_line_ends_are_told() {
+fn missing_files_and_line_ends_are_reported() {
     let shop = written();
     fs::remove_file(shop.path().join("out/rib.dat")).unwrap();
     change(shop.path(), "rib.src", |text| text.replace("\r\n", "\n"));
@@ -190,7 +190,7 @@ fn options_of_the_command_line_go_before_those_of_the_job() {
 }
 
 #[test]
-fn wrong_options_are_told_in_their_own_text() {
+fn wrong_options_are_reported_in_their_own_text() {
     let shop = shop();
     let cases: [&[&str]; 4] = [
         &["--option", "lines_per_prat=0"],

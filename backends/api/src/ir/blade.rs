@@ -73,7 +73,7 @@ pub struct Crusher {
     pub ramp: Angle,
 }
 
-/// A round part of a blade's body about the tool axis. It goes on up to the next one, the last one without end.
+/// A round part of a blade's body about the tool axis. It continues up to the next one, the last one without end.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct BodyStage {

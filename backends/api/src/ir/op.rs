@@ -148,7 +148,7 @@ pub enum Action {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Joint {
-    /// The chain goes on in the same direction without a stop; the tip may leave the pieces by the program's
+    /// The chain continues in the same direction without a stop; the tip may leave the pieces by the program's
     /// [`blend`](super::Program::blend).
     Through,
     /// An exact stop: the chain ends.

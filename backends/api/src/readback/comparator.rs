@@ -68,9 +68,9 @@ pub enum Mismatch {
     },
     /// The machine does not stop where it must.
     NoStop,
-    /// The machine stops where a chain goes on.
+    /// The machine stops where a chain continues.
     Stops,
-    /// The tip may leave a chain further than it should where it goes on.
+    /// The tip may leave a chain further than it should where it continues.
     Blend {
         /// How far.
         is: Length,
@@ -537,7 +537,7 @@ impl<'p> Comparator<'p> {
         }
     }
 
-    /// A chain goes on without a stop, near its ways.
+    /// A chain continues without a stop, near its ways.
     fn goes_on(&self, end: End, found: &mut Vec<Mismatch>) {
         match end {
             End::Through { within } => {

@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 /// Arcs go round by less than this: beyond it a small error of the point between its ends makes a large one of the arc.
 pub const LARGEST_SWEEP: Angle = Angle::deg(340.0);
 
-/// How far the direction may change at once where a chain goes on: rounding of the points of small arcs.
+/// How far the direction may change at once where a chain continues: rounding of the points of small arcs.
 pub const LARGEST_KINK: Angle = Angle::deg(0.5);
 
 /// How far the way may lie out of the plane of a straight blade.
@@ -29,7 +29,7 @@ pub(super) struct OpenChain {
 }
 
 impl Walk<'_> {
-    /// A chain that is not at its end goes on with this op.
+    /// A chain that is not at its end continues with this op.
     pub(super) fn chain_goes_on(&mut self, op: &Op) {
         let Some(chain) = self.chain else { return };
         let follows = matches!(op.action, Action::Follow { .. }) && op.site == chain.site;

@@ -8,7 +8,7 @@
 //! speed is that along the way of all axes, mm and degrees counted alike.
 //!
 //! Cycle 247 activates a preset where the job gives its number; without one that is the operator's. `~` at the end of its line
-//! says that the block goes on in the next line, which has no number of its own (TNC 640, Cycle Programming).
+//! says that the block continues in the next line, which has no number of its own (TNC 640, Cycle Programming).
 //!
 //! `R0` blocks stop at corners, as exactly as the machine's tolerance says. Cycle 32 sets another tolerance, under which a chain goes
 //! on, and without a value the machine's again [H-620]; for single corners in the air it is not written. M codes for outputs are the
@@ -50,7 +50,7 @@ const FACTS: Facts = Facts {
     layout: Layout {
         line_end: b"\n",
         longest_comment: 80,
-        // `~` goes on in the next line.
+        // `~` continues in the next line.
         kept_out_of_comments: b"~%",
     },
     signs: Signs::Always,

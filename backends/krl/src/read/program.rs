@@ -247,7 +247,7 @@ impl Reading<'_, '_> {
             || self.footer.is_some_and(|from| line.span.start >= from) && line.phrase != Phrase::End
     }
 
-    /// Reports the routines that are never called. They are not understood: somebody must have meant them to
+    /// Reports the routines that are never called. They are not understood: they must be meant to
     /// do something.
     fn never_called(&mut self, execution: &Execution<'_>) {
         for (file, lines) in execution.never_called() {

@@ -55,7 +55,7 @@ pub(super) struct Machine<'a> {
     pub(super) settings: &'a Settings<'a>,
 }
 
-/// Whether somebody knows an instruction of that name.
+/// Whether an instruction of that name is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Known {
     Yes,
@@ -87,7 +87,7 @@ impl Machine<'_> {
             "TPERASE" | "TPWRITE" => return (Effect::Setting, Known::Yes),
             _ => match self.change(instruction) {
                 Some(change) => {
-                    // A routine of the cell may leave other modes; a person who goes on from `Stop` does not.
+                    // A routine of the cell may leave other modes; a person who continues from `Stop` does not.
                     if self.cell.changer() == Some(Changer::Program) {
                         *modes = Modes::default();
                     }

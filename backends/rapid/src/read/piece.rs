@@ -65,7 +65,7 @@ pub(super) fn pieces(whole: &str) -> Pieces {
     cutter.pieces
 }
 
-/// Words that begin or end a module or routine: no statement goes on after them.
+/// Words that begin or end a module or routine: no statement continues after them.
 const BORDERS: [&str; 8] = [
     "MODULE",
     "ENDMODULE",

@@ -234,7 +234,7 @@ fn join_at_the_nose(outline: &mut Outline, other: &Outline, side: Side, sheet: &
     }
 }
 
-/// Towards the trailing edge sides run straight, so one that ends early goes on as it ends, as far as the other side.
+/// Towards the trailing edge sides run straight, so one that ends early continues as it ends, as far as the other side.
 fn lead_to_the_end(outline: &mut Outline, other: &Outline, side: Side, sheet: &mut Sheet) {
     /// The steepest way on: at rounded ends the last points say nothing about the side.
     const STEEPEST: f64 = 1.0;

@@ -40,7 +40,7 @@ pub(super) fn take<'t>(name: Group, groups: &mut Groups<'t>) -> Result<Option<En
     if matches!(fields.kind, "SEQEND" | "VIEWPORT") {
         return Ok(None);
     }
-    // A polyline of the old kind goes on with its corners, whatever becomes of it.
+    // A polyline of the old kind continues with its corners, whatever becomes of it.
     let corners = match fields.kind {
         "POLYLINE" => polyline::take_corners(groups)?,
         _ => Vec::new(),

@@ -200,7 +200,7 @@ impl Drawing {
         self.handle = Handle::None;
     }
 
-    /// The control point with which a curve goes on smoothly: the last one mirrored about the pen, or the pen.
+    /// The control point with which a curve continues smoothly: the last one mirrored about the pen, or the pen.
     fn smooth(&self, last: Option<Point2>) -> Point2 {
         last.map_or(self.here, |last| {
             Point2::new(2.0 * self.here.x - last.x, 2.0 * self.here.z - last.z)

@@ -146,7 +146,7 @@ pub(super) fn airfoil(
             z: z + chord * point.z,
         })
         .collect();
-    // The next piece goes on at the right end.
+    // The next piece continues at the right end.
     match flip {
         Flip::None => {}
         Flip::X => points.reverse(),

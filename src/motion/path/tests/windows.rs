@@ -193,7 +193,7 @@ fn beside_its_stretched_position_the_rates_tell() {
 }
 
 #[test]
-fn what_is_broken_at_the_start_is_told_there() {
+fn what_is_broken_at_the_start_is_reported_there() {
     let mut model = kuka();
     let open = model.clone();
     let (rig_of_all, mut dice) = (rig(&open), Dice(13));

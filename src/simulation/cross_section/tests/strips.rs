@@ -331,7 +331,7 @@ fn sizes(width: f64, floor: f64) -> String {
     words.collect()
 }
 
-/// Two slits 0.4 um apart: a leaf stands between, and comes free with the strip if the rim goes on beneath it.
+/// Two slits 0.4 um apart: a leaf stands between, and comes free with the strip if the rim continues beneath it.
 #[test]
 fn two_walls_less_than_a_micrometre_apart() {
     let mut section = block(60.0, 40.0);

@@ -17,7 +17,7 @@ pub struct Swung<'s> {
     /// Slope and reach of the flanks.
     pub flanks: Flanks,
     standoff: Length,
-    /// How far the edge lies over the work, once somebody has asked.
+    /// How far the edge lies over the work, computed when it is first needed.
     edge: OnceCell<Length>,
 }
 
