@@ -49,6 +49,7 @@ mod differences;
 mod dynamics;
 mod explain;
 mod external;
+mod failures;
 mod files;
 mod fmt;
 mod hints;

@@ -11,7 +11,7 @@ use super::output::{Destination, Placed};
 use super::snapshot::{self, Complete, Fate, Made, NotReady};
 use super::summary::Summary;
 use super::warnings::Warnings;
-use super::{Exit, Targets, compile, targets};
+use super::{Exit, Targets, failures, targets};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -202,7 +202,7 @@ fn make(unit: &Unit, fate: Fate, targets: &Targets) -> Done {
                 sources: SourceMap::default(),
                 diagnostics: Vec::new(),
                 figures: None,
-                made: Err(compile::unreadable(&unit.job, &reason)),
+                made: Err(failures::unreadable(&unit.job, &reason)),
             };
         }
     };

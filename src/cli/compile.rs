@@ -3,7 +3,8 @@
 use super::args::{Arguments, CheckArgs, CompileArgs, InnerForm, Overrides};
 use super::batch::{self, Unit};
 use super::console::{Console, Failure};
-use super::files::{Disk, job_near};
+use super::failures::{unreadable, without_machine, without_masses, without_surface};
+use super::files::Disk;
 use super::hints;
 use super::inner::{self, Progressed};
 use super::meant::{self, Driven, pointless_output};
@@ -438,34 +439,4 @@ fn published(output: Output) -> Result<Made, Failure> {
         placed,
         ..Made::default()
     })
-}
-
-/// A job whose part is the same at every y, where what is left above a surface is asked for.
-fn without_surface() -> Failure {
-    Failure::new("the job's part is a profile, and the deviation is that of a `surface`")
-        .help("`vcutc plot JOB --what deviation` draws the deviation from a profile")
-}
-
-/// A job on a machine whose torques are not known, where they are asked for.
-pub(super) fn without_masses() -> Failure {
-    Failure::new("the torques of the job's machine are not known: they take the masses of its links, and the load on its flange")
-        .help("state `load = load(mass = , x = , y = , z = )` in the machine, and its masses in a sheet (docs/machines.md)")
-}
-
-/// A job without a machine, where axes are asked for.
-pub(super) fn without_machine() -> Failure {
-    Failure::new("the job has no machine, so there are no axes to show").help(
-        "add a block such as `machine cell = robot \"kuka/kr210_r3100_ultra\" { ... }`, or `use` a file that has one",
-    )
-}
-
-pub(super) fn unreadable(job: &str, reason: &str) -> Failure {
-    let failure = Failure::new(format!("cannot read the job {job}: {reason}"));
-    if let Some(file) = job_near(job).filter(|_| !Path::new(job).exists()) {
-        return failure.help(format!("did you mean the job `{file}`?"));
-    }
-    match Arguments::command_near(job) {
-        Some(command) => failure.help(format!("did you mean the command `vcutc {command}`?")),
-        None => failure,
-    }
 }

@@ -1,8 +1,8 @@
 //! `vcutc plot JOB`: pictures of a job, one of them or all.
 
 use super::args::{PlotArgs, What};
-use super::compile::{unreadable, without_machine, without_masses};
 use super::console::{Console, Failure};
+use super::failures::{unreadable, without_machine, without_masses};
 use super::files::{Disk, stem};
 use super::output::{Destination, Output, Placed, one_file};
 use super::patience;

@@ -2,8 +2,8 @@
 
 use super::args::ReportArgs;
 use super::browser;
-use super::compile::unreadable;
 use super::console::{Console, Failure};
+use super::failures::unreadable;
 use super::files::{Disk, stem};
 use super::hints::of_a_page;
 use super::meant::Driven;

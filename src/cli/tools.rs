@@ -1,8 +1,8 @@
 //! `vcutc tools JOB`: the bodies of revolution that stand for the job's blades in programs for milling.
 
 use super::args::{ToolForm, ToolsArgs};
-use super::compile::unreadable;
 use super::console::{Console, Failure};
+use super::failures::unreadable;
 use super::files::Disk;
 use super::output::{Destination, Output, Placed, one_file};
 use super::patience;

@@ -6,7 +6,7 @@ use super::files::{Disk, load_program};
 use super::meant::{self, Driven};
 use super::progress::Progress;
 use super::summary::Summary;
-use super::{Exit, Targets, compile, snapshot, targets};
+use super::{Exit, Targets, failures, snapshot, targets};
 use std::path::Path;
 use std::slice;
 use vcutc_backend_api::backend::Backend;
@@ -44,7 +44,7 @@ pub(super) fn verify(args: &VerifyArgs, linked: &Targets, targets: &Targets, con
         Ok(outcome) => outcome,
         Err(RequestError::Unreadable(reason)) => {
             drop(progress);
-            return console.failure(&compile::unreadable(&args.job, &reason));
+            return console.failure(&failures::unreadable(&args.job, &reason));
         }
     };
     if let Some(height) = args.air.air_cut {

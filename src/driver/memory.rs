@@ -23,7 +23,7 @@ use vcutc_cancellation::Wanted;
 use vcutc_job::CheckedJob;
 use vcutc_job::PlannedJob;
 use vcutc_job::search::SearchSpace;
-use vcutc_job::sema::surface::kept::Surfaces;
+use vcutc_job::sema::kept_surfaces::Surfaces;
 use vcutc_machine::Model;
 use vcutc_motion::solve::{
     Changes, Found, LEAST_CLEARANCE, Reached, Unreachable, Unreached, again, solve_while,

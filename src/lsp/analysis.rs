@@ -18,9 +18,9 @@ use vcutc_driver::{
     self as driver, Outcome, Patience, Request, RequestError, Run, SearchEffort, Typed, Unhurried,
 };
 use vcutc_job::PlannedJob;
+use vcutc_job::sema::kept_surfaces::Surfaces;
 use vcutc_job::sema::kind::Operations;
 use vcutc_job::sema::study::{Study, study};
-use vcutc_job::sema::surface::kept::Surfaces;
 use vcutc_job::sema::{Choices, Part};
 use vcutc_syntax::ast::{Ast, Item};
 

@@ -7,8 +7,8 @@ use lsp_types::Uri;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_diagnostics::overlay::Overlay;
 use vcutc_job::sema::Part;
+use vcutc_job::sema::kept_surfaces::Surfaces;
 use vcutc_job::sema::kind::Operations;
-use vcutc_job::sema::surface::kept::Surfaces;
 
 /// How the client calls an open document.
 #[derive(Clone, Debug)]

@@ -7,8 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use vcutc_diagnostics::Code;
 use vcutc_diagnostics::overlay::Overlay;
 use vcutc_diagnostics::source::{FileId, Loader, Span};
+use vcutc_job::sema::kept_surfaces::Surfaces;
 use vcutc_job::sema::study::{Definition, Meaning};
-use vcutc_job::sema::surface::kept::Surfaces;
 use vcutc_job::sema::vocabulary::{self, RESERVED};
 use vcutc_syntax::lexical::{TokenKind, tokens};
 

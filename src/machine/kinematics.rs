@@ -7,6 +7,7 @@
 pub mod batch;
 mod closed_form;
 pub mod configuration;
+mod dimensions;
 mod extent;
 pub mod five_axis;
 pub mod jacobian;

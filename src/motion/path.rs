@@ -82,6 +82,7 @@ mod refuted;
 mod serial;
 #[cfg(test)]
 mod tests;
+mod through;
 mod types;
 mod wide;
 mod worst;
@@ -89,8 +90,9 @@ mod worst;
 pub use arm_way::{ArmWay, Part};
 pub use axis_moves::{AxesBreach, AxesViolation, Block, Solid, are_axes_refuted, prove_axes};
 pub use chain::evenly;
-pub use joint::{Through, prove_through};
+pub use joint::prove_through;
 pub use refuted::{Refuted, refuted};
+pub use through::Through;
 pub use types::{Breach, Clearance, Course, Proof, Singularity, Violation};
 pub use worst::{Look, worst};
 

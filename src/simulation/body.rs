@@ -13,6 +13,7 @@
 //! Where cuts follow a spine, the work is its section raised by the spine at every y. It lies below a plane that touches the spine
 //! below the blade and is raised above it wherever the body is ([`slant`]); seen along that plane, all of this holds as before.
 
+mod backbone;
 mod section;
 mod shadow;
 mod slant;
@@ -24,8 +25,9 @@ mod turn;
 use super::course::{Course, Way};
 use super::prove::{Bound, Passes, accompanied};
 use super::surface::Surface;
+use backbone::Backbone;
 use section::{Ceiling, Near, Section};
-use slant::{Backbone, Slant};
+use slant::Slant;
 use stage::{Axis, Cylinder};
 use vcutc_backend_api::geometry::{Orientation, Point3};
 use vcutc_backend_api::ir::{

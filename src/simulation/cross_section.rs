@@ -19,15 +19,16 @@ mod sweep;
 mod taken;
 #[cfg(test)]
 mod tests;
+mod undercut;
 
 pub use crack::Crack;
 pub use guard::Guard;
 pub use taken::{Chip, Taken};
 
 use super::surface::{Side, Single, Surface, Vee};
-use crack::Undercut;
 use sorted::Sorted;
 use sweep::Piece;
+use undercut::Undercut;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;

@@ -12,13 +12,14 @@ mod doc;
 mod lines;
 mod read;
 mod spacing;
+mod types;
 mod value;
 
 #[cfg(test)]
 mod tests;
 
 use crate as syntax;
-use read::Source;
+use types::Source;
 use vcutc_diagnostics::source::{FileId, Span};
 use vcutc_diagnostics::{Code, Diagnostic, has_errors};
 

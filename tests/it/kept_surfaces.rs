@@ -5,7 +5,7 @@ use crate::surfaces::{VCUT, job, stl};
 use vcutc::diagnostics::Diagnostic;
 use vcutc::diagnostics::source::SourceMap;
 use vcutc::job::CheckedJob;
-use vcutc::job::sema::surface::kept::Surfaces;
+use vcutc::job::sema::kept_surfaces::Surfaces;
 use vcutc::job::sema::{self, Choices};
 use vcutc::registry;
 

@@ -77,21 +77,25 @@ const ONLY_IN: &[(&str, &[&str])] = &[
 ];
 
 #[test]
-fn modules_of_a_room_import_in_one_direction() {
+fn modules_of_a_folder_import_in_one_direction() {
     let mut found = Vec::new();
     let rooms = files("src", "Cargo.toml").into_iter();
     let rooms = rooms.map(|manifest| manifest.path.replace("/Cargo.toml", ""));
     let backends = files("backends", "Cargo.toml").into_iter();
     let backends = backends.map(|manifest| manifest.path.replace("Cargo.toml", "src"));
     for room in rooms.chain(backends) {
-        let mut imports = imports(&room);
-        // What serves tests uses what the tests are of.
-        imports.remove("testkit");
-        for used in imports.values_mut() {
-            used.remove("testkit");
-        }
-        for knot in knots(&imports) {
-            found.push(format!("{room}: {}", knot.join(", ")));
+        for folder in folders(&room) {
+            let mut imports = imports(&room, &folder);
+            // What serves tests uses what the tests are of.
+            for serves_tests in ["testkit", "tests"] {
+                imports.remove(serves_tests);
+                for used in imports.values_mut() {
+                    used.remove(serves_tests);
+                }
+            }
+            for knot in knots(&imports) {
+                found.push(format!("{folder}: {}", knot.join(", ")));
+            }
         }
     }
     assert_none(&found);
@@ -343,11 +347,24 @@ fn documents() -> Vec<TextFile> {
     files("", ".md")
 }
 
-/// The modules of a room, and those that each of them names.
-fn imports(room: &str) -> BTreeMap<String, BTreeSet<String>> {
+/// A room and all folders of sources in it.
+fn folders(room: &str) -> BTreeSet<String> {
+    let parents = files(room, ".rs")
+        .into_iter()
+        .filter_map(|file| Some(file.path.rsplit_once('/')?.0.to_owned()));
+    parents.collect()
+}
+
+/// The modules of a folder of a room, and those that each of them names.
+fn imports(room: &str, folder: &str) -> BTreeMap<String, BTreeSet<String>> {
     let mut imports: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for file in files(room, ".rs") {
-        let inside = file.path.trim_start_matches(room).trim_start_matches('/');
+    let within = folder.trim_start_matches(room).trim_start_matches('/');
+    let from_the_root = format!(
+        "crate::{}",
+        within.replace('/', "::") + if within.is_empty() { "" } else { "::" }
+    );
+    for file in files(folder, ".rs") {
+        let inside = file.path.trim_start_matches(folder).trim_start_matches('/');
         let parts: Vec<&str> = inside.split('/').collect();
         let module = parts[0].trim_end_matches(".rs");
         // `super` leads to the room from a module's own file, and from deeper ones as often as they are deep.
@@ -355,7 +372,7 @@ fn imports(room: &str) -> BTreeMap<String, BTreeSet<String>> {
         let code: Vec<&str> = file.code().map(|(_, line)| line).collect();
         let code = code.join("\n");
         let used = imports.entry(module.to_owned()).or_default();
-        for root in ["crate::".to_owned(), "super::".repeat(depth)] {
+        for root in [from_the_root.clone(), "super::".repeat(depth)] {
             for (at, found) in code.match_indices(&root) {
                 let is_whole = !code[..at].ends_with(|c: char| c.is_alphanumeric() || "_$:".contains(c));
                 if is_whole {

@@ -4,8 +4,9 @@
 use super::stamps::{Asked, Recorder};
 use crate::cli::Targets;
 use crate::cli::args::WatchArgs;
-use crate::cli::compile::{Product, make, nothing, program_of, report_outcome, unreadable};
+use crate::cli::compile::{Product, make, nothing, program_of, report_outcome};
 use crate::cli::console::{Console, Failure};
+use crate::cli::failures::unreadable;
 use crate::cli::files::Disk;
 use crate::cli::meant::{Driven, pointless_output};
 use crate::cli::patience::Waiting;

@@ -10,12 +10,14 @@
 
 mod encoding;
 mod entity;
+mod facing;
 mod fields;
 mod groups;
 mod insert;
 mod polyline;
 mod sections;
 mod spline;
+mod types;
 
 pub use encoding::{NoText, dxf_text};
 

@@ -1,7 +1,7 @@
 //! What the checks of one run share: the loader, the source texts, and what has been found so far.
 
+use super::kept_surfaces::Surfaces;
 use super::report::{Checked, Reported, Reports};
-use super::surface::kept::Surfaces;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use vcutc_backend_api::profile::Profile;

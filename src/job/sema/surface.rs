@@ -4,11 +4,11 @@
 //! between (`loft`), control points (`nurbs`), or a formula (`formula`, whose values over boxes `enclosure` works out). All become triangles over the plan of the stock, which
 //! are then compared with the stock (`judge`).
 
+mod content;
 mod enclosure;
 pub(crate) mod file;
 mod formula;
 mod judge;
-pub mod kept;
 mod loft;
 pub(crate) mod nurbs;
 mod seat;
@@ -37,7 +37,7 @@ const WELD: Length = Length::mm(0.01);
 
 /// What a surface is read from.
 enum Source<'a> {
-    File(file::Named<'a>),
+    File(content::Named<'a>),
     Loft(&'a Block),
     Nurbs(&'a Block),
     Formula(formula::Written<'a>),
@@ -191,7 +191,7 @@ fn source_of(entry: &Entry, stock: Checked<Spanned<Stock>>) -> Result<Source<'_>
             options,
             span,
         } => {
-            return Ok(Source::File(file::Named {
+            return Ok(Source::File(content::Named {
                 kind: *kind,
                 path,
                 options,

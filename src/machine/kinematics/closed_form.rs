@@ -12,7 +12,7 @@
 //! The check takes from the stages nothing but the angles.
 
 use super::Joints;
-use super::opw::{Coupling, Opw};
+use super::dimensions::{Coupling, Opw};
 use super::pose::Pose;
 use super::trig::{Turn, WIDEST, wrapped};
 use core::f64::consts::PI;

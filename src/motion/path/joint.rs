@@ -25,24 +25,14 @@ use super::around::{Around, Poses, around};
 use super::bounds::Bounds;
 use super::five_axis;
 use super::march::about;
-use super::types::{Breach, Clearance, Course, Proof, Singularity, Violation};
+use super::through::{Through, zone};
+use super::types::{Breach, Clearance, Proof, Singularity, Violation};
 use crate::rig::Rig;
 use vcutc_backend_api::ir::MOST_AXES;
 use vcutc_backend_api::motion::Branch;
 use vcutc_machine::kinematics::Mechanism;
 use vcutc_machine::kinematics::opw::{Coupling, Opw};
 use vcutc_machine::kinematics::serial::SerialArm;
-
-/// Where a course continues into another without a stop.
-#[derive(Clone, Copy, Debug)]
-pub struct Through<'c> {
-    /// The course that ends here.
-    pub before: &'c Course,
-    /// The course that begins here.
-    pub after: &'c Course,
-    /// How far the tip may be from both, in mm; above 0.
-    pub blend: f64,
-}
 
 /// The proof of the first of two courses, with what the axes do where it continues into the other.
 ///
@@ -87,11 +77,6 @@ pub fn prove_through(
     wider.clearance = wider.clearance.least(&clearance);
     wider.solves = wider.solves.saturating_add(1);
     Ok(wider)
-}
-
-/// What part of a course so long is in the zone of a joint.
-pub(super) fn zone(blend: f64, length: f64) -> f64 {
-    if length > blend { blend / length } else { 1.0 }
 }
 
 fn of_arm(

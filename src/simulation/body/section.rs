@@ -3,8 +3,9 @@
 //! Cuts only lower the section, so its heights of a while ago are bounds from above. They are kept column by column: most
 //! bodies pass far above what stands below them, and nothing else has to be looked at then.
 
+use super::backbone::Backbone;
 use super::shadow::Shadow;
-use super::slant::{Backbone, Slant};
+use super::slant::Slant;
 use super::stage::{Axis, Cylinder};
 use crate::course::Way;
 use crate::surface::Surface;

@@ -1,8 +1,9 @@
 //! A pass of a disc: what it frees, and what is wrong with it.
 
 use super::body::{self, Stand};
-use super::crack::{Crack, Undercut};
+use super::crack::Crack;
 use super::sweep::{End, Piece, Sweep};
+use super::undercut::Undercut;
 use super::{Chip, CrossSection, Guard, TOUCH, Taken};
 use crate::disc::{Disc, DiscPass, Freed, PassFault, PassOutcome};
 use crate::rim::{Drift, Rim};

@@ -6,7 +6,7 @@
 
 use super::WIDTH;
 use super::doc::{Doc, STEP, blanks_before_comment, on_one_line, wrapped};
-use super::read::{Body, Comment, Extent, Gap, Kind, Source, Statement};
+use super::types::{Body, Comment, Extent, Gap, Kind, Source, Statement};
 use super::value::{cut, statement};
 
 /// Longest name that shares a column with its neighbours, in characters.

@@ -1,38 +1,7 @@
 //! What the words of a statement are to one another, and what is between two of them.
 
-use super::read::{Kind, Word};
+use super::types::{Kind, Role, Word};
 use crate::lexical::{Bracket, TokenKind};
-
-/// What a word is in its statement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Role {
-    /// A name, a number, a text.
-    Plain,
-    /// A word that leads a piece of a profile or a part of it: `arc`, `to`, `radius`.
-    Lead,
-    /// The first word of a unit: `mm`, `%`.
-    Unit,
-    /// What goes on a unit: `/` and `s` of `mm/s`.
-    UnitRest,
-    /// `+`, `-`, `*`, `/` between two values.
-    Operator,
-    /// `^`.
-    Power,
-    /// `-` before a value.
-    Sign,
-    /// `=`, `<=`, `>=`.
-    Relation,
-    /// `,` in a list.
-    Comma,
-    /// `(` right after the name of a function.
-    CallOpen,
-    /// Any other `(`.
-    Open,
-    /// `)`.
-    Close,
-    /// A character that names may have but the reader of tokens does not know as one.
-    Odd,
-}
 
 /// What is between two words on one line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,8 +5,8 @@
 //! the word that it is after; in a list it stays with the value on its line.
 
 use super::doc::Doc;
-use super::read::{Comment, Gap, Kind, Word};
-use super::spacing::{Role, Spacing, between};
+use super::spacing::{Spacing, between};
+use super::types::{Comment, Gap, Kind, Role, Word};
 
 /// A statement's words in two parts: those up to where neighbours share a column, and the rest.
 pub(super) struct Parts<'w, 't> {

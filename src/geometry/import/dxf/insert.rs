@@ -8,9 +8,9 @@
 
 use super::super::drawing::{Affine, Drawing, MOST_STROKES, Place, Remark, Shape, Stroke, UnreadList, Why};
 use super::super::{DataError, shortened};
-use super::entity::{Content, Entity, Facing};
+use super::facing::Facing;
 use super::fields::Fields;
-use super::sections::{Block, File, folded};
+use super::types::{Block, Content, Entity, File, Insert, Repeat, folded};
 use crate::point::Point2;
 use std::collections::BTreeMap;
 
@@ -19,22 +19,6 @@ const DEEPEST: usize = 32;
 
 /// Most entities that are looked at while blocks are unfolded.
 const MOST_ENTITIES: usize = 2_000_000;
-
-/// A block once more.
-pub(super) struct Insert<'t> {
-    block: &'t str,
-    /// From the block, its base point at the origin, to where the insertion stands; of the first column and row.
-    map: Affine,
-    columns: Repeat,
-    rows: Repeat,
-}
-
-/// Columns or rows.
-struct Repeat {
-    count: usize,
-    /// From one to the next, along the turned axis.
-    step: Point2,
-}
 
 /// The content of an INSERT.
 pub(super) fn read<'t>(fields: &Fields<'t>) -> Result<Content<'t>, DataError> {

@@ -5,9 +5,10 @@
 
 use super::super::DataError;
 use super::super::drawing::{Shape, Why};
-use super::entity::{Content, is_level, placed};
+use super::facing::{is_level, placed};
 use super::fields::Fields;
 use super::groups::Groups;
+use super::types::Content;
 use crate::point::Point2;
 
 /// A corner, and the bulge of what follows it.

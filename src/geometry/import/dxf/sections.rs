@@ -2,47 +2,15 @@
 
 use super::super::drawing::{Place, Unit, Why};
 use super::super::{DataError, shortened};
-use super::entity::{self, Entity};
+use super::entity;
 use super::fields::{Fields, Value};
 use super::groups::{Group, Groups};
+use super::types::{Block, Entity, File, Layer, folded};
 use crate::point::Point2;
 use std::collections::BTreeMap;
 
-/// All of a file that matters to outlines.
-pub(super) struct File<'t> {
-    pub(super) unit: Unit,
-    /// Layers that the file defines.
-    pub(super) layers: Vec<Layer<'t>>,
-    /// Blocks by name in small letters.
-    pub(super) blocks: BTreeMap<String, Block<'t>>,
-    /// What stands in the model, and on sheets.
-    pub(super) entities: Vec<Entity<'t>>,
-}
-
-/// A layer of the table of layers.
-pub(super) struct Layer<'t> {
-    pub(super) name: &'t str,
-    /// Why what stands on it is not seen; none if it is.
-    pub(super) hidden: Option<Why>,
-}
-
 /// Flag of a layer: it is frozen.
 const FROZEN: i64 = 1;
-
-/// A block: entities that are drawn by being inserted.
-pub(super) struct Block<'t> {
-    pub(super) name: &'t str,
-    /// The point of the block that an insertion puts in its place.
-    pub(super) base: Point2,
-    /// Whether what it holds stands in another file.
-    pub(super) is_external: bool,
-    pub(super) entities: Vec<Entity<'t>>,
-}
-
-/// A name as blocks and layers are compared: capitals make no difference.
-pub(super) fn folded(name: &str) -> String {
-    name.to_lowercase()
-}
 
 /// Reads all sections.
 pub(super) fn read<'t>(groups: &mut Groups<'t>) -> Result<File<'t>, DataError> {

@@ -2,8 +2,9 @@
 
 use super::super::DataError;
 use super::super::drawing::{Shape, Why};
-use super::entity::{Content, is_level};
+use super::facing::is_level;
 use super::fields::Fields;
+use super::types::Content;
 use crate::curve::{Curve, Nurbs, NurbsError, spline_cubics};
 use crate::point::Point2;
 

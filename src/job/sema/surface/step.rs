@@ -2,7 +2,7 @@
 //!
 //! The file states its own unit. If the job states one as well, it must be the same.
 
-use super::file::{Content, Loaded, Misread, Named, broken, partly_read, without_unit};
+use super::content::{Content, Loaded, MESH_UNITS, Misread, Named, broken, partly_read, without_unit};
 use super::nurbs;
 use crate::Sourced;
 use crate::sema::fields::{BlockSpec, Fields, Inner, Takes, value};
@@ -21,7 +21,7 @@ use vcutc_surface::patch;
 pub(crate) const SPEC: BlockSpec = BlockSpec {
     title: "`step`",
     fields: &[
-        value("unit", "mm").takes(Takes::Words(|| words_of(super::file::MESH_UNITS))),
+        value("unit", "mm").takes(Takes::Words(|| words_of(MESH_UNITS))),
         value("place", frame::PLACE).takes(Takes::Calls(frame::PLACES)),
     ],
     inner: Inner::Refused,
@@ -148,7 +148,7 @@ fn other_unit(
     path: &Spanned<String>,
     session: &mut Session<'_>,
 ) -> Reported {
-    let mut units = super::file::MESH_UNITS.iter();
+    let mut units = MESH_UNITS.iter();
     let word = units
         .find(|(_, size)| (size / own - 1.0).abs() <= SAME_UNIT)
         .map(|(word, _)| *word);

@@ -13,7 +13,7 @@
 
 use super::{Carried, Run};
 use crate::path::around::Around;
-use crate::path::joint::{Through, zone};
+use crate::path::through::{Through, zone};
 use crate::path::types::{Course, Proof};
 use crate::rig::Rig;
 use glam::DVec3;

@@ -1,8 +1,8 @@
 //! Bodies on turning and circular ways against points of their skin.
 
 use super::entry;
+use crate::body::backbone::Backbone;
 use crate::body::section::{Ceiling, Section};
-use crate::body::slant::Backbone;
 use crate::body::stage::Cylinder;
 use crate::course::samples::{STOCK, courses, height};
 use crate::surface::{Surface, Vee};

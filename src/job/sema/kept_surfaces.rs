@@ -22,21 +22,21 @@ pub struct Surfaces {
 
 /// What a surface is made from.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Asked {
+pub(crate) struct Asked {
     /// The file: its length and its hash.
-    pub(super) content: String,
-    pub(super) kind: SurfaceFile,
+    pub(crate) content: String,
+    pub(crate) kind: SurfaceFile,
     /// The ending of its name in small letters, which says how it is read.
-    pub(super) ending: String,
+    pub(crate) ending: String,
     /// Of its numbers, in mm, where the job states one.
-    pub(super) unit: Option<f64>,
-    pub(super) place: Frame,
-    pub(super) stock: Stock,
+    pub(crate) unit: Option<f64>,
+    pub(crate) place: Frame,
+    pub(crate) stock: Stock,
 }
 
 impl Surfaces {
     /// The part that was made from the same.
-    pub(super) fn find(&self, asked: &Asked) -> Option<Part> {
+    pub(crate) fn find(&self, asked: &Asked) -> Option<Part> {
         let mut kept = self.kept.borrow_mut();
         let found = kept.iter().position(|(known, _)| known == asked)?;
         kept.get_mut(..=found)?.rotate_right(1);
@@ -44,7 +44,7 @@ impl Surfaces {
     }
 
     /// Keeps a part.
-    pub(super) fn keep(&self, asked: Asked, part: Part) {
+    pub(crate) fn keep(&self, asked: Asked, part: Part) {
         let mut kept = self.kept.borrow_mut();
         kept.insert(0, (asked, part));
         kept.truncate(MOST);
