@@ -224,27 +224,24 @@ fn whole(
         Ok(stock) => (Ok(stock.size), stock.cell_size),
         Err(reported) => (Err(reported), None),
     };
-    let regions: Vec<Checked<NamedRegion>> = all
+    let regions = all
         .regions
         .iter()
-        .map(|(name, placed)| region::check(*name, placed.block, placed.place, scope, session))
-        .collect();
+        .map(|(name, placed)| region::check(*name, placed.block, placed.place, scope, session));
+    let regions: Vec<Checked<NamedRegion>> = regions.collect();
     let part = part_of(all, stock, &missing, scope, session);
-    let ways: Vec<Checked<Ways>> = all
-        .operations
-        .iter()
-        .map(|(kind, placed)| {
-            let written = Written {
-                block: placed.block,
-                place: placed.place,
-                scope,
-                blades: &blades,
-                regions: &regions,
-                stock: stock.ok(),
-            };
-            kind.ways(written, session)
-        })
-        .collect();
+    let ways = all.operations.iter().map(|(kind, placed)| {
+        let written = Written {
+            block: placed.block,
+            place: placed.place,
+            scope,
+            blades: &blades,
+            regions: &regions,
+            stock: stock.ok(),
+        };
+        kind.ways(written, session)
+    });
+    let ways: Vec<Checked<Ways>> = ways.collect();
     let ways: Checked<Vec<Ways>> = if ways.is_empty() {
         Err(missing.operation(session))
     } else {

@@ -17,18 +17,7 @@ use vcutc_job::{Auto, Sourced};
 pub(crate) fn diagnostic(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
     match refusal {
         Refusal::Nothing => nothing(asked),
-        Refusal::NoEdge { rake, half_apex } => Diagnostic::new(
-            Code::RakeTooFlat,
-            format!(
-                "the edge of `{}` does not lead into the material: half its apex angle is {} deg, the rake is {} deg",
-                asked.blade.name,
-                show(half_apex.to_deg()),
-                show(rake.to_deg())
-            ),
-            place(asked, asked.setup.rake.span),
-            "this rake",
-        )
-        .help("use a rake that is larger than half the apex angle"),
+        Refusal::NoEdge { rake, half_apex } => no_edge(asked, *rake, *half_apex),
         Refusal::TooMany { strips } => Diagnostic::new(
             Code::TooManyCuts,
             format!("about {strips:.0} strips are too many to plan"),
@@ -36,11 +25,7 @@ pub(crate) fn diagnostic(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
             "of strips so small",
         )
         .help("use larger layers or steps"),
-        Refusal::TooWide {
-            widest,
-            limit,
-            bound,
-        } => too_wide(asked, *widest, *limit, *bound),
+        Refusal::TooWide { widest, limit, bound } => too_wide(asked, *widest, *limit, *bound),
         Refusal::TooDeepForSlits {
             layer,
             through,
@@ -54,43 +39,11 @@ pub(crate) fn diagnostic(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
             top,
             needed,
             edge,
-        } => Diagnostic::new(
-            Code::BladesTooSmall,
-            format!(
-                "a slit at x {} mm from z {} mm down to {} mm needs {} mm of edge, `{}` has {} mm",
-                mm(*x),
-                mm(*top),
-                mm(*bottom),
-                mm(*needed),
-                asked.blade.name,
-                mm(*edge)
-            ),
-            place(asked, asked.blade.cutting_length.span),
-            "the edge of the straight blade",
-        )
-        .help("use a longer blade"),
+        } => too_high(asked, *x, [*bottom, *top], [*needed, *edge]),
         Refusal::TooThick { layer, chip, depth } => too_thick(asked, *layer, *chip, *depth),
-        Refusal::SlitInPart { x, bottom, entry } => Diagnostic::new(
-            Code::Overcut,
-            format!(
-                "a slit at x {} mm down to z {} mm would enter the part or its allowance by {} mm",
-                mm(*x),
-                mm(*bottom),
-                mm(*entry)
-            ),
-            asked.setup.head_span,
-            "a slit of this operation",
-        )
-        .help("use a thinner blade, or a smaller `standoff`"),
+        Refusal::SlitInPart { x, bottom, entry } => slit_in_part(asked, *x, *bottom, *entry),
         Refusal::Closed(closed) => self::closed(asked, closed),
-        Refusal::NoColumns { through } => Diagnostic::new(
-            Code::LimitsConflict,
-            format!("slits through {through} layers need columns that stay where they are, and `residual = shift` has none"),
-            place(asked, asked.through.span),
-            "through several layers",
-        )
-        .and(place(asked, asked.residual.span), "strips in other places in each layer")
-        .help("use `through = 1`, or another `residual`"),
+        Refusal::NoColumns { through } => no_columns(asked, *through),
         Refusal::Scallop {
             left,
             limit,
@@ -104,24 +57,90 @@ pub(crate) fn diagnostic(asked: &RoughRect, refusal: &Refusal) -> Diagnostic {
             }
         }
         Refusal::Over(limit) => over(asked, *limit),
-        Refusal::Bounds { field, least, most } => {
-            let (name, bounds) = match field {
-                SizeField::Layer => ("layer", asked.limits.layer),
-                SizeField::Step => ("step", asked.limits.step),
-            };
-            Diagnostic::new(
-                Code::LimitsConflict,
-                format!(
-                    "`{name}` is at least {} mm, and the blades do at most {} mm",
-                    mm(*least),
-                    mm(*most)
-                ),
-                limit_place(asked, bounds.least),
-                "this bound",
-            )
-            .help(format!("take a bound of at most {} mm", down(*most)))
-        }
+        Refusal::Bounds { field, least, most } => bounds(asked, *field, *least, *most),
     }
+}
+
+fn no_edge(asked: &RoughRect, rake: Angle, half_apex: Angle) -> Diagnostic {
+    Diagnostic::new(
+            Code::RakeTooFlat,
+            format!(
+                "the edge of `{}` does not lead into the material: half its apex angle is {} deg, the rake is {} deg",
+                asked.blade.name,
+                show(half_apex.to_deg()),
+                show(rake.to_deg())
+            ),
+            place(asked, asked.setup.rake.span),
+            "this rake",
+        )
+        .help("use a rake that is larger than half the apex angle")
+}
+
+fn too_high(
+    asked: &RoughRect,
+    x: Length,
+    [bottom, top]: [Length; 2],
+    [needed, edge]: [Length; 2],
+) -> Diagnostic {
+    Diagnostic::new(
+        Code::BladesTooSmall,
+        format!(
+            "a slit at x {} mm from z {} mm down to {} mm needs {} mm of edge, `{}` has {} mm",
+            mm(x),
+            mm(top),
+            mm(bottom),
+            mm(needed),
+            asked.blade.name,
+            mm(edge)
+        ),
+        place(asked, asked.blade.cutting_length.span),
+        "the edge of the straight blade",
+    )
+    .help("use a longer blade")
+}
+
+fn slit_in_part(asked: &RoughRect, x: Length, bottom: Length, entry: Length) -> Diagnostic {
+    Diagnostic::new(
+        Code::Overcut,
+        format!(
+            "a slit at x {} mm down to z {} mm would enter the part or its allowance by {} mm",
+            mm(x),
+            mm(bottom),
+            mm(entry)
+        ),
+        asked.setup.head_span,
+        "a slit of this operation",
+    )
+    .help("use a thinner blade, or a smaller `standoff`")
+}
+
+fn no_columns(asked: &RoughRect, through: u32) -> Diagnostic {
+    Diagnostic::new(
+            Code::LimitsConflict,
+            format!("slits through {through} layers need columns that stay where they are, and `residual = shift` has none"),
+            place(asked, asked.through.span),
+            "through several layers",
+        )
+        .and(place(asked, asked.residual.span), "strips in other places in each layer")
+        .help("use `through = 1`, or another `residual`")
+}
+
+fn bounds(asked: &RoughRect, field: SizeField, least: Length, most: Length) -> Diagnostic {
+    let (name, bounds) = match field {
+        SizeField::Layer => ("layer", asked.limits.layer),
+        SizeField::Step => ("step", asked.limits.step),
+    };
+    Diagnostic::new(
+        Code::LimitsConflict,
+        format!(
+            "`{name}` is at least {} mm, and the blades do at most {} mm",
+            mm(least),
+            mm(most)
+        ),
+        limit_place(asked, bounds.least),
+        "this bound",
+    )
+    .help(format!("take a bound of at most {} mm", down(most)))
 }
 
 fn nothing(asked: &RoughRect) -> Diagnostic {
