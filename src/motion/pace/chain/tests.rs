@@ -254,6 +254,8 @@ proptest! {
 
     #[test]
     fn a_chain_takes_as_long_as_by_small_steps(shape in shapes(), machine in machines(), blend in 0.5..8.0_f64) {
+        // Of an arc shorter than that the joints at its ends round most, so that the axes follow another way.
+        let blend = blend.min(shape.lengths()[1] / 8.0);
         let (found, fine) = (total(&shape, machine, blend), integrated(&shape, machine, blend));
         // The octagon has 92 % of the circle at least, and acceleration counts for a part of the way only.
         prop_assert!(found >= fine * 0.99 && found <= fine * 1.06, "{found} {fine}");
