@@ -88,7 +88,7 @@ impl Forms {
 #[derive(Clone, Copy, Debug)]
 pub struct PushedBlade<'b> {
     pub blade: BladeRef<'b>,
-    /// How wide the strips are at most that it meets as a disc; none where that is not known.
+    /// How wide the strips are at most that it meets as a disc where what it meets is not measured; none where that is not known.
     pub strip: Option<Length>,
 }
 
@@ -122,7 +122,7 @@ impl MilledForces {
                     radius: disc.radius.value,
                     spin: disc.spin.value,
                 },
-                length: arc(disc.radius.value, blade.strip),
+                length: used.unwrap_or_else(|| arc(disc.radius.value, blade.strip)),
             }),
             BladeRef::Crusher(crusher) => {
                 let length = up_to(crusher.height.value);
@@ -222,8 +222,8 @@ fn speed(line: &LinearSegment) -> Speed {
     Speed::mm_per_s(line.length().to_mm() / line.duration().to_s())
 }
 
-/// How much of the rim of a disc is in the material at most: where a strip of this width lies at its side, and the front half where the
-/// width is not known, or more than the disc.
+/// How much of the rim of a disc is in the material at most where that is not measured: where a strip of this width lies at its side,
+/// and the front half where the width is not known, or more than the disc.
 fn arc(radius: Length, strip: Option<Length>) -> Length {
     let share = strip.map_or(2.0, |strip| strip.to_mm() / radius.to_mm());
     Length::mm(radius.to_mm() * libm::acos((1.0 - share).max(-1.0)))

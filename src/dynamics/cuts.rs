@@ -29,7 +29,7 @@ pub struct Known<'p> {
     pub model: &'p Model,
     pub reached: &'p ReachableProgram,
     pub rigs: &'p Rigs<'p>,
-    /// How much of their edges, or of the height of their teeth, blades use in cuts, in the program's order.
+    /// How much of their edges, of their rims, or of the height of their teeth, blades use in cuts, in the program's order.
     pub edges: &'p [UsedEdge],
     /// How far the tips of its operations are offset, operation by operation; none of those that are not compensated.
     pub compensations: &'p [Option<Compensation>],
@@ -389,7 +389,7 @@ pub(crate) fn cutting(segment: &Segment<'_>) -> Option<(OperationId, VNumber, Li
     Some((*operation, (*layer, *cut), segment.line()?))
 }
 
-/// How much edge an op uses, where that is measured.
+/// How much of its blade an op uses, where that is measured.
 fn used(edges: &[UsedEdge], op: OpId) -> Option<Length> {
     let place = edges.binary_search_by_key(&op, |used| used.op).ok()?;
     Some(edges.get(place)?.length)

@@ -10,6 +10,7 @@
 
 mod body;
 mod crack;
+mod engaged;
 mod guard;
 mod judge;
 mod pass;

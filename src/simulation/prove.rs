@@ -191,7 +191,7 @@ pub struct Replay {
     pub findings: Findings,
     /// The longest edge that any cut uses.
     pub longest_edge: Length,
-    /// How much edge cuts use, in the program's order, as far as it is measured cut by cut.
+    /// How much edge or rim cuts use, in the program's order, as far as it is measured cut by cut.
     pub edges: Vec<UsedEdge>,
     /// How far the tips of its operations are offset, operation by operation; none of those that are not compensated.
     pub compensations: Vec<Option<Compensation>>,
@@ -628,9 +628,10 @@ impl<'p> Player<'p> {
             return;
         }
         let piece = Piece::new(course, blade, self.program.stock);
-        let used = piece.edge_used(self.section.surface());
-        self.note_edge(used, finding);
-        self.measure_edge(used);
+        if let Some(used) = piece.edge_used(self.section.surface()) {
+            self.note_edge(used, finding);
+            self.measure_edge(used);
+        }
         let Some(bound) = self.bounds.get(usize::from(operation.0)) else {
             return;
         };

@@ -32,7 +32,7 @@ pub struct Report {
     pub mean_scallop: Length,
     /// The longest edge that any cut uses.
     pub longest_edge: Length,
-    /// How much edge cuts use, in the program's order, as far as it is measured cut by cut.
+    /// How much edge or rim cuts use, in the program's order, as far as it is measured cut by cut.
     pub edges: Vec<UsedEdge>,
     /// How far the tips of its operations are offset, operation by operation; none of those that are not compensated.
     pub compensations: Vec<Option<Compensation>>,

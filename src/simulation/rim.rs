@@ -137,6 +137,16 @@ impl Rim {
         self.centre.z + self.slope * off - self.sag * square.max(0.0).sqrt()
     }
 
+    /// How far one turns about the axis along its leading half from one x to another.
+    pub(crate) fn turned(&self, stretch: [f64; 2]) -> Angle {
+        // Seen from y, a circle is an ellipse whose points still lie over x as the cosine of their turn has it.
+        let [from, to] = stretch.map(|x| {
+            let share = (x - self.centre.x) / self.half;
+            libm::acos(share.clamp(-1.0, 1.0))
+        });
+        Angle::rad((from - to).max(0.0))
+    }
+
     /// Its lowest point.
     #[must_use]
     pub fn lowest(&self) -> Point2 {

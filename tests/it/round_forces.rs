@@ -363,17 +363,16 @@ fn the_figures_of_teeth_are_nearly_reached() {
     assert!(farthest > 0.6 * most, "{farthest} {most}");
 }
 
-/// Bits of the rim, of a stretch of it as long as the widest strip makes it.
-fn rim(place: &Place, from: f64, share: f64, parts: [f64; 3]) -> Vec<Bit> {
-    let arc = libm::acos(1.0 - 40.0 / DISC);
+/// Bits of the rim, on an arc of it.
+fn rim(place: &Place, from: f64, arc: f64, parts: [f64; 3]) -> Vec<Bit> {
     let slices = 40;
     let left = place.left();
     let [drag, axial, radial] = [0, 1, 2].map(|part| RIM[part] * (1.0 + SPREAD * parts[part]));
     (0..slices)
         .map(|slice| {
-            let turned = from + share * arc * (f64::from(slice) + 0.5) / f64::from(slices);
+            let turned = from + arc * (f64::from(slice) + 0.5) / f64::from(slices);
             let (sine, cosine) = libm::sincos(turned);
-            let length = DISC * share * arc / f64::from(slices);
+            let length = DISC * arc / f64::from(slices);
             Bit {
                 place: (place.way * cosine + left * sine) * DISC,
                 force: (-place.way * drag + place.up * axial + left * radial * parts[2].signum()) * length,
@@ -409,7 +408,8 @@ fn no_rim_asks_for_more_torque_than_the_figures() {
     runner
         .run(&drawn, |(at, from, share, parts)| {
             let place = places[at.index(places.len())];
-            let pushed = pushed(rigs.with(place.tool), &place, &rim(&place, from, share, parts));
+            let arc = share * depth(&outcome, place.op) / DISC;
+            let pushed = pushed(rigs.with(place.tool), &place, &rim(&place, from, arc, parts));
             for (number, axis) in torques.axes.iter().enumerate() {
                 let needed = (place.without[number] - pushed[number] / 1000.0).abs();
                 prop_assert!(needed <= axis.most + 1e-6, "{needed} {axis:?}");

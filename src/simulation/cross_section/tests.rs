@@ -3,6 +3,7 @@
 mod arrangement;
 mod bodies;
 mod columns;
+mod engaged;
 mod skin;
 mod strips;
 

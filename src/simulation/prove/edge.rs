@@ -1,11 +1,12 @@
-//! How much of its edge each cut uses, and whether the blade has as much.
+//! How much of its edge or its rim each cut uses, and whether the blade has as much.
 
 use super::findings::is_longer;
 use super::{Cut, CutFault, Finding, Player, note};
 use vcutc_backend_api::ir::OpId;
 use vcutc_backend_api::units::Length;
 
-/// How much of a blade is in the material at most while an op cuts, from the tip on: of its edge, or of the height of its teeth.
+/// How much of a blade is in the material at most while an op cuts: from the tip on of its edge, or of the height of its teeth, and
+/// anywhere of the rim of a disc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UsedEdge {
     pub op: OpId,
@@ -23,9 +24,14 @@ impl Player<'_> {
     /// Keeps how much edge the op uses that is played.
     pub(super) fn measure_edge(&mut self, used: f64) {
         self.longest_edge = self.longest_edge.max(used);
+        self.keep_engaged(Length::mm(used));
+    }
+
+    /// Keeps how much of its blade the op has in the material that is played.
+    pub(super) fn keep_engaged(&mut self, length: Length) {
         self.edges.push(UsedEdge {
             op: self.playing,
-            length: Length::mm(used),
+            length,
         });
     }
 

@@ -101,12 +101,10 @@ impl Piece {
         Some(Entry { at, depth: -gap })
     }
 
-    /// How much edge of a straight blade is in the work at most, in mm; infinite where an edge does not rise out of it. The section
-    /// is taken to be as high as it is anywhere over the blade.
-    pub(super) fn edge_used(&self, surface: &mut Surface) -> f64 {
-        let Some(straight) = self.straight else {
-            return 0.0;
-        };
+    /// How much edge of a straight blade is in the work at most, in mm; infinite where an edge does not rise out of it, and none of
+    /// other blades. The section is taken to be as high as it is anywhere over the blade.
+    pub(super) fn edge_used(&self, surface: &mut Surface) -> Option<f64> {
+        let straight = self.straight?;
         let mut used = 0.0_f64;
         let mut open = vec![(Span::WHOLE, MOST_HALVINGS)];
         while let Some((span, halvings)) = open.pop() {
@@ -122,7 +120,7 @@ impl Piece {
                 used = bound;
             }
         }
-        used
+        Some(used)
     }
 
     fn edge_on(&self, straight: Straight, stretch: &Stretch, surface: &mut Surface) -> f64 {

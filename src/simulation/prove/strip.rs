@@ -305,6 +305,8 @@ impl<'p> Player<'p> {
         if let Some((at, depth)) = entry {
             self.note_entry(at, depth, &finding);
         }
+        let engaged = self.section.engaged(&rim, through.disc.radius);
+        self.keep_engaged(engaged);
         let outcome = match through.passes {
             Some(Passes::Skin(skin)) => {
                 let part = self.guard(operation).map(|(guard, _)| guard);

@@ -77,7 +77,7 @@ proptest! {
             surface.release(Vee::even(Point2::new(x, z), 1.3));
         }
         let blade = blade(cutting_length, 1.0);
-        let used = Piece::new(sample.course(Length::ZERO), &blade, STOCK).edge_used(&mut surface);
+        let used = Piece::new(sample.course(Length::ZERO), &blade, STOCK).edge_used(&mut surface).unwrap();
         let corners: Vec<Point2> = surface.corners().collect();
         let (sine, cosine) = libm::sincos(blade.straight().unwrap().half_apex.to_rad());
         for share in (0..=300_u32).map(|i| f64::from(i) / 300.0) {
@@ -102,7 +102,7 @@ fn an_upright_blade_turns_on_a_flat_part() {
     let piece = Piece::new(sample.course(Length::ZERO), &blade(50.0, 1.0), STOCK);
     assert_eq!(piece.entry(&part), None);
     let mut surface = Surface::untouched(STOCK);
-    let used = piece.edge_used(&mut surface);
+    let used = piece.edge_used(&mut surface).unwrap();
     // 40 mm of height, along edges 7 deg off the upright.
     let expected = 40.0 / libm::cos(7.0_f64.to_radians());
     assert!((used - expected).abs() < 1e-9, "{used} {expected}");
