@@ -2,10 +2,11 @@
 //!
 //! Rows are those of `--emit joints`. Columns: `op`, `operation`, `layer`, `cut`, `motion` and `done` as there; then of each axis
 //! its weight, what it needs to move, and both together in Nm, as the controller counts; and the share of its limit, empty where
-//! none is known. Where the forces of a blade are known, there follow how much edge is in the material at most, the force on the blade in
-//! the work, and what each axis needs against it; where the stiffness of the arm is known, too, how far the flank is off along its normal
-//! at the tip and at the end of that edge, positive into the waste. All of that is by the numbers as they are stated, and empty where
-//! nothing is cut.
+//! none is known. Where the forces of a blade are known, there follow what of it is in the material (`edge`, `rim` or `teeth`) and how much
+//! at most, the force on the blade and its moment about the tip, both in the work, and what each axis needs against them; where the
+//! stiffness of the arm is known, too, how far the flank is off along its normal at the tip and at the end of what is in the material,
+//! positive into the waste. All of that is by the numbers as they are stated, and empty where nothing is cut. The moment is empty of a
+//! disc as well: at which places of its rim the force acts is not known.
 
 use super::joints::{HEADING, place};
 use std::io::{self, Write};
@@ -57,7 +58,13 @@ fn heading(places: &Places<'_>, out: &mut dyn Write) -> io::Result<()> {
         )?;
     }
     if places.have_forces() {
-        write!(out, ",edge_mm,force_x_n,force_y_n,force_z_n")?;
+        let axes_of = |name, unit| {
+            ["x", "y", "z"]
+                .map(|axis| format!(",{name}_{axis}_{unit}"))
+                .concat()
+        };
+        let (force, moment) = (axes_of("force", "n"), axes_of("moment", "nm"));
+        write!(out, ",engaged,engaged_mm{force}{moment}")?;
         for axis in axes {
             write!(out, ",{}_cutting_nm", axis.name)?;
         }
@@ -73,11 +80,22 @@ fn pushed(there: &Place, places: &Places<'_>, out: &mut dyn Write) -> io::Result
     let Some(pushed) = there.pushed else {
         let shifts = if places.have_shifts() { 2 } else { 0 };
         let axes = places.known().model.axes.len();
-        return write!(out, "{}", ",".repeat(4 + axes + shifts));
+        return write!(out, "{}", ",".repeat(8 + axes + shifts));
     };
-    write!(out, ",{:.3}", pushed.edge.to_mm())?;
-    for part in pushed.force.to_array().into_iter().chain(pushed.torques) {
+    write!(out, ",{},{:.3}", pushed.part.word(), pushed.engaged.to_mm())?;
+    for part in pushed.force.to_array() {
         write!(out, ",{:.3}", rounded(part, 1e3))?;
+    }
+    match pushed.moment {
+        Some(moment) => {
+            for part in moment.to_array() {
+                write!(out, ",{:.4}", rounded(part, 1e4))?;
+            }
+        }
+        None => write!(out, ",,,")?,
+    }
+    for torque in pushed.torques {
+        write!(out, ",{:.3}", rounded(torque, 1e3))?;
     }
     for shift in there.shift.iter().flat_map(|shift| [shift.tip, shift.end]) {
         write!(out, ",{:.5}", rounded(shift, 1e5))?;

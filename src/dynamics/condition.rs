@@ -53,7 +53,7 @@ pub(crate) fn hundredths<S: Serializer>(value: &f64, serializer: S) -> Result<S:
     serializer.serialize_f64(rounded(*value, 100.0))
 }
 
-fn thousandths<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+pub(crate) fn thousandths<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_f64(rounded(*value, 1000.0))
 }
 

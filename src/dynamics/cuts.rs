@@ -108,16 +108,22 @@ pub struct LargestForce {
     pub force: Force,
     pub parts: EdgeParts<Force>,
     /// How much of the blade is in the material, and what of it.
-    pub edge: Length,
+    pub engaged: Length,
     pub part: EngagedPart,
+    /// The largest moment about the tip on any blade, in Nm.
+    pub moment: f64,
 }
 
 /// What happens in a place of a cut, with forces as they are stated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InPlace {
-    pub edge: Length,
+    /// How much of the blade is in the material at most, and what of it.
+    pub engaged: Length,
+    pub part: EngagedPart,
     /// On the blade, in the work, in N.
     pub force: DVec3,
+    /// The moment about its tip, in the work, in Nm; none where it is not known at which places of a rim the force acts.
+    pub moment: Option<DVec3>,
     /// What it takes of the axes, in Nm.
     pub torques: [f64; JOINTS],
 }
@@ -228,8 +234,13 @@ impl<'p> Cuts<'p> {
                 axial: Force::n(parts.axial),
                 side: Force::n(parts.side),
             },
-            edge: cut.blade.length,
+            engaged: cut.blade.length,
             part: cut.blade.part(),
+            moment: self
+                .cuts
+                .values()
+                .map(|cut| cut.push.largest_moment())
+                .fold(0.0, f64::max),
         })
     }
 
@@ -265,8 +276,10 @@ impl<'p> Cuts<'p> {
         let hand_in_work = blade_in_work.rotation * cut.line.blade_in_hand.transpose();
         let torques = push.stated_torques(&self.columns_at(cut.tool, joints));
         Some(InPlace {
-            edge: cut.blade.length,
+            engaged: cut.blade.length,
+            part: cut.blade.part(),
             force: hand_in_work * push.stated(),
+            moment: push.stated_moment().map(|moment| hand_in_work * moment),
             torques: torques.map(|torque| -torque),
         })
     }

@@ -45,8 +45,18 @@ pub(crate) struct Milled {
     pub(crate) any: [Interval; 3],
     /// The mean over a turn with all of its front in the material.
     pub(crate) mean: [f64; 3],
+    /// The means, likewise, of what turns the tool for each length of its radius: against its motion about its axis, and along its
+    /// axis, ahead of it.
+    pub(crate) mean_turning: [f64; 2],
     /// How large the forces are together that act off the axis and turn the tool: against its motion, and along its axis.
     pub(crate) turning: f64,
+}
+
+/// The means over a turn of a force on a tooth, in N.
+struct Means {
+    all: f64,
+    /// Times the sine of how far the tooth has turned.
+    across: f64,
 }
 
 impl Teeth {
@@ -107,23 +117,35 @@ impl Teeth {
             depth,
             any: [between(back, ahead), between(right, left), between(down, up)],
             mean: self.mean(chip, height),
+            mean_turning: self.mean_turning(chip, height),
             turning,
         }
     }
 
     /// The mean over a turn, of teeth that are in the material for half of it.
     fn mean(&self, chip: f64, depth: f64) -> [f64; 3] {
+        let [tangential, radial, axial] = self.means(chip, depth);
+        [-radial.across, tangential.across, axial.all]
+    }
+
+    /// The same of what turns the tool, for each length of its radius.
+    fn mean_turning(&self, chip: f64, depth: f64) -> [f64; 2] {
+        let [tangential, _, axial] = self.means(chip, depth);
+        [tangential.all, axial.across]
+    }
+
+    /// The means over a turn of each force on a tooth.
+    fn means(&self, chip: f64, depth: f64) -> [Means; 3] {
         // Half of a turn has these integrals of `sin^2 t` and of `sin t`; those with an odd power of `cos t` are zero.
         let (squares, sines) = (0.5 * PI, 2.0);
-        let [tangential, radial, axial] = array::from_fn(|part| (self.cutting[part] * chip, self.edge[part]));
         let per_turn = depth * f64::from(self.count) / TAU;
-        let across = |(cutting, edge): (f64, f64)| per_turn * (cutting * squares + edge * sines);
-        let (cutting, edge) = axial;
-        [
-            -across(radial),
-            across(tangential),
-            per_turn * (cutting * sines + edge * PI),
-        ]
+        array::from_fn(|part| {
+            let (cutting, edge) = (self.cutting[part] * chip, self.edge[part]);
+            Means {
+                all: per_turn * (cutting * sines + edge * PI),
+                across: per_turn * (cutting * squares + edge * sines),
+            }
+        })
     }
 
     /// The most that each quantity comes to on each mm of the axis while a tooth is in each cell of the way to the next one, together with

@@ -57,8 +57,24 @@ pub(crate) struct Push {
     side: Force,
     /// How far the way of the tip may be off its direction, in rad.
     turns: f64,
-    /// The largest moment about any axis that comes on top, in Nm.
-    moment: f64,
+    moment: Moment,
+}
+
+/// What turns a blade about its tip on top of the forces along its edge, in Nm.
+#[derive(Clone, Copy, Debug)]
+struct Moment {
+    /// The largest one, about any axis.
+    most: f64,
+    /// As the forces were measured, seen from the hand; none where it is not known at which places of a rim they act.
+    stated: Option<Vector<f64>>,
+}
+
+impl Moment {
+    /// All forces act on the edge.
+    const NONE: Self = Self {
+        most: 0.0,
+        stated: Some([0.0; 3]),
+    };
 }
 
 /// How a force is spread along the edge.
@@ -174,7 +190,7 @@ impl Push {
             axial: force(-DVec3::Z, axial.to_n_per_mm(), forces.tip.axial.to_n()),
             side,
             turns: held.turns.to_rad(),
-            moment: 0.0,
+            moment: Moment::NONE,
         }
     }
 
@@ -187,6 +203,34 @@ impl Push {
         let part =
             |force: &Force| DVec3::from_array(force.direction) * (force.edge.stated + force.tip.stated);
         self.forces().into_iter().map(part).sum()
+    }
+
+    /// The moment about the tip of the force as it was measured, seen from the hand, in Nm; none where it is not known at which places
+    /// of a rim it acts.
+    pub(crate) fn stated_moment(&self) -> Option<DVec3> {
+        let on_edge = |force: &Force| DVec3::from_array(force.direction) * force.edge.stated;
+        let edge: DVec3 = self.forces().into_iter().map(on_edge).sum();
+        let middle = DVec3::from_array(self.along_edge) * (0.5 * self.edge);
+        Some(middle.cross(edge) + DVec3::from_array(self.moment.stated?))
+    }
+
+    /// The largest moment about the tip that it may have, in Nm.
+    pub(crate) fn largest_moment(&self) -> f64 {
+        // Of a force that is the same all along an edge half of its length is the lever; else all of it may be at the end.
+        let lever = match self.spread_along {
+            SpreadAlong::Evenly => 0.5 * self.edge,
+            SpreadAlong::Anyhow => self.edge,
+        };
+        let arm = DVec3::from_array(self.along_edge) * lever;
+        let on_edge = |parts: [f64; 3]| {
+            let each = parts.into_iter().zip(self.forces());
+            let each = each.map(|(part, force)| DVec3::from_array(force.direction) * part);
+            arm.cross(each.sum()).length()
+        };
+        let moments = corners(self.forces().map(|force| force.edge.any())).map(on_edge);
+        // Where the directions of the forces are off, so is the moment.
+        let off = self.turns * lever * self.largest_size();
+        moments.fold(0.0, f64::max) + off + self.moment.most
     }
 
     /// The largest parts that it may have, in N: drag, axial and side.
@@ -244,6 +288,11 @@ impl Push {
             let edge = self.torques(columns, force.direction, 0.5 * self.edge);
             for (axis, torque) in all.iter_mut().enumerate() {
                 *torque += force.tip.stated * tip[axis] + force.edge.stated * edge[axis];
+            }
+        }
+        if let Some(moment) = self.moment.stated {
+            for (torque, column) in all.iter_mut().zip(columns) {
+                *torque += column.of_moment(moment);
             }
         }
         all
@@ -359,7 +408,7 @@ impl Push {
                         pushed.fold(Interval::ZERO, |sum, next| sum + next)
                     }
                 };
-                let edge = edge + Interval::around(0.0, self.moment * columns[axis].turning(view));
+                let edge = edge + Interval::around(0.0, self.moment.most * columns[axis].turning(view));
                 // In the air nothing pushes.
                 Interval::ZERO.hull(tip).hull(edge).hull(tip + edge)
             })
@@ -400,7 +449,7 @@ impl Push {
         normal: &[Along; JOINTS],
         springs: &Springs,
     ) -> [Interval; 2] {
-        if self.moment == 0.0 {
+        if self.moment.most == 0.0 {
             return [Interval::ZERO; 2];
         }
         let shifts = |view: fn(Along) -> Interval, turns: f64| {
@@ -411,7 +460,7 @@ impl Push {
                 let most = view(*normal).magnitude() + off;
                 spring.any().magnitude() * most * column.turning(view)
             });
-            Interval::around(0.0, self.moment * yields.sum::<f64>())
+            Interval::around(0.0, self.moment.most * yields.sum::<f64>())
         };
         [shifts(Along::middle, 0.0), shifts(Along::value, self.turns)]
     }

@@ -360,7 +360,7 @@ fn a_place_of_a_cut_has_the_shift_of_forces_as_stated() {
                 to: 1.0,
                 up,
             };
-            shift(&rig, &joints, way, there.edge.to_mm(), drawn)
+            shift(&rig, &joints, way, there.engaged.to_mm(), drawn)
         };
         let tolerance = 1e-8;
         assert!(

@@ -8,10 +8,12 @@ use core::f64::consts::{PI, TAU};
 use glam::DVec3;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
+use std::collections::BTreeMap;
 use vcutc::diagnostics::{Code, Severity};
 use vcutc::driver::Outcome;
-use vcutc::driver::dynamics::cut_by_cut;
+use vcutc::driver::dynamics::{cut_by_cut, in_places};
 use vcutc::dynamics::arms::Arms;
+use vcutc::dynamics::blade::EngagedPart;
 use vcutc::dynamics::cuts::Face;
 use vcutc::dynamics::drives::Drives;
 use vcutc::dynamics::figures::{Cutting, LookedAt};
@@ -318,6 +320,94 @@ fn all_teeth_are_within_the_figures(outcome: &Outcome) {
         .unwrap();
 }
 
+/// A moment as pairs of forces.
+fn pairs(moment: DVec3) -> Vec<Bit> {
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let pair = |axis: usize| {
+        let (place, force) = (axes[(axis + 1) % 3], axes[(axis + 2) % 3] * moment[axis]);
+        let opposite = Bit {
+            place: DVec3::ZERO,
+            force: -force,
+        };
+        [Bit { place, force }, opposite]
+    };
+    (0..3).flat_map(pair).collect()
+}
+
+/// In places the force, its moment about the tip and what the axes need are the means over a turn of teeth in space.
+#[test]
+fn forces_and_moments_in_places_are_the_means_of_teeth_in_space() {
+    let outcome = compiled(&pocket(OF_TEETH, ""));
+    let compiled = outcome.compiled.as_ref().unwrap();
+    let reached = compiled.program.reached().unwrap();
+    let rigs = rigs(&outcome);
+    let oracle: BTreeMap<(u32, u64), Place> = places(&outcome)
+        .into_iter()
+        .map(|place| ((place.op.0, place.joints[0].to_bits()), place))
+        .collect();
+    let (mut seen, mut largest) = (0, 0.0_f64);
+    let spacing = Spacing {
+        way: 9.0,
+        ..Spacing::CLOSE
+    };
+    in_places(outcome.job.as_ref().unwrap(), reached, &compiled.report, |all| {
+        all.along(&spacing, |there| {
+            let key = (there.sample.op.0, there.sample.joints[0].to_bits());
+            let (Some(found), Some(place)) = (there.pushed, oracle.get(&key)) else {
+                return Ok(());
+            };
+            assert_eq!(found.part, EngagedPart::Teeth);
+            if place.way.z.abs() > 1e-9 {
+                return Ok(()); // Down at another feed, with other chips.
+            }
+            let depth = found.engaged.to_mm();
+            let turns = 180;
+            let (mut force, mut moment) = (DVec3::ZERO, DVec3::ZERO);
+            for turn in 0..turns {
+                let drawn = Drawn {
+                    angle: (f64::from(turn) + 0.5) * TAU / f64::from(turns),
+                    engaged: [0.0, PI],
+                    deep: 1.0,
+                    thin: 1.0,
+                    side: 1.0,
+                    spread: 0.0,
+                };
+                for bit in teeth(place, depth, drawn) {
+                    force += bit.force / f64::from(turns);
+                    moment += bit.place.cross(bit.force) / f64::from(turns);
+                }
+            }
+            let about = found.moment.unwrap() * 1000.0;
+            assert!(
+                (found.force - force).length() < 0.02 * force.length(),
+                "{force} {found:?}"
+            );
+            assert!(
+                (about - moment).length() < 0.02 * moment.length(),
+                "{moment} {found:?}"
+            );
+            let mut bits = pairs(about);
+            bits.push(Bit {
+                place: DVec3::ZERO,
+                force: found.force,
+            });
+            let axes = pushed(rigs.with(place.tool), place, &bits);
+            for (torque, of) in found.torques.iter().zip(axes) {
+                assert!((torque + of / 1000.0).abs() < 1e-6, "{torque} {of}");
+            }
+            (seen, largest) = (seen + 1, largest.max(about.dot(place.up)));
+            Ok::<(), core::convert::Infallible>(())
+        })
+    })
+    .unwrap()
+    .unwrap();
+    assert!(seen > 40, "{seen}");
+    // Against the turning of the tool.
+    assert!(largest > 100.0, "{largest}");
+    let moment = compiled.dynamics.deviation.as_ref().unwrap().force.moment;
+    assert!(moment * 1000.0 > largest, "{moment} {largest}");
+}
+
 /// In the worst place, with soft springs, the whole layer and the thickest chips: by whatever half of the front.
 #[test]
 fn the_figures_of_teeth_are_nearly_reached() {
@@ -457,7 +547,7 @@ fn thinner_layers_lower_chips_and_more_teeth_push_less() {
     let force = |files: &Files| {
         let outcome = compiled(files);
         let figures = outcome.compiled.unwrap().dynamics.deviation.unwrap();
-        (figures.force.force, figures.force.edge)
+        (figures.force.force, figures.force.engaged)
     };
     let (whole, deep) = force(&pocket(OF_TEETH, ""));
     assert!((deep - 11.0).abs() < 1e-9, "{deep}");
@@ -540,7 +630,14 @@ fn a_pocket_before_the_roughing_has_teeth_as_deep_as_the_stock_stands() {
         let text = text.replace("clear pocket", &format!("{before}clear pocket"));
         let text = text.replace("machine cell", &format!("{after}machine cell"));
         let outcome = compiled(&files(text));
-        outcome.compiled.unwrap().dynamics.deviation.unwrap().force.edge
+        outcome
+            .compiled
+            .unwrap()
+            .dynamics
+            .deviation
+            .unwrap()
+            .force
+            .engaged
     };
     // 22 mm in two layers; roughed before, the pocket is less deep.
     assert!((with("", rough) - 11.0).abs() < 1e-9);

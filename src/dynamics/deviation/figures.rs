@@ -3,7 +3,7 @@
 use super::{Deviations, Extreme, Unknown};
 use crate::arms::Arms;
 use crate::blade::{EngagedPart, PushedBlade};
-use crate::condition::{Condition, hundredths};
+use crate::condition::{Condition, hundredths, thousandths};
 use crate::cuts::{Cuts, Known, LargestForce};
 use crate::figures::word;
 use serde::{Serialize, Serializer};
@@ -47,9 +47,12 @@ pub struct ForceFigure {
     pub side: f64,
     /// How much of the blade is in the material, in mm.
     #[serde(serialize_with = "hundredths")]
-    pub edge: f64,
+    pub engaged: f64,
     /// What of it that is.
     pub part: EngagedPart,
+    /// The largest moment about the tip of any blade, in Nm.
+    #[serde(serialize_with = "thousandths")]
+    pub moment: f64,
     pub at: PlaceFigure,
 }
 
@@ -334,7 +337,8 @@ fn force(known: Known<'_>, largest: LargestForce) -> ForceFigure {
         drag: largest.parts.drag.to_n(),
         axial: largest.parts.axial.to_n(),
         side: largest.parts.side.to_n(),
-        edge: largest.edge.to_mm(),
+        engaged: largest.engaged.to_mm(),
+        moment: largest.moment,
         part: largest.part,
         at: place(known, largest.op),
     }
@@ -406,7 +410,7 @@ impl ForceFigure {
         format!(
             "{force} N at most (parts: {along} up to {drag}, axial {axial}, {across} {side}) at {}, on {} mm of {}",
             self.at.words,
-            show((self.edge * 10.0).round() / 10.0),
+            show((self.engaged * 10.0).round() / 10.0),
             self.part.word(),
         )
     }

@@ -3,7 +3,7 @@
 //! Their forces act away from the axis, so they also turn the blade about its tip: by no more than their size times the radius, about
 //! whatever axis.
 
-use super::{Amount, Force, Posture, Push, Sides, SpreadAlong};
+use super::{Amount, Force, Moment, Posture, Push, Sides, SpreadAlong};
 use crate::milling::Milled;
 use glam::DVec3;
 use vcutc_backend_api::units::Length;
@@ -58,11 +58,15 @@ impl Push {
             axial: acting(up, axial),
             side: acting(left, radial.either_way()),
             turns: held.turns.to_rad(),
-            moment: 0.0,
+            moment: Moment::NONE,
         };
         let size: f64 = push.forces().into_iter().map(Force::most).sum();
         Some(Self {
-            moment: size * radius.to_mm() / MILLIMETRES,
+            // At which places of the rim it acts is not known.
+            moment: Moment {
+                most: size * radius.to_mm() / MILLIMETRES,
+                stated: None,
+            },
             ..push
         })
     }
@@ -75,17 +79,21 @@ impl Push {
     pub(crate) fn on_teeth(milled: &Milled, spread: f64, radius: Length, held: &Posture) -> Self {
         let [mut along, mut across, axial] = milled.any;
         let [mut mean_along, mut mean_across, mean_axial] = milled.mean;
+        let [about_the_axis, mut tilting] = milled.mean_turning;
         let across_the_axis = Directions::of(held).map(Directions::across_the_axis);
         let Directions { way, up, left } = across_the_axis.unwrap_or_else(|| {
             let most = libm::hypot(along.magnitude(), across.magnitude());
             [along, across] = [Interval::around(0.0, most); 2];
-            [mean_along, mean_across] = [0.0; 2];
+            [mean_along, mean_across, tilting] = [0.0; 3];
             let [way, left, up] = [DVec3::X, -DVec3::Y, -DVec3::Z];
             Directions { way, up, left }
         });
         let acting = |direction: DVec3, any: Interval, mean: f64| {
             Force::on_edge(held, direction, Amount::within(any.scaled(1.0 + spread), mean))
         };
+        // Against the turning of the tool, and about the left by forces along the axis in front of it.
+        let lever = radius.to_mm() / MILLIMETRES;
+        let stated = up * (about_the_axis * lever) - left * (tilting * lever);
         Self {
             edge: milled.depth.to_mm() / MILLIMETRES,
             along_edge: seen(held, up),
@@ -96,7 +104,10 @@ impl Push {
             axial: acting(up, axial.either_way(), mean_axial),
             side: acting(left, across.either_way(), mean_across),
             turns: held.turns.to_rad(),
-            moment: (1.0 + spread) * milled.turning * radius.to_mm() / MILLIMETRES,
+            moment: Moment {
+                most: (1.0 + spread) * milled.turning * lever,
+                stated: Some(seen(held, stated)),
+            },
         }
     }
 }
