@@ -9,6 +9,7 @@ use vcutc_diagnostics::{Code, Diagnostic, Edit, Fix};
 pub(super) fn find(bad: &Bad<'_>, fault: &Fault<'_>) -> Option<Diagnostic> {
     let found = fault.found?;
     numbers(bad, fault, found)
+        .or_else(|| parted_unit(bad, fault, found))
         .or_else(|| decimal_comma_before(bad, found))
         .or_else(|| marks(bad, fault, found))
         .or_else(|| characters(bad, found))
@@ -66,6 +67,25 @@ fn numbers(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> Option<Diagnostic>
         )),
         _ => None,
     }
+}
+
+/// Units of inertia are one word, however many others write.
+const PARTED: [(&str, &str); 2] = [("m2", "kgm2"), ("mm2", "kgmm2")];
+
+/// A unit in two words.
+fn parted_unit(bad: &Bad<'_>, fault: &Fault<'_>, found: Token) -> Option<Diagnostic> {
+    let mass = fault.before.filter(|before| bad.token(*before) == "kg")?;
+    let (_, unit) = PARTED.iter().find(|(second, _)| *second == bad.token(found))?;
+    let span = bad.span(mass.start..found.end);
+    Some(
+        Diagnostic::new(
+            Code::UnexpectedText,
+            format!("a unit in two words, `{}`", bad.slice(mass.start..found.end)),
+            span,
+            "this unit is one word",
+        )
+        .fix(format!("write `{unit}`"), span, *unit),
+    )
 }
 
 /// A value too many in brackets that hold `60,5 mm`, which reads as two.

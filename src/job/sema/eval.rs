@@ -34,6 +34,9 @@ impl Scope<'_> {
         typical: Option<&str>,
         reports: &mut Reports,
     ) -> Checked<f64> {
+        if let Some(unit) = unit_of(expr).filter(|unit| units::quantity(1.0, &unit.node).is_none()) {
+            return Err(reports.push(unknown_unit(unit, Some(wanted))));
+        }
         let found = self.evaluate(expr, reports)?;
         if found.dimension == wanted {
             return Ok(found.value);
@@ -65,7 +68,7 @@ impl Scope<'_> {
             Expr::Number {
                 value,
                 unit: Some(unit),
-            } => units::quantity(*value, &unit.node).ok_or_else(|| reports.push(unknown_unit(unit)))?,
+            } => units::quantity(*value, &unit.node).ok_or_else(|| reports.push(unknown_unit(unit, None)))?,
             Expr::Name(name) => return self.name(name, expr.span, reports),
             Expr::Call { function, arguments } => {
                 functions::call(self, expr.span, function, arguments, depth, reports)?
@@ -291,14 +294,30 @@ fn whole_exponent(value: f64) -> Option<i8> {
     fits.then_some(value as i8)
 }
 
-fn unknown_unit(unit: &Spanned<String>) -> Diagnostic {
+/// The unit of a number that is all of an expression.
+fn unit_of(expr: &Spanned<Expr>) -> Option<&Spanned<String>> {
+    let number = match &expr.node {
+        Expr::Negate(inner) => &inner.node,
+        number => number,
+    };
+    match number {
+        Expr::Number { unit, .. } => unit.as_ref(),
+        _ => None,
+    }
+}
+
+/// The diagnostic for a unit that the language lacks; `wanted` is what the value has to be, where that is known.
+fn unknown_unit(unit: &Spanned<String>, wanted: Option<Dimension>) -> Diagnostic {
     let diagnostic = Diagnostic::new(
         Code::UnknownUnit,
         format!("there is no unit `{}`", unit.node),
         unit.span,
         "not a unit of the language",
     );
-    let meant = units::meant(&unit.node);
+    let meant = match wanted {
+        Some(wanted) => units::meant_for(&unit.node, wanted),
+        None => units::meant(&unit.node),
+    };
     let near: Vec<&str> = meant.iter().map(String::as_str).collect();
     let diagnostic = did_you_mean(diagnostic, unit.span, &near);
     let diagnostic = match units::conversion(&unit.node) {

@@ -39,7 +39,7 @@ impl Mismatch<'_> {
             label,
         );
         if is_literal {
-            return offer_units(diagnostic, self.expr, self.wanted);
+            return self.of_number(diagnostic, self.expr);
         }
         match scope.let_named_by(self.expr) {
             Some(by) => self.through_name(diagnostic, by),
@@ -56,13 +56,27 @@ impl Mismatch<'_> {
         );
         if by.original.is_none() {
             return match literal(by.value) {
-                Some(_) => offer_units(diagnostic, by.value, self.wanted),
+                Some(_) => self.of_number(diagnostic, by.value),
                 None => self.of_expression(diagnostic),
             };
         }
         let unit = self.wanted.unit();
         let number = literal(by.value).map_or(self.found.value, |literal| literal.value);
         diagnostic.help(format!("give it as `--set \"{name}={number} {unit}\"`"))
+    }
+
+    /// The value is a number as it is written: its unit has to change.
+    fn of_number(&self, diagnostic: Diagnostic, expr: &Spanned<Expr>) -> Diagnostic {
+        let is_share =
+            self.wanted == Dimension::PURE && self.typical.is_some_and(|typical| typical.ends_with('%'));
+        match literal(expr) {
+            // What is stated in percent mostly cannot be as large as the number alone.
+            Some(Literal {
+                value,
+                unit: Some(unit),
+            }) if is_share => diagnostic.fix(format!("write `{value} %`"), unit.span, "%"),
+            _ => offer_units(diagnostic, expr, self.wanted),
+        }
     }
 
     /// The value is a calculation, which only its author can correct.

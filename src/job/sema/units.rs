@@ -179,6 +179,13 @@ const AMBIGUOUS: &[(&str, [&str; 2])] = &[
 /// Units that the language lacks, and how they are written in those it has.
 const CONVERSIONS: &[(&str, &str)] = &[
     ("km", "1 km is 1000 m"),
+    ("m2", "1 m2 is 1000000 mm2"),
+    ("cm2", "1 cm2 is 100 mm2"),
+    ("N/m2", "1000000 N/m2 are 1 N/mm2"),
+    ("N/cm2", "100 N/cm2 are 1 N/mm2"),
+    ("Pa", "1000000 Pa are 1 N/mm2"),
+    ("kPa", "1000 kPa are 1 N/mm2"),
+    ("GPa", "1 GPa is 1000 N/mm2"),
     ("km/h", "1 km/h is 1000 m/h, which is 277.8 mm/s"),
     ("gon", "1 gon is 0.9 deg"),
     ("mil", "1 mil is 0.0254 mm"),
@@ -207,6 +214,13 @@ fn meant_simple(name: &str) -> Vec<&'static str> {
         return Vec::new();
     }
     vcutc_diagnostics::suggest::nearest(name, UNITS.iter().map(|unit| unit.name))
+}
+
+/// Those of [`meant`] that a value of a dimension has.
+pub(super) fn meant_for(name: &str, wanted: Dimension) -> Vec<String> {
+    let mut near = meant(name);
+    near.retain(|unit| quantity(1.0, unit).is_some_and(|one| one.dimension == wanted));
+    near
 }
 
 /// Whether a word is a unit.
@@ -264,5 +278,9 @@ mod tests {
         assert_eq!(meant("Grad/s"), ["deg/s", "rad/s"]);
         assert_eq!(meant("RPM"), ["rev/min"]);
         assert!(meant("gon").is_empty() && conversion("Gon").is_some());
+        // A square metre is not the metre, nor a square millimetre, that its name is near.
+        assert!(meant("N/m2").is_empty() && conversion("N/m2").is_some());
+        assert!(meant_for("Nm", Dimension::FORCE).iter().all(|unit| unit == "N"));
+        assert_eq!(meant_for("degs", Dimension::ANGLE), ["deg"]);
     }
 }
