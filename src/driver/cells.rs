@@ -1,12 +1,11 @@
 //! Whether the cells of the core meet a mode of the arm, in words.
 
 use crate::Compiled;
-use crate::dynamics::{carried, carrying};
 use crate::summary::row;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::{rounded, show};
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_dynamics::modes::cells::{Cells, cells};
+use vcutc_dynamics::modes::cells::Cells;
 use vcutc_dynamics::modes::meeting::Met;
 use vcutc_job::{CheckedJob, Sourced};
 use vcutc_motion::describe::site_words;
@@ -17,11 +16,7 @@ pub(crate) fn compare(job: &CheckedJob, compiled: &mut Compiled) -> Vec<Diagnost
     let Some(size) = job.cell_size else {
         return Vec::new();
     };
-    let found = carried(job, compiled).and_then(|(machine, reached)| {
-        carrying(machine, reached, Some(&compiled.report), |known, arms| {
-            cells(known, arms.ok()?, size.value)
-        })?
-    });
+    let found = compiled.dynamics.cells.take();
     let warned = found.iter().flatten();
     let warned = warned
         .filter_map(|cells| warning(job, compiled, size, cells))

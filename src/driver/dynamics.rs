@@ -17,7 +17,10 @@ use vcutc_dynamics::deviation::figures::{Asked, DeviationFigures, millimetres};
 use vcutc_dynamics::deviation::verdict::Needs;
 use vcutc_dynamics::deviation::{self, verdict};
 use vcutc_dynamics::figures::{Pushing, TorqueFigures};
+use vcutc_dynamics::modes::cells::Cells;
 use vcutc_dynamics::modes::figures::ModeFigures;
+use vcutc_dynamics::modes::swings::Swings;
+use vcutc_dynamics::modes::teeth::Teeth;
 use vcutc_dynamics::places::Places;
 use vcutc_dynamics::verdict::{above_limit, is_within_limits, not_checked, relief};
 use vcutc_job::{BladeRef, CheckedJob, Gravity, Machine, Operation};
@@ -39,13 +42,17 @@ pub struct Dynamics {
     pub deviation: Option<DeviationFigures>,
     /// How its arm swings by itself, where that is known.
     pub modes: Option<ModeFigures>,
+    /// How the cells of the core meet that, where both are known.
+    pub(crate) cells: Option<Vec<Cells>>,
+    /// How the teeth of crushers do.
+    pub(crate) teeth: Vec<Teeth>,
 }
 
 /// What was found of the torques and the deviations of a program, or why they are not known.
 struct Found {
     torques: Result<TorqueFigures, Unknown>,
     deviation: Result<DeviationFigures, deviation::Unknown>,
-    modes: Option<ModeFigures>,
+    swings: Option<Swings>,
 }
 
 /// The torques of a program, and how far forces push its cuts off.
@@ -53,25 +60,37 @@ fn found(job: &CheckedJob, machine: &Machine, reached: &Reached, report: &Report
     let nothing = Found {
         torques: Err(Unknown::Masses),
         deviation: Err(deviation::Unknown::ClosedForm),
-        modes: None,
+        swings: None,
     };
+    let blades = pushed_blades(job);
+    let cell_size = job.cell_size.map(|size| size.value);
     let found = cutting(job, machine, reached, report, |known, arms, cuts| Found {
         torques: torques(machine, known, arms, pushing(cuts)),
-        modes: arms.ok().and_then(|arms| ModeFigures::of(known, arms)),
-        deviation: cuts.and_then(|cuts| {
-            let limits = job.operations.iter();
-            let limits: Vec<_> = limits
-                .map(|operation| operation.deviation_limit().map(|limit| limit.value))
-                .collect();
-            let asked = Asked {
-                blades: &pushed_blades(job),
-                limits: &limits,
-                gravity: machine.gravity.map(|gravity| gravity.value),
-            };
-            DeviationFigures::of(cuts, arms.ok(), asked)
-        }),
+        swings: arms
+            .ok()
+            .and_then(|arms| Swings::of(known, arms, &blades, cell_size)),
+        deviation: cuts.and_then(|cuts| deviation_of(job, machine, cuts, arms.ok())),
     });
     found.unwrap_or(nothing)
+}
+
+/// How far these cuts of a job are pushed off.
+fn deviation_of(
+    job: &CheckedJob,
+    machine: &Machine,
+    cuts: &Cuts<'_>,
+    arms: Option<&Arms>,
+) -> Result<DeviationFigures, deviation::Unknown> {
+    let limits = job.operations.iter();
+    let limits: Vec<_> = limits
+        .map(|operation| operation.deviation_limit().map(|limit| limit.value))
+        .collect();
+    let asked = Asked {
+        blades: &pushed_blades(job),
+        limits: &limits,
+        gravity: machine.gravity.map(|gravity| gravity.value),
+    };
+    DeviationFigures::of(cuts, arms, asked)
 }
 
 /// What comes of a program and of the arm with each of its blades; none of a program without a cell. An air cut has no report of cuts.
@@ -182,7 +201,10 @@ pub fn deviation(
     reached: &Reached,
     report: &Report,
 ) -> Result<DeviationFigures, deviation::Unknown> {
-    found(job, machine, reached, report).deviation
+    let found = cutting(job, machine, reached, report, |_, arms, cuts| {
+        deviation_of(job, machine, cuts?, arms.ok())
+    });
+    found.unwrap_or(Err(deviation::Unknown::ClosedForm))
 }
 
 /// What pushes the blades of these cuts.
@@ -266,7 +288,7 @@ pub(crate) fn add(job: &CheckedJob, compiled: &mut Compiled) -> Vec<Diagnostic> 
     let Found {
         torques,
         deviation,
-        modes,
+        swings,
     } = found(job, machine, reached, &compiled.report);
     let of_torques = not_checked(&torques, machine);
     let unchecked = unchecked(job, machine, &deviation).into_iter().chain(of_torques);
@@ -289,11 +311,15 @@ pub(crate) fn add(job: &CheckedJob, compiled: &mut Compiled) -> Vec<Diagnostic> 
     compiled
         .summary
         .extend(lines.iter().map(|(name, text)| row(name, text)));
-    compiled
-        .summary
-        .extend(modes.as_ref().map(|modes| row("modes", &modes.line())));
     compiled.dynamics.deviation = deviation.ok();
-    compiled.dynamics.modes = modes;
+    if let Some(swings) = swings {
+        let modes = &swings.figures;
+        let line = modes.as_ref().map(|modes| row("modes", &modes.line()));
+        compiled.summary.extend(line);
+        compiled.dynamics.modes = swings.figures;
+        compiled.dynamics.cells = swings.cells;
+        compiled.dynamics.teeth = swings.teeth;
+    }
     unchecked.collect()
 }
 

@@ -2,30 +2,18 @@
 
 use crate::Compiled;
 use crate::cells::{hertz, nearest};
-use crate::dynamics::{carried, carrying, pushed_blades};
 use crate::summary::row;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_dynamics::blade::PushedBlade;
 use vcutc_dynamics::modes::meeting::Met;
-use vcutc_dynamics::modes::teeth::{Teeth, teeth};
-use vcutc_job::{BladeRef, CheckedJob};
+use vcutc_dynamics::modes::teeth::Teeth;
+use vcutc_job::CheckedJob;
 use vcutc_motion::describe::site_words;
 
 /// Compares the teeth of crushers with the modes of the arm where both are known, adds the result to the summary, and returns what there
 /// is to warn of.
 pub(crate) fn compare(job: &CheckedJob, compiled: &mut Compiled) -> Vec<Diagnostic> {
-    let blades = pushed_blades(job);
-    let has_teeth = |pushed: &PushedBlade<'_>| matches!(pushed.blade, BladeRef::Crusher(_));
-    if !blades.values().any(has_teeth) {
-        return Vec::new();
-    }
-    let found = carried(job, compiled).and_then(|(machine, reached)| {
-        carrying(machine, reached, Some(&compiled.report), |known, arms| {
-            teeth(known, arms.ok()?, &blades)
-        })?
-    });
-    let found = found.unwrap_or_default();
+    let found = core::mem::take(&mut compiled.dynamics.teeth);
     let warned = found
         .iter()
         .filter_map(|teeth| warning(job, compiled, teeth))

@@ -8,6 +8,7 @@ pub mod cells;
 pub mod figures;
 pub mod meeting;
 mod samples;
+pub mod swings;
 pub mod teeth;
 
 use crate::arm::{Arm, State};

@@ -2,11 +2,9 @@
 //!
 //! An edge goes through the walls of cells one after the other, and each pushes it: `v / cell` times a second at a speed `v`.
 
-use super::meeting::{Across, Met, counting, met};
-use super::samples::along_cuts;
-use crate::arms::Arms;
-use crate::chain::Chain;
-use crate::cuts::{Known, cutting};
+use super::meeting::{Across, Met, met};
+use super::samples::Sample;
+use crate::cuts::cutting;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use vcutc_backend_api::ir::{Action, Blade, OperationId, Program};
@@ -25,39 +23,40 @@ pub struct Cells {
     pub met: Option<Met>,
 }
 
-/// Whether cells of this size meet modes, operation by operation. None where modes are not known; what cuts with no edge has none.
-#[must_use]
-pub fn cells(known: Known<'_>, arms: &Arms, size: Length) -> Option<Vec<Cells>> {
-    let chain = Chain::of(&known.model.mechanism)?;
-    let program = known.reached.program();
-    let mut found: BTreeMap<OperationId, (Speed, Vec<Across>)> = BTreeMap::new();
-    along_cuts(known, arms, |segment, joints, modes| {
-        let tool = segment.before.tool;
+/// What cuts with an edge, as far as it has been looked at, operation by operation.
+#[derive(Default)]
+pub(super) struct Edges(BTreeMap<OperationId, (Speed, Vec<Across>)>);
+
+impl Edges {
+    /// Takes the modes at a sample of a cut. What cuts with no edge is left out.
+    pub(super) fn take(&mut self, sample: &Sample<'_>) {
+        let Sample { known, segment, .. } = sample;
+        let program = known.reached.program();
         let is_straight = |blade: &Blade| blade.straight().is_some();
         let (Some((operation, ..)), Some(speed), true) = (
             cutting(segment),
             speed(program, segment),
-            program.blade(tool).is_some_and(is_straight),
+            program.blade(segment.before.tool).is_some_and(is_straight),
         ) else {
             return;
         };
-        let hand = chain.in_hand(known.rigs.with(tool).flange_in_blade.inverse());
-        let normal = (hand.rotation * DVec3::Y).to_array();
-        let columns = chain.columns(&chain.turns(joints), hand.position.to_array());
-        let along_normal = columns.map(|column| column.of_force(normal));
-        let (_, across) = found.entry(operation).or_insert((speed, Vec::new()));
-        across.extend(counting(segment.id, &modes, along_normal));
-    })?;
-    let each = found.into_iter().map(|(operation, (speed, across))| {
-        let (value, per) = (speed.to_mm_per_s(), size.to_mm());
-        Cells {
-            operation,
-            speed,
-            rate: value / per,
-            met: met(value, per, &across),
-        }
-    });
-    Some(each.collect())
+        let (_, across) = self.0.entry(operation).or_insert((speed, Vec::new()));
+        across.extend(sample.counting(DVec3::Y));
+    }
+
+    /// Whether cells of this size meet the modes.
+    pub(super) fn cells(self, size: Length) -> Vec<Cells> {
+        let each = self.0.into_iter().map(|(operation, (speed, across))| {
+            let (value, per) = (speed.to_mm_per_s(), size.to_mm());
+            Cells {
+                operation,
+                speed,
+                rate: value / per,
+                met: met(value, per, &across),
+            }
+        });
+        each.collect()
+    }
 }
 
 /// How fast a cut is.

@@ -1,11 +1,8 @@
 //! The modes of an arm over the cuts of a program, for people and for programs.
 
 use super::Mode;
-use super::samples::along_cuts;
-use crate::arms::Arms;
 use crate::chain::JOINTS;
 use crate::condition::hundredths;
-use crate::cuts::Known;
 use crate::figures::word;
 use crate::springs::Springs;
 use serde::{Serialize, Serializer};
@@ -72,31 +69,37 @@ fn thousandths<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Er
     serializer.serialize_f64(rounded(*value, 1e3))
 }
 
-impl ModeFigures {
-    /// Of an arm that cuts. None where masses or stiffness are not known, where a joint moves no mass, where
-    /// the masses are not bodies, and where nothing is cut.
-    #[must_use]
-    pub fn of(known: Known<'_>, arms: &Arms) -> Option<Self> {
-        let masses = known.model.masses.as_ref()?;
-        let elasticity = known.model.elasticity.as_ref()?;
+/// The modes over the cuts of a program, as far as they have been looked at.
+#[derive(Default)]
+pub(super) struct Ranges(Option<[Range; JOINTS]>);
+
+impl Ranges {
+    /// Takes the modes at a sample.
+    pub(super) fn take(&mut self, here: &[Mode; JOINTS]) {
+        let ranges = self.0.get_or_insert_with(|| here.map(Range::of));
+        for (range, mode) in ranges.iter_mut().zip(here) {
+            range.extend(*mode);
+        }
+    }
+
+    /// None where nothing is cut.
+    pub(super) fn figures(self, model: &Model) -> Option<ModeFigures> {
+        let masses = model.masses.as_ref()?;
+        let elasticity = model.elasticity.as_ref()?;
         let springs = Springs::from(elasticity);
-        let mut found: Option<[Range; JOINTS]> = None;
-        along_cuts(known, arms, |_, _, here| {
-            let ranges = found.get_or_insert(here.map(Range::of));
-            for (range, mode) in ranges.iter_mut().zip(here) {
-                range.extend(mode);
-            }
-        })?;
-        Some(Self {
-            modes: found?
+        let ranges = self.0?;
+        Some(ModeFigures {
+            modes: ranges
                 .iter()
-                .map(|range| figure(range, known.model, &springs))
+                .map(|range| figure(range, model, &springs))
                 .collect(),
             masses: masses.backing,
             stiffness: elasticity.backing,
         })
     }
+}
 
+impl ModeFigures {
     /// `the slowest at 7.7 to 9.9 Hz, 10.3 to 11.8 Hz, 20.2 to 25.4 Hz over the cuts, at samples; masses published, stiffness measured`.
     #[must_use]
     pub fn line(&self) -> String {
