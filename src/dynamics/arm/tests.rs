@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use vcutc_backend_api::geometry::Point3;
 use vcutc_backend_api::ir::Inertia;
 use vcutc_backend_api::units::Mass;
+use vcutc_diagnostics::source::FileId;
 use vcutc_geometry::number::Interval;
 use vcutc_machine::body::MILLIMETRES;
 use vcutc_machine::catalogue;
@@ -15,6 +16,7 @@ use vcutc_machine::kinematics::opw::{Coupling, Opw};
 use vcutc_machine::kinematics::pose::Pose;
 use vcutc_machine::kinematics::samples::irb2400;
 use vcutc_machine::kinematics::serial::SerialArm;
+use vcutc_machine::sheet;
 
 /// As the cases have it.
 const RISE: DVec3 = DVec3::new(0.0, 0.0, 9.81);
@@ -50,7 +52,9 @@ struct Fixtures {
 #[derive(serde::Deserialize)]
 struct FixtureArm {
     name: String,
-    states: Vec<Fixture>,
+    serial: Vec<Fixture>,
+    /// The same arm, were its third axis to count from the root.
+    coupled: Vec<Fixture>,
 }
 
 #[derive(serde::Deserialize)]
@@ -63,31 +67,67 @@ struct Fixture {
     torques: [f64; 6],
 }
 
+/// The sheets of the examples, by their places in the repository.
+const SHOP: [(&str, &str); 3] = [
+    (
+        "examples/shop/gantry.toml",
+        include_str!("../../../examples/shop/gantry.toml"),
+    ),
+    (
+        "examples/shop/knife_gantry.toml",
+        include_str!("../../../examples/shop/knife_gantry.toml"),
+    ),
+    (
+        "examples/shop/kr210.toml",
+        include_str!("../../../examples/shop/kr210.toml"),
+    ),
+];
+
+/// Those of them that have masses.
+fn of_the_examples() -> impl Iterator<Item = Model> {
+    let all = SHOP.iter().map(|(place, text)| {
+        let sheet = sheet::parse(FileId::ALONE, text).unwrap();
+        sheet.machine(*place)
+    });
+    all.filter(|model| model.masses.is_some())
+}
+
 #[test]
 fn every_sheet_with_masses_has_the_torques_of_pinocchio() {
     let text = include_str!("../../../tests/data/dynamics/torques.json");
     let Fixtures { gravity, arms } = serde_json::from_str(text).unwrap();
     assert_eq!(gravity, RISE.z);
-    let with_masses = catalogue::names().filter(|name| catalogue::find(name).unwrap().masses.is_some());
-    let known: Vec<&str> = arms.iter().map(|arm| arm.name.as_str()).collect();
-    assert_eq!(with_masses.collect::<Vec<_>>(), known);
-    for FixtureArm { name, states } in &arms {
-        for state in states {
-            let [mass, x, y, z] = state.load;
-            let arm = named(
-                name,
-                Some(Load {
+    let of_the_catalogue = catalogue::names().filter_map(catalogue::find);
+    let models: Vec<Model> = of_the_catalogue
+        .filter(|model| model.masses.is_some())
+        .chain(of_the_examples())
+        .collect();
+    assert_eq!(models.len(), arms.len());
+    for (arm, model) in arms.iter().zip(&models) {
+        assert_eq!(model.name, arm.name);
+        let opw = *model.mechanism.ortho_parallel().unwrap();
+        let bodies = model.masses.as_ref().unwrap().carried().unwrap().map(Body::from);
+        for (coupling, states) in [
+            (Coupling::Serial, &arm.serial),
+            (Coupling::Parallelogram, &arm.coupled),
+        ] {
+            assert!(states.len() >= 8);
+            let mechanism = Mechanism::OrthoParallel(Opw { coupling, ..opw });
+            for state in states {
+                let [mass, x, y, z] = state.load;
+                let load = Load {
                     mass: Mass::kg(mass),
                     centre: Point3::new(x, y, z),
                     inertia: None,
-                }),
-            );
-            let found = torques(&arm, state.joints, state.rates, state.accelerations);
-            let size = state
-                .torques
-                .iter()
-                .fold(0.0_f64, |size, torque| size.max(torque.abs()));
-            assert_near(found, state.torques, 1e-12 * size.max(1.0));
+                };
+                let loaded = Arm::new(&mechanism, bodies, Some(load), RISE).unwrap();
+                let found = torques(&loaded, state.joints, state.rates, state.accelerations);
+                let size = state
+                    .torques
+                    .iter()
+                    .fold(0.0_f64, |size, torque| size.max(torque.abs()));
+                assert_near(found, state.torques, 1e-12 * size.max(1.0));
+            }
         }
     }
 }
