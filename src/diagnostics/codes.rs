@@ -354,6 +354,8 @@ codes! {
     PocketOutside = "VC1113", Error, "pocket out of place";
     /// Lines of a sound field end within a pocket, or leave ground.
     FieldBroken = "VC1116", Warning, "lines of a sound field that end or leave ground";
+    /// The way into a pocket that a job asks for is not there: a hole too narrow or out of place, no room for a helix, no open side.
+    NoEntry = "VC1117", Error, "no such way into a pocket";
 }
 
 #[cfg(test)]

@@ -19,7 +19,7 @@ pub use blades::{Blade, BladeKind, BladeRef, Body, BodyStage, Crusher, Disc, Str
 pub use operation::planned::{self, PlannedJob, PlannedOperation};
 pub use operation::planning::PlanningJob;
 pub use operation::{Operation, search};
-pub use regions::{NamedRegion, SoundField, Sources};
+pub use regions::{Hole, NamedRegion, SoundField, Sources};
 pub use sema::part::{Part, Shaded};
 pub use setup::Setup;
 pub use tools::{HeldChange, HeldTool, HeldTools};

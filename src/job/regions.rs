@@ -14,6 +14,15 @@ pub struct NamedRegion {
     pub region: Arc<Region>,
 }
 
+/// A round hole in the stock, upright and open from the top down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hole {
+    /// Its middle in the plan.
+    pub x: Length,
+    pub y: Length,
+    pub radius: Length,
+}
+
 /// A sound field over a region.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SoundField {

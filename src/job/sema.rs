@@ -20,6 +20,7 @@ mod frame;
 mod functions;
 mod gather;
 mod heads;
+pub mod hole;
 mod home;
 pub mod kept_surfaces;
 pub mod kind;

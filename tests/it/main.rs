@@ -85,6 +85,7 @@ mod pipeline;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod playback;
 mod pocket;
+mod pocket_entries;
 #[cfg(feature = "krl")]
 mod pocket_layers;
 mod pocket_traps;

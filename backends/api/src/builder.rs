@@ -2,8 +2,8 @@
 
 use crate::geometry::{Orientation, Point3};
 use crate::ir::{
-    Action, Blade, Cell, FeedId, IR_VERSION, Op, Operation, OperationId, OperationKind, OrientationId,
-    Program, Purpose, RateId, Site, SourceRef, Stock, ToolId, ViaId,
+    Action, Blade, Cell, FeedId, IR_VERSION, Op, Opening, Operation, OperationId, OperationKind,
+    OrientationId, Program, Purpose, RateId, Site, SourceRef, Stock, ToolId, ViaId,
 };
 use crate::state::{Drive, State};
 use crate::units::{AngularSpeed, Length, Speed};
@@ -110,6 +110,7 @@ impl ProgramBuilder {
             tools,
             source,
             compensation: None,
+            openings: Vec::new(),
         });
         OperationId(id(self.program.operations.len() - 1))
     }
@@ -118,6 +119,13 @@ impl ProgramBuilder {
     pub fn compensated(&mut self, by: Length) {
         if let Some(operation) = self.program.operations.last_mut() {
             operation.compensation = Some(by);
+        }
+    }
+
+    /// Notes a hole that is open before the latest operation.
+    pub fn opening(&mut self, opening: Opening) {
+        if let Some(operation) = self.program.operations.last_mut() {
+            operation.openings.push(opening);
         }
     }
 

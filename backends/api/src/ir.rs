@@ -372,7 +372,32 @@ pub struct Operation {
     /// How far its tips are offset at most against what forces do to its blades, in mm; none where they are not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub compensation: Option<Length>,
+    /// Holes that are open before it, into which its crusher may go straight down.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub openings: Vec<Opening>,
 }
+
+/// A round hole in the stock, upright and open from the top down.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Opening {
+    /// The middle of its ground, in W.
+    pub ground: Point3,
+    /// Its radius.
+    pub radius: Length,
+}
+
+impl Opening {
+    /// Whether a round tool of this radius, upright with its tip there, lies within it.
+    #[must_use]
+    pub fn holds(&self, tip: Point3, radius: Length) -> bool {
+        let away = libm::hypot(tip.x - self.ground.x, tip.y - self.ground.y);
+        away + radius.to_mm() <= self.radius.to_mm() + WITHIN && tip.z >= self.ground.z - WITHIN
+    }
+}
+
+/// How far a tool may be beyond an opening by rounding, in mm: a nanometre.
+const WITHIN: f64 = 1e-6;
 
 /// A kind of operation: the words of its head in the language, joined by `_`, such as `rough_vcut`. Programs name the kind for
 /// people; what their ops mean does not depend on it.

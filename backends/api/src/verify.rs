@@ -212,8 +212,11 @@ impl<'p> Walk<'p> {
             && p.rates.iter().all(|r| r.is_finite() && r.to_rad_per_s() > 0.0);
         let blend = p.blend.is_finite() && p.blend >= Length::ZERO;
         let vias = p.vias.iter().all(|via| via.is_finite());
+        let mut openings = p.operations.iter().flat_map(|operation| &operation.openings);
+        let openings = openings.all(|hole| hole.ground.is_finite() && positive(hole.radius));
         let cell = p.cell.as_ref();
-        if !(stock && blades && speeds && blend && vias && cell.is_none_or(sound::has_sound_numbers)) {
+        let tables = blades && speeds && blend && vias && openings;
+        if !(stock && tables && cell.is_none_or(sound::has_sound_numbers)) {
             broken.push(Rule::Number);
         }
         if !cell.is_none_or(|cell| sound::has_sound_axes(&cell.axes)) {

@@ -1,8 +1,11 @@
 //! What a job asks of clearing a pocket.
 
+use vcutc_backend_api::geometry::Point3;
+use vcutc_backend_api::ir::Opening;
 use vcutc_backend_api::units::{Angle, Area, Length, Speed};
 use vcutc_diagnostics::source::Span;
-use vcutc_job::{Auto, Crusher, NamedRegion, Setup, Sourced, words};
+use vcutc_geometry::grid;
+use vcutc_job::{Auto, Crusher, Hole, NamedRegion, Setup, Sourced, words};
 
 /// Clearing a pocket with a crusher. Ranges given here are checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +31,10 @@ pub struct ClearPocket {
     pub lift: Sourced<Auto<Length>>,
     /// Where these sources lie. Default `exact`.
     pub axis: Sourced<Axis>,
+    /// How the tool gets down where it comes neither through an open side nor into a hole.
+    pub entry: Sourced<Auto<WayIn>>,
+    /// A hole within the region that is open to its floor, at least as wide as the crusher.
+    pub opening: Option<Sourced<Hole>>,
     /// Core that must stay on walls; zero or more. Default 0.
     pub allowance: Sourced<Length>,
     /// The speed down into the material, and of ways with half the rim in it; positive.
@@ -44,6 +51,16 @@ pub struct Limits {
     pub engagement: Option<Sourced<Angle>>,
     /// How far the forces of the crusher may push it off along the normals of walls; positive.
     pub deviation: Option<Sourced<Length>>,
+}
+
+impl ClearPocket {
+    /// The hole, as programs state it: on their grid, so that a tool as wide as the hole goes into it.
+    pub(crate) fn opening_in_program(&self) -> Option<Opening> {
+        let Hole { x, y, radius } = self.opening?.value;
+        let [x, y] = [x, y].map(|at| grid::nearest(at.to_mm()));
+        let ground = Point3::new(x, y, self.floor.value.to_mm());
+        Some(Opening { ground, radius })
+    }
 }
 
 /// How passes lie over a region.
@@ -68,6 +85,17 @@ pub enum Axis {
     Simplified,
 }
 
+/// How a tool gets down into the material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WayIn {
+    /// To and fro along a line.
+    Ramp,
+    /// Round and round.
+    Helix,
+    /// Not at all: it comes from beside the stock, or into a hole.
+    Open,
+}
+
 impl Pattern {
     /// Those that are compared where the pattern is left open.
     pub(crate) const COMPARED: [Self; 3] = [Self::Offset, Self::Sfs, Self::Zigzag];
@@ -76,4 +104,5 @@ impl Pattern {
 words! {
     Pattern { Offset = "offset", Sfs = "sfs", Zigzag = "zigzag", Field = "field" }
     Axis { Exact = "exact", Simplified = "simplified" }
+    WayIn { Ramp = "ramp", Helix = "helix", Open = "open" }
 }

@@ -1,14 +1,16 @@
 //! `clear pocket { ... }`: clearing a pocket with a crusher.
 
+mod opening;
 mod pattern;
 
-use crate::asked::{Axis, ClearPocket, Limits, Pattern};
+use crate::asked::{Axis, ClearPocket, Limits, Pattern, WayIn};
 use crate::refused;
 use vcutc_backend_api::units::{Area, Length};
 use vcutc_job::operation::Operation;
 use vcutc_job::sema::dimension::Dimension;
 use vcutc_job::sema::field_ranges::{DISTANCE, Range, SIZE};
 use vcutc_job::sema::fields::{BlockSpec, Fields, Inner, Takes, block, limit, value};
+use vcutc_job::sema::hole;
 use vcutc_job::sema::kind::Kind;
 use vcutc_job::sema::read::{Reader, default, words_of};
 use vcutc_job::sema::region::{beyond_stock, region};
@@ -42,6 +44,10 @@ pub const SPEC: BlockSpec = BlockSpec {
         value("angle", "auto").within(ANGLES).or_auto(),
         value("lift", "auto").within(SIZE).or_auto(),
         value("axis", "exact").takes(Takes::Words(|| words_of(Axis::WORDS))),
+        value("entry", "auto")
+            .takes(Takes::Words(|| words_of(WayIn::WORDS)))
+            .or_auto(),
+        value("opening", hole::HOLE).takes(Takes::Calls(hole::CALLS)),
         value("allowance", "0 mm").within(DISTANCE),
         block("limits", "{ uncut <= 1 mm2, engagement <= 120 deg }").takes(Takes::Fields(&LIMITS)),
         setup::FEED_WITH_PLUNGE,
@@ -103,6 +109,8 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<ClearPocket
     let angle = reader.auto(&fields, "angle");
     let lift = reader.auto(&fields, "lift");
     let axis = reader.choice(&fields, "axis", Axis::WORDS);
+    let entry = reader.auto_choice(&fields, "entry", WayIn::WORDS);
+    let opening = hole::read("opening", &fields, &mut reader);
     let allowance = reader.defaulted(&fields, "allowance", Length::ZERO);
     let (setup, plunge_feed) = setup?;
     let (region, region_span) = region?;
@@ -120,6 +128,8 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<ClearPocket
         angle: angle?,
         lift: lift?,
         axis: axis?.unwrap_or(default(Axis::Exact)),
+        entry: entry?,
+        opening: opening?,
         allowance: allowance?,
         limits: limits?,
     };
@@ -149,7 +159,7 @@ fn fault(asked: &ClearPocket, written: Written<'_>) -> Option<vcutc_diagnostics:
     if asked.floor.value >= stock.node.height {
         return Some(refused::floor_above_stock(asked, stock));
     }
-    beyond_stock(&asked.region, asked.region_span, stock)
+    beyond_stock(&asked.region, asked.region_span, stock).or_else(|| opening::out_of_place(asked))
 }
 
 fn limits(fields: &Fields<'_>, written: Written<'_>, session: &mut Session<'_>) -> Checked<Limits> {

@@ -27,6 +27,9 @@ pub(crate) fn upright() -> Orientation {
 pub(crate) fn lower(planned: &Planned, source: SourceRef, builder: &mut ProgramBuilder) {
     let asked = &planned.asked;
     let operation = builder.operation(KIND, asked.crusher.in_program(), source);
+    if let Some(opening) = asked.opening_in_program() {
+        builder.opening(opening);
+    }
     builder.blend(BLEND);
     let stage = Stage {
         operation,

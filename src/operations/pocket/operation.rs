@@ -40,6 +40,10 @@ impl Operation for ClearPocket {
         self.angle.forget_place(place);
         self.lift.forget_place(place);
         self.axis.forget_place(place);
+        self.entry.forget_place(place);
+        if let Some(opening) = &mut self.opening {
+            opening.forget_place(place);
+        }
         self.allowance.forget_place(place);
         self.plunge_feed.forget_place(place);
         self.limits.uncut.forget_place(place);

@@ -1,6 +1,8 @@
 //! The plan of a pocket: layers, and in each the same passes in the same order.
 
 mod entry;
+pub mod helix;
+mod hole;
 mod lay;
 mod limits;
 mod order;
@@ -9,6 +11,8 @@ mod room;
 
 use crate::asked::{ClearPocket, Pattern};
 use crate::refused::Why;
+use entry::Ways;
+use helix::Helix;
 use lay::Laid;
 use limits::Standing;
 use room::Room;
@@ -74,6 +78,10 @@ pub struct Run {
 pub enum Entry {
     /// Down to and fro along a line, from where it begins.
     Ramp { line: Piece },
+    /// Down round and round.
+    Helix { helix: Helix },
+    /// Straight down to this place in a hole that is open.
+    Hole { at: Place },
     /// Straight down to this place, where the tool has been in this layer.
     Return { at: Place },
     /// Through an open side: at depth from this place beside the stock.
@@ -142,6 +150,7 @@ pub(crate) fn plan(asked: &ClearPocket, ground: &Ground<'_>) -> Result<Plan, Why
         keep: keep + ROUNDING_ROOM.to_mm() / 2.0,
         step,
         radius,
+        ramp: asked.crusher.ramp.value.to_rad(),
     };
     let deep = floors.first().map_or(0.0, |floor| top - floor);
     let Compared { best, tried, fault } = compared(asked, &tool, room, (keep, deep));
@@ -184,6 +193,10 @@ fn compared(asked: &ClearPocket, tool: &Tool, room: Room<'_>, (keep, deep): (f64
         Auto::Given(pattern) => core::slice::from_ref(pattern),
         Auto::Auto => &Pattern::COMPARED,
     };
+    let ways = Ways {
+        entry: asked.entry.value,
+        hole: asked.opening.map(|opening| opening.value),
+    };
     let mut compared = Compared::default();
     for &pattern in patterns {
         let choices = match lay::lay(asked, &asked.region.region, tool, room.step, pattern) {
@@ -194,7 +207,7 @@ fn compared(asked: &ClearPocket, tool: &Tool, room: Room<'_>, (keep, deep): (f64
             }
         };
         for laid in choices {
-            match order::runs(&laid.passes, &laid.extra, room) {
+            match order::runs(&laid.passes, &laid.extra, ways, room).and_then(|runs| uses(runs, ways)) {
                 Ok(runs) => {
                     let runs = limits::slowed(runs, asked);
                     let standing = limits::standing(&runs, asked, keep);
@@ -205,6 +218,15 @@ fn compared(asked: &ClearPocket, tool: &Tool, room: Room<'_>, (keep, deep): (f64
         }
     }
     compared
+}
+
+/// The runs, if one of them begins in the hole that is given.
+fn uses(runs: Vec<Run>, ways: Ways) -> Result<Vec<Run>, Why> {
+    let begins_there = |run: &Run| matches!(run.entry, Entry::Hole { .. });
+    if ways.hole.is_some() && !runs.iter().any(begins_there) {
+        return Err(Why::BesideTheHole);
+    }
+    Ok(runs)
 }
 
 /// What was compared.
@@ -293,11 +315,19 @@ fn time(runs: &[Run], asked: &ClearPocket, deep: f64) -> Duration {
     let ways: Duration = legs.map(|leg| Length::mm(leg.piece.length()) / feed(leg)).sum();
     let stop = Duration::s(cut.to_mm_per_s() / ACCELERATION);
     let stops: usize = runs.iter().map(|run| 1 + corners(&run.legs)).sum();
+    let ramp = asked.crusher.ramp.value.to_rad();
+    let sloping = deep / libm::sin(ramp);
     let ramps = runs.iter().map(|run| match run.entry {
-        Entry::Ramp { line } => deep / libm::sin(asked.crusher.ramp.value.to_rad()) + 2.0 * line.length(),
-        Entry::Return { .. } | Entry::Open { .. } => 0.0,
+        Entry::Ramp { line } => sloping + 2.0 * line.length(),
+        Entry::Helix { helix } => sloping + helix.side() * f64::from(helix.corners),
+        Entry::Hole { .. } | Entry::Return { .. } | Entry::Open { .. } => 0.0,
     });
     let ramps = Length::mm(ramps.sum()) / slow;
+    let corners_of_ways_down = runs.iter().map(|run| match run.entry {
+        Entry::Helix { helix } => helix.sides_down(deep, ramp) as usize + helix.corners as usize,
+        Entry::Ramp { .. } | Entry::Hole { .. } | Entry::Return { .. } | Entry::Open { .. } => 0,
+    });
+    let stops = stops + corners_of_ways_down.sum::<usize>();
     // Up, across and down again: twice the clearance at the speed of travel.
     let lift = asked.setup.clearance.value * 2.0 / asked.setup.travel_feed.value;
     ways + ramps + stop * stops as f64 + lift * runs.len() as f64

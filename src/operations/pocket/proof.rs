@@ -109,6 +109,9 @@ impl Judge<'_> {
         let top = stands;
         let mut begins = stands;
         let mut known: Option<(Layer, Seen)> = None;
+        if let Some(first) = layers.first() {
+            self.is_open(first);
+        }
         for layer in layers {
             self.stands(&layer);
             self.depth(&layer, above, crusher);
@@ -226,6 +229,16 @@ impl Judge<'_> {
     fn stands(&mut self, layer: &Layer) {
         if let Some(at) = layer.leaning {
             self.note(layer, at, ClearingFault::Leans);
+        }
+    }
+
+    /// The program goes straight down only into holes that the job names.
+    fn is_open(&mut self, layer: &Layer) {
+        let named = self.asked.opening_in_program();
+        let operation = self.program.operation(self.operation);
+        let mut openings = operation.into_iter().flat_map(|operation| &operation.openings);
+        if openings.any(|hole| Some(*hole) != named) {
+            self.note(layer, layer.lowest, ClearingFault::Unopened);
         }
     }
 

@@ -32,6 +32,18 @@ pub(crate) enum Why {
         /// Where a way down was looked for.
         at: [f64; 2],
     },
+    /// There is no room to go down round and round.
+    NoHelix {
+        /// Where it was looked for.
+        at: [f64; 2],
+    },
+    /// A run begins over the stock, where the tool may not go down into the material.
+    NotOpen {
+        /// Where.
+        at: [f64; 2],
+    },
+    /// No run begins in the hole that is given.
+    BesideTheHole,
     /// There is no sound field over the region.
     NoField,
     /// All sides are open, and the passes of this pattern follow walls.
@@ -109,6 +121,9 @@ impl Refused<'_> {
                 "hardly wider than the tool",
             )
             .help("use a narrower tool"),
+            Why::NoHelix { at } => self.no_helix(at),
+            Why::NotOpen { at } => self.not_open(at),
+            Why::BesideTheHole => self.beside_the_hole(),
             Why::NoField => Diagnostic::new(
                 Code::PocketTooNarrow,
                 format!("the sound field over `{name}` cannot be computed"),
@@ -148,6 +163,58 @@ impl Refused<'_> {
             )
             .help("use a wider tool, or a wider `step`"),
         }
+    }
+}
+
+impl Refused<'_> {
+    fn at_entry(&self, message: String, label: &str) -> Diagnostic {
+        let asked = self.asked;
+        let span = asked.entry.span.unwrap_or(asked.region_span);
+        Diagnostic::new(Code::NoEntry, message, span, label)
+    }
+
+    fn no_helix(&self, [x, y]: [f64; 2]) -> Diagnostic {
+        let asked = self.asked;
+        let wide = asked.crusher.radius.value.to_mm() / 2.0;
+        let message = format!(
+            "a helix of `{}` has a radius of at least {} mm, half of the tool's, and `{}` has no room for it near ({} mm, {} mm)",
+            asked.crusher.name,
+            show(wide),
+            asked.region.name,
+            show(x),
+            show(y)
+        );
+        self.at_entry(message, "no room for it")
+            .and(asked.region_span, "the region")
+            .help("use `entry = ramp`, or a narrower tool")
+    }
+
+    fn not_open(&self, [x, y]: [f64; 2]) -> Diagnostic {
+        let asked = self.asked;
+        let message = format!(
+            "a pass over `{}` begins at ({} mm, {} mm), where no open side leads",
+            asked.region.name,
+            show(x),
+            show(y)
+        );
+        self.at_entry(message, "the tool may not go down into the material")
+            .and(asked.region_span, "the region")
+            .help("use `entry = auto`, or name a hole with `opening = hole(x = , y = , radius = )`")
+    }
+
+    fn beside_the_hole(&self) -> Diagnostic {
+        let asked = self.asked;
+        let opening = asked.opening.and_then(|opening| opening.span);
+        Diagnostic::new(
+            Code::NoEntry,
+            format!(
+                "no pass over `{}` begins in the opening: walls are between them, or the tool comes in through an open side",
+                asked.region.name
+            ),
+            opening.unwrap_or(asked.region_span),
+            "not used",
+        )
+        .help("delete `opening`, or name a hole from which a straight way leads to a pass")
     }
 }
 

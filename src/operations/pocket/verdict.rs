@@ -78,6 +78,7 @@ pub(crate) fn explained(asked: &ClearPocket, finding: Finding, trials: &mut dyn 
         ClearingFault::Wall { .. }
         | ClearingFault::Floor { .. }
         | ClearingFault::Leans
+        | ClearingFault::Unopened
         | ClearingFault::Engaged { .. } => in_words(asked, finding),
     }
 }

@@ -1,19 +1,21 @@
 //! What a plan of a pocket says of itself: parameters, lines of the summary, and values of fields that were left open.
 
-use crate::asked::Pattern;
+use crate::asked::{Pattern, WayIn};
 use crate::decided::Planned;
+use crate::plan::Entry;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::show;
-use vcutc_job::Auto;
 use vcutc_job::description::{
     ParameterFigure, ParameterRow, ParameterTable, angle_text, degrees, length_text, millimetres, motion_rows,
 };
+use vcutc_job::{Auto, Hole};
 
 const FASTEST: &str = "the pattern that takes the least time of those that keep the limits";
 const RADIUS: &str = "the widest with which nothing stays between passes";
 const FEWEST: &str = "the fewest equal layers that the tool cuts";
 const ROUNDEST: &str = "as round as leaves nothing between passes";
 const HALF: &str = "half the step, which rounds corners to about that radius";
+const SIMPLEST: &str = "a ramp, or a helix where no line is as long as the tool is wide";
 const ALONG: &str = "the faster of 0 deg and 90 deg";
 
 /// The tables: tool, cut, motion.
@@ -58,6 +60,19 @@ pub(crate) fn tables(planned: &Planned) -> Vec<ParameterTable> {
         }
         Pattern::Offset => {}
     }
+    cut.push(ParameterRow::open(
+        "entry",
+        &asked.entry,
+        entries(planned),
+        SIMPLEST,
+    ));
+    if let Some(opening) = asked.opening {
+        cut.push(ParameterRow::of("opening", opening, |hole| {
+            let Hole { x, y, radius } = hole;
+            let [x, y, radius] = [x, y, radius].map(length_text);
+            format!("({x}, {y}) radius {radius}")
+        }));
+    }
     cut.push(ParameterRow::of("allowance", asked.allowance, length_text));
     let motion = motion_rows(&asked.setup, asked.plunge_feed);
     [("Tool", blade), ("Cut", cut), ("Motion", motion)]
@@ -91,6 +106,24 @@ pub(crate) fn parameters(planned: &Planned) -> Vec<ParameterFigure> {
 fn corners(planned: &Planned) -> String {
     let corners = planned.plan.corners;
     corners.map_or_else(|| "as round as possible".to_owned(), length_text)
+}
+
+/// How the tool gets down, in the order in which it does.
+fn entries(planned: &Planned) -> String {
+    let mut words: Vec<&str> = Vec::new();
+    for run in &planned.plan.runs {
+        let word = match run.entry {
+            Entry::Ramp { .. } => WayIn::Ramp.word(),
+            Entry::Helix { .. } => WayIn::Helix.word(),
+            Entry::Open { .. } => WayIn::Open.word(),
+            Entry::Hole { .. } => "opening",
+            Entry::Return { .. } => continue,
+        };
+        if !words.contains(&word) {
+            words.push(word);
+        }
+    }
+    words.join(", ")
 }
 
 /// How thick the layers are.
@@ -182,6 +215,7 @@ fn value(planned: &Planned, field: &str) -> Option<(String, &'static str)> {
         "layer" => (length_text(layer(planned)), FEWEST),
         "corners" => (corners(planned), ROUNDEST),
         "angle" => (angle_text(plan.angle), ALONG),
+        "entry" => (entries(planned), SIMPLEST),
         "lift" => (length_text(plan.field?.lift), HALF),
         _ => return None,
     })

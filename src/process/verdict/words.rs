@@ -56,9 +56,10 @@ pub fn explained(asked: &dyn Operation, finding: Finding) -> Diagnostic {
                 ClearingFault::Thick { .. } => Code::LayerTooThick,
                 ClearingFault::Body { .. } => Code::BodyInWork,
                 ClearingFault::Wall { .. } | ClearingFault::Floor { .. } => Code::Overcut,
-                ClearingFault::Leans | ClearingFault::Engaged { .. } | ClearingFault::Undecided => {
-                    Code::Internal
-                }
+                ClearingFault::Leans
+                | ClearingFault::Unopened
+                | ClearingFault::Engaged { .. }
+                | ClearingFault::Undecided => Code::Internal,
             };
             Diagnostic::new(code, message, span, "a pass of this operation")
         }
@@ -134,6 +135,7 @@ pub fn clearing_words(fault: ClearingFault) -> String {
         ClearingFault::Wall { by } => format!("the tool enters a wall by {} mm", mm(by)),
         ClearingFault::Floor { by } => format!("the tool goes below the floor by {} mm", mm(by)),
         ClearingFault::Leans => "the tool does not stand upright".to_owned(),
+        ClearingFault::Unopened => "the program has a hole that the job does not name".to_owned(),
         ClearingFault::Thick { layer, limit } => format!(
             "a layer is {} mm thick, and the tool cuts {} mm",
             mm(layer),

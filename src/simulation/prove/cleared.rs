@@ -42,6 +42,8 @@ pub enum ClearingFault {
     },
     /// The tool does not stand upright.
     Leans,
+    /// The program goes straight down into a hole that the job does not name.
+    Unopened,
     /// A layer is thicker than the tool can cut.
     Thick {
         /// How thick it is.

@@ -281,6 +281,7 @@ impl Recipe {
                 end: 0,
             },
             compensation: None,
+            openings: Vec::new(),
         }
     }
 

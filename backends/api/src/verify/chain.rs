@@ -69,7 +69,9 @@ impl Walk<'_> {
                 Shape::Straight(straight) => course.is_in_plane_of(straight),
                 Shape::Disc(_) => course.descends_at_most(Angle::ZERO),
                 Shape::Crusher(crusher) => {
-                    course.descends_at_most(crusher.ramp) || self.cleared.are_returned_to(&course)
+                    course.descends_at_most(crusher.ramp)
+                        || self.cleared.are_returned_to(&course)
+                        || self.goes_into_an_opening(&course, site, crusher.radius)
                 }
             };
             self.require(good, Rule::ChainPosture);
@@ -86,6 +88,20 @@ impl Walk<'_> {
             }),
             Joint::Stop => None,
         };
+    }
+}
+
+impl Walk<'_> {
+    /// Whether a piece leads straight down an upright axis into a hole that is open before its operation.
+    fn goes_into_an_opening(&self, course: &Course<'_>, site: Site, radius: Length) -> bool {
+        let Site::Cut { operation, .. } = site else {
+            return false;
+        };
+        let operation = self.program.operation(operation);
+        let openings = operation.map_or(&[][..], |operation| &operation.openings);
+        let is_upright = course.axis(0, 2)[2] <= STRAIGHT - 1.0;
+        let tip = course.line.to.tip;
+        course.goes_straight_down() && is_upright && openings.iter().any(|hole| hole.holds(tip, radius))
     }
 }
 
@@ -106,11 +122,7 @@ impl Cleared {
 
     /// Whether a piece leads straight down its own axis to a place where the tool has been.
     fn are_returned_to(&self, course: &Course<'_>) -> bool {
-        let [down, _] = course.directions;
-        let is_straight = course.line.via.is_none() && !course.line.turns();
-        is_straight
-            && dot(course.axis(0, 2), down) >= 1.0 - STRAIGHT
-            && self.0.contains(&Self::key(course.line.to))
+        course.goes_straight_down() && self.0.contains(&Self::key(course.line.to))
     }
 }
 
@@ -206,6 +218,13 @@ impl Course<'_> {
         let leans = self.ends().map(|(end, way)| -dot(self.axis(end, 2), way));
         let least = leans.fold(f64::INFINITY, f64::min) - 0.5 * between;
         least >= -libm::sin(ramp.to_rad()) - LEANS_BACK && self.ends().all(|(end, _)| self.stands(end))
+    }
+
+    /// Whether a blade goes on a line along its own axis, without turning.
+    fn goes_straight_down(&self) -> bool {
+        let [down, _] = self.directions;
+        let is_straight = self.line.via.is_none() && !self.line.turns();
+        is_straight && dot(self.axis(0, 2), down) >= 1.0 - STRAIGHT
     }
 
     fn ends(&self) -> impl Iterator<Item = (usize, [f64; 3])> {

@@ -1,9 +1,12 @@
 //! How the tool gets down to where a run begins.
 
 use super::room::Room;
-use super::{Entry, Kind, Leg, Run};
+use super::{Entry, Kind, Leg, Run, helix, hole};
+use crate::asked::WayIn;
 use crate::refused::Why;
 use core::f64::consts::TAU;
+use vcutc_job::{Auto, Hole};
+use vcutc_region::pass::Pass;
 use vcutc_region::piece::Piece;
 use vcutc_region::place::Place;
 
@@ -20,37 +23,60 @@ const DIRECTIONS: u32 = 32;
 /// The shortest line along which the tool goes down, in mm: points are rounded.
 const SHORTEST: f64 = 0.5;
 
-/// A run with its way down. `legs` are at least one.
+/// How runs may begin.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ways {
+    pub(super) entry: Auto<WayIn>,
+    pub(super) hole: Option<Hole>,
+}
+
+/// A run along a pass, with its way down.
 ///
 /// # Errors
 /// There is no room for a way down.
-pub(super) fn enter(mut legs: Vec<Leg>, room: Room<'_>) -> Result<Run, Why> {
+pub(super) fn enter(pass: &Pass, kind: Kind, ways: Ways, room: Room<'_>) -> Result<Run, Why> {
+    let legs: Vec<Leg> = pass
+        .pieces
+        .iter()
+        .map(|piece| Leg { piece: *piece, kind })
+        .collect();
     let first = legs.first().map_or(Place::new(0.0, 0.0), |leg| leg.piece.from);
     if let Some(from) = beside(first, room) {
-        if from != first {
-            let piece = Piece::line(from, first);
-            legs.insert(
-                0,
-                Leg {
-                    piece,
-                    kind: Kind::Link,
-                },
-            );
-        }
-        return Ok(Run {
-            entry: Entry::Open { from },
-            legs,
-        });
+        let link = (from != first).then_some(Piece::line(from, first));
+        return Ok(begun(Entry::Open { from }, link, legs));
     }
-    let line = along(&legs, room.radius).unwrap_or_else(|| aside(&legs, room));
-    if line.length() < SHORTEST {
-        let at = [first.x, first.y];
-        return Err(Why::NoWayDown { at });
+    if let Some(run) = ways.hole.and_then(|hole| hole::enter(pass, kind, hole, room)) {
+        return Ok(run);
     }
-    Ok(Run {
-        entry: Entry::Ramp { line },
-        legs,
-    })
+    let at = [first.x, first.y];
+    let ramp = |shortest: f64| {
+        let line = along(&legs, room.radius).unwrap_or_else(|| aside(&legs, room));
+        (line.length() >= shortest).then_some((Entry::Ramp { line }, None))
+    };
+    let round = || helix::near(first, room).map(|(helix, link)| (Entry::Helix { helix }, link));
+    let (entry, link) = match ways.entry {
+        // A line to and fro that is shorter than the tool is wide leaves more under the tool that its rim does not pass.
+        Auto::Auto => ramp(LONG_ENOUGH * room.radius)
+            .or_else(round)
+            .or_else(|| ramp(SHORTEST))
+            .ok_or(Why::NoWayDown { at })?,
+        Auto::Given(WayIn::Ramp) => ramp(SHORTEST).ok_or(Why::NoWayDown { at })?,
+        Auto::Given(WayIn::Helix) => round().ok_or(Why::NoHelix { at })?,
+        Auto::Given(WayIn::Open) => return Err(Why::NotOpen { at }),
+    };
+    Ok(begun(entry, link, legs))
+}
+
+/// A run that begins with a way to its first leg, if there is one.
+fn begun(entry: Entry, link: Option<Piece>, legs: Vec<Leg>) -> Run {
+    let link = link.map(|piece| Leg {
+        piece,
+        kind: Kind::Link,
+    });
+    Run {
+        entry,
+        legs: link.into_iter().chain(legs).collect(),
+    }
 }
 
 /// Straight out from a place beside the stock to where the tool is clear of it; none from a place over the stock.
@@ -90,7 +116,7 @@ fn aside(legs: &[Leg], room: Room<'_>) -> Piece {
         let mut reach = LONGEST * radius;
         while reach > long && reach > 0.01 * radius {
             let line = to(reach).map(|to| Piece::line(from, to));
-            if let Some(line) = line.filter(|line| is_free(*line, room))
+            if let Some(line) = line.filter(|line| room.is_free(*line))
                 && line.length() > long
             {
                 long = line.length();
@@ -106,9 +132,4 @@ fn aside(legs: &[Leg], room: Room<'_>) -> Piece {
     let way = piece.length();
     look(&|reach| (reach <= way).then(|| piece.at(reach / way)));
     best
-}
-
-fn is_free(line: Piece, room: Room<'_>) -> bool {
-    let nearest = room.walls.nearest_to(line);
-    nearest.is_none_or(|(_, near)| near.distance >= room.keep)
 }

@@ -4,7 +4,7 @@
 //! Where none does, the tool is lifted, and goes down again on ground that is cleared, beside the next pass; only in a basin that
 //! nothing is cleared of it has to go down into the material.
 
-use super::entry;
+use super::entry::{self, Ways};
 use super::room::Room;
 use super::{Entry, Kind, Leg, Run};
 use crate::refused::Why;
@@ -32,7 +32,7 @@ const SHORTEST: f64 = 0.1;
 ///
 /// # Errors
 /// There are too many.
-pub(super) fn runs(passes: &[Pass], extra: &[Pass], room: Room<'_>) -> Result<Vec<Run>, Why> {
+pub(super) fn runs(passes: &[Pass], extra: &[Pass], ways: Ways, room: Room<'_>) -> Result<Vec<Run>, Why> {
     let links = Links {
         walls: room.walls,
         distance: room.keep,
@@ -40,6 +40,7 @@ pub(super) fn runs(passes: &[Pass], extra: &[Pass], room: Room<'_>) -> Result<Ve
     };
     let steps = inside_out(passes, links).map_err(|_| Why::TooLarge)?;
     let mut laid = Laid {
+        ways,
         room,
         runs: Vec::new(),
         cut: Vec::new(),
@@ -55,6 +56,7 @@ pub(super) fn runs(passes: &[Pass], extra: &[Pass], room: Room<'_>) -> Result<Ve
 
 /// Runs while they grow.
 struct Laid<'r> {
+    ways: Ways,
     room: Room<'r>,
     runs: Vec<Run>,
     /// What is cut: each pass, and the box around it.
@@ -72,27 +74,26 @@ impl Laid<'_> {
         let note = noted(pass);
         let end = self.end();
         let link = link.filter(|link| end.is_some_and(|end| end.distance(link.from) <= ROUNDING));
-        let (at, legs) = match link {
+        let returned = match link {
             Some(link) => {
                 let legs = linked(link).chain(pass.pieces.iter().map(leg));
-                (end, legs.collect::<Vec<Leg>>())
+                end.map(|end| (end, legs.collect::<Vec<Leg>>()))
             }
-            None => match self.back_beside(pass).filter(|_| kind == Kind::Pass) {
-                Some((at, link)) => {
+            None => {
+                let beside = self.back_beside(pass).filter(|_| kind == Kind::Pass);
+                beside.map(|(at, link)| {
                     let way = begun_near(pass, Some(link.to));
-                    let legs = linked(link).chain(way.pieces.iter().map(leg));
-                    (Some(at), legs.collect())
-                }
-                None => (None, pass.pieces.iter().map(leg).collect()),
-            },
+                    (at, linked(link).chain(way.pieces.iter().map(leg)).collect())
+                })
+            }
         };
-        match (at, self.runs.last_mut()) {
-            (Some(at), Some(run)) if end == Some(at) => run.legs.extend(legs),
-            (Some(at), _) => self.runs.push(Run {
+        match (returned, self.runs.last_mut()) {
+            (Some((at, legs)), Some(run)) if end == Some(at) => run.legs.extend(legs),
+            (Some((at, legs)), _) => self.runs.push(Run {
                 entry: Entry::Return { at },
                 legs,
             }),
-            (None, _) => self.runs.push(entry::enter(legs, self.room)?),
+            (None, _) => self.runs.push(entry::enter(pass, kind, self.ways, self.room)?),
         }
         self.cut.extend(note);
         Ok(())

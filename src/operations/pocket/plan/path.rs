@@ -1,5 +1,6 @@
 //! From runs over the plan to paths in space: for each layer the way down, the passes at its floor, and the way up.
 
+use super::helix::Helix;
 use super::{Entry, Plan, Run};
 use vcutc_backend_api::units::Angle;
 use vcutc_process::pen::{Pace, Path, Pen};
@@ -40,7 +41,8 @@ fn path(run: &Run, layer: Layer, top: f64, ramp: Angle) -> Path {
             go_down(&mut pen, line, layer, top, ramp);
             pen
         }
-        Entry::Return { at } => {
+        Entry::Helix { helix } => round_down(helix, layer, top, ramp),
+        Entry::Hole { at } | Entry::Return { at } => {
             let mut pen = Pen::at(at, top);
             pen.line(at, layer.floor, Pace::Travel);
             pen.stop();
@@ -80,6 +82,43 @@ fn go_down(pen: &mut Pen, line: Piece, layer: Layer, top: f64, ramp: Angle) {
         pen.line(end, floor, Pace::Plunge);
         pen.stop();
     }
+}
+
+/// Down round a polygon, and once round at the floor. Above the first layer the tool goes round too, as it goes to and fro.
+fn round_down(helix: Helix, layer: Layer, top: f64, ramp: Angle) -> Pen {
+    let Layer { above, floor, place } = layer;
+    let sides = |drop: f64| helix.sides_down(drop, ramp.to_rad());
+    let through_air = match place {
+        LayerPlace::First => sides(top - above),
+        LayerPlace::Below => 0,
+    };
+    let down = sides(above - floor);
+    let (corners, all) = (helix.corners, through_air + down);
+    // So that it ends at the last corner.
+    let begin = (corners - all % corners) % corners;
+    let mut pen = Pen::at(helix.corner(begin), top);
+    match place {
+        LayerPlace::First => {
+            let share = |side: u32| f64::from(side) / f64::from(through_air);
+            for side in 1..=through_air {
+                let z = top + (above - top) * share(side);
+                pen.line(helix.corner(begin + side), z, Pace::Travel);
+            }
+        }
+        LayerPlace::Below => {
+            pen.line(helix.corner(begin), above, Pace::Travel);
+            pen.stop();
+        }
+    }
+    for side in 1..=down {
+        let z = above + (floor - above) * (f64::from(side) / f64::from(down));
+        pen.line(helix.corner(begin + through_air + side), z, Pace::Plunge);
+    }
+    for side in 1..=corners {
+        pen.line(helix.corner(side), floor, Pace::Plunge);
+    }
+    pen.stop();
+    pen
 }
 
 fn back_and_forth(pen: &mut Pen, line: Piece, [from, to]: [f64; 2], ramp: Angle, pace: Pace) {

@@ -1,6 +1,7 @@
 //! The room that ways at depth have.
 
 use vcutc_region::distance::Walls;
+use vcutc_region::piece::Piece;
 
 /// What ways at depth must keep from, in mm.
 #[derive(Clone, Copy, Debug)]
@@ -17,4 +18,14 @@ pub(super) struct Room<'r> {
     pub(super) step: f64,
     /// The radius of the tool.
     pub(super) radius: f64,
+    /// The steepest way down, in rad.
+    pub(super) ramp: f64,
+}
+
+impl Room<'_> {
+    /// Whether a way keeps off all walls.
+    pub(super) fn is_free(&self, line: Piece) -> bool {
+        let nearest = self.walls.nearest_to(line);
+        nearest.is_none_or(|(_, near)| near.distance >= self.keep)
+    }
 }
