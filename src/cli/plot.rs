@@ -197,7 +197,7 @@ fn picture(what: What, material: &Material<'_>) -> Option<String> {
         What::Surface => pictures::surface(material, ids),
         What::Curvature => pictures::curvature(material, ids),
         What::Class => pictures::class(material, ids),
-        What::Residual => pictures::residual(material, ids),
+        What::Residual => pictures::residual(material, ids).or_else(|| pictures::ground(material, ids)),
         What::Finished => pictures::finished(material, ids),
         What::Tilt => pictures::tilt(material, ids),
         What::Tracks => pictures::tracks(material, ids),

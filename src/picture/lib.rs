@@ -14,6 +14,7 @@ pub mod class_map;
 pub mod contour;
 pub mod correlation;
 pub mod deviation;
+pub mod ground;
 pub mod heat_map;
 pub mod joints;
 pub mod lattice;

@@ -23,7 +23,7 @@ mod ways;
 pub use blade::blade;
 pub use by_forces::by_forces;
 pub use joints::{joints, joints_twice};
-pub use passes::{figures as pocket_figures, passes};
+pub use passes::{figures as pocket_figures, ground, passes};
 pub use paths::paths;
 pub use plan_maps::{ClassMap, Curved, SurfaceMap, class, curvature, finished, residual, surface, tilt};
 pub use process::process;

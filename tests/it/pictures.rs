@@ -607,3 +607,54 @@ fn axes_of_large_jobs_stay_small_and_keep_their_extremes() {
         .fold(0.0, f64::max);
     assert!(highest >= 60.0 && picture.contains(&format!(" to {highest:.1} deg")));
 }
+
+/// What stays in a pocket whose passes are too far apart: both areas of the picture are those of the proof, and places between passes
+/// have the first numbers.
+#[test]
+fn the_ground_of_a_pocket_that_stays_is_numbered() {
+    let job = "job \"tray\"
+stock { size = (180 mm, 120 mm, 30 mm) }
+blade hog = crusher { radius = 6 mm, height = 24 mm, spin = 18000 rev/min, ramp = 5 deg }
+region seat {
+  start (20 mm, 15 mm) line to (150 mm, 20 mm) line to (120 mm, 100 mm) line to (20 mm, 90 mm)
+  island { circle (70 mm, 55 mm) radius 12 mm }
+}
+clear pocket {
+  region = seat, blade = hog, floor = 8 mm, pattern = offset, step = 10 mm
+  limits { uncut <= 400 mm2 }
+  feed { cut = 75 mm/s, plunge = 20 mm/s, travel = 200 mm/s, reorient = 90 deg/s }
+  clearance = 10 mm
+}
+";
+    let tray = compile("tray.vcut", &folder().with("tray.vcut", job));
+    let material = Material::of(&tray).unwrap();
+    let picture = pictures::ground(&material, Prefix::NONE).unwrap();
+    let cleared = tray.compiled.as_ref().unwrap().report.cleared[0];
+    let area = |what: &str| -> f64 {
+        let before = picture.split(what).next().unwrap();
+        let number = before.split_whitespace().nth_back(1).unwrap();
+        number.parse().unwrap()
+    };
+    let uncut = area(" that no pass cuts");
+    assert!(
+        uncut > 10.0 && (uncut - cleared.uncut.to_mm2()).abs() < 0.1,
+        "{uncut} {cleared:?}"
+    );
+    let beyond = area(" that no tool of its radius reaches");
+    assert!(
+        (beyond - cleared.beyond_reach.to_mm2()).abs() < 0.1,
+        "{beyond} {cleared:?}"
+    );
+    for number in 1..=9 {
+        assert!(picture.contains(&format!(">{number}</text>")), "{number}");
+    }
+    // The widest place between passes is the first.
+    let first = picture.split("1: ").nth(1).unwrap();
+    let first: f64 = first.split_whitespace().next().unwrap().parse().unwrap();
+    assert!(first < uncut && first > 20.0, "{first}");
+    let hill = outcome("bent_hill");
+    assert_eq!(
+        pictures::ground(&Material::of(&hill).unwrap(), Prefix::NONE),
+        None
+    );
+}

@@ -4,7 +4,7 @@
 use crate::PlannedJob;
 use vcutc_backend_api::ir::{OperationId, Program};
 use vcutc_backend_api::units::Angle;
-use vcutc_region::coverage::Square;
+use vcutc_region::coverage::{Spot, Square};
 use vcutc_region::piece::Piece;
 use vcutc_region::place::Place;
 use vcutc_surface::map::Band;
@@ -32,6 +32,24 @@ pub struct FromAbove {
     pub entries: Vec<Place>,
     /// What stays uncut.
     pub uncut: Vec<Square>,
+    /// What of the ground stays, place by place.
+    pub stays: Vec<Stays>,
+}
+
+/// A place of the ground that stays.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stays {
+    pub spot: Spot,
+    pub why: WhyItStays,
+}
+
+/// Why a place stays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WhyItStays {
+    /// No pass cuts it.
+    Uncut,
+    /// No tool of its radius gets there.
+    BeyondReach,
 }
 
 /// How far the axis of a disc leans from the normal of the part while it finishes it: the tilt, from above.

@@ -4,8 +4,8 @@ use crate::asked::ClearPocket;
 use crate::proof::reaching;
 use crate::proof::stated::layers;
 use vcutc_backend_api::ir::{OperationId, Program, Shape};
-use vcutc_job::operation::judged::FromAbove;
-use vcutc_region::coverage::{Spot, Square, Tool, coverage};
+use vcutc_job::operation::judged::{FromAbove, Stays, WhyItStays};
+use vcutc_region::coverage::{Spot, Square, Tool, coverage, unreachable};
 use vcutc_region::engagement::{engagement, on_pieces};
 use vcutc_region::pass::Pass;
 use vcutc_region::piece::Piece;
@@ -38,13 +38,28 @@ pub(crate) fn from_above(
     };
     let passes = layer.flat();
     let begins = passes.iter().filter_map(|pass| Some(pass.pieces.first()?.from));
+    let spots = coverage(region, passes, reaching(tool)).map_or_else(|_| Vec::new(), |left| left.spots);
+    let bare = Tool {
+        radius,
+        keep: radius + asked.allowance.value.to_mm(),
+    };
+    let beyond = unreachable(region, bare).map_or_else(|_| Vec::new(), |left| left.spots);
+    let stays = |spots: &[Spot], why: WhyItStays| {
+        let seen = spots.iter().filter(|spot| spot.area >= SEEN).cloned();
+        seen.map(|spot| Stays { spot, why }).collect::<Vec<_>>()
+    };
+    let all = [
+        stays(&spots, WhyItStays::Uncut),
+        stays(&beyond, WhyItStays::BeyondReach),
+    ];
     Some(FromAbove {
+        stays: all.concat(),
         walls: of(Side::Wall),
         open: of(Side::Open),
         slits: Vec::new(),
         stretches: stretches(asked, passes, radius),
         entries: begins.collect(),
-        uncut: coverage(region, passes, reaching(tool)).map_or_else(|_| Vec::new(), |left| seen(left.spots)),
+        uncut: seen(spots),
     })
 }
 
