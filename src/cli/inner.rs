@@ -74,7 +74,7 @@ fn deviation_of(job: &CheckedJob, compiled: &Compiled) -> Option<Vec<u8>> {
     let surface = job.part.surface()?;
     let machined = job
         .part
-        .left_by(&compiled.report.contour, &compiled.report.rulings, job.stock)?;
+        .left_by(&compiled.report.contour, &compiled.report.columns, job.stock)?;
     Some(deviation::ply(surface, &machined))
 }
 

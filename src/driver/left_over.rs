@@ -1,7 +1,7 @@
 //! What cuts leave over a part that changes along y.
 //!
-//! They leave the same height at every y, with the spine that they follow taken off, so they cannot go below the part's shadow; those of
-//! a fan cannot go below the straight lines that cover the part. What lies between these and the part is left whatever they do; it
+//! They leave the same height at every y, with the spine that they follow taken off, so they cannot go below the part's shadow; those that
+//! have ways of their own cannot go below the cover that these make. What lies between these and the part is left whatever they do; it
 //! shows how well such cuts suit the part.
 
 use vcutc_backend_api::units::Length;
@@ -17,7 +17,7 @@ use vcutc_surface::spine::Rising;
 pub struct LeftOver {
     /// All that is left.
     pub all: Standing,
-    /// What of it lies below the shadow, or below the lines of a fan.
+    /// What of it lies below the shadow, or below the cover of columns.
     pub shaded: Volume,
     /// Below what that lies.
     pub below: Below,
@@ -32,6 +32,8 @@ pub enum Below {
     Shadow,
     /// The straight lines that cover it.
     Lines,
+    /// The curved ways that do.
+    Curves,
 }
 
 /// How high material stays above a part at most, as a grid of its heights shows.
@@ -66,11 +68,18 @@ impl LeftOver {
     pub(crate) fn of(job: &CheckedJob, report: &Report) -> Option<Self> {
         let (part, stock) = (&job.part, job.stock);
         let surface = part.levelled()?;
-        let below = |corners: &[Point2]| part.left_by(corners, &report.rulings, stock);
+        let below = |corners: &[Point2]| part.left_by(corners, &report.columns, stock);
         // Checking a job refuses surfaces that are too tangled for this.
         let all = surface.standing(&below(&report.contour)?).ok()??;
-        let (shaded, lies_below) = match part.guide().and_then(Guide::fan) {
-            Some(fan) => (surface.below_fan(fan).ok()?, Below::Lines),
+        let (shaded, lies_below) = match part.guide().and_then(Guide::columns) {
+            Some(columns) => {
+                let lines = if columns.is_fan() {
+                    Below::Lines
+                } else {
+                    Below::Curves
+                };
+                (surface.below_columns(columns).ok()?, lines)
+            }
             None => {
                 let shadow = part.tessellated(Part::TOLERANCE)?;
                 let standing = surface.standing(&below(shadow.points())?).ok()??;

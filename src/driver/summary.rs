@@ -178,6 +178,9 @@ pub(crate) fn with_surface(
         Below::Lines => {
             "below the straight lines that cover the part, where the cuts do not get; area and scallop are measured from their lower ends"
         }
+        Below::Curves => {
+            "below the curves that cover the part, where the cuts do not get; area and scallop are measured from their lower ends"
+        }
     };
     lines.push(row("shadow", &format!("{} of that lie {why}", litres(*shaded))));
     if let Some(Compared { level, along }) = follow {

@@ -10,9 +10,9 @@
 //! Approximations are one-sided or bounded, and each says which: curves are flattened within a stated tolerance, an
 //! offset is never below the true one, a clearance is exact.
 
+pub mod columns;
 pub mod cone;
 pub mod curve;
-pub mod fan;
 pub mod grid;
 pub mod import;
 pub mod number;

@@ -47,6 +47,15 @@ pub struct Deviation {
 }
 
 impl Deviation {
+    /// The larger of two, above and below.
+    #[must_use]
+    pub const fn larger(self, other: Self) -> Self {
+        Self {
+            above: self.above.max(other.above),
+            below: self.below.max(other.below),
+        }
+    }
+
     /// By how much two flanks may differ from what their tips say of each other.
     #[must_use]
     pub fn both(self) -> f64 {
@@ -119,6 +128,11 @@ impl Spine {
         Ok(spine)
     }
 
+    /// The way of a column, which has been found not to bend too much. Its least rise need not be 0.
+    pub(crate) const fn of_column(knots: Vec<Knot>) -> Self {
+        Self { knots }
+    }
+
     /// Its knots, in order of y.
     #[must_use]
     pub fn knots(&self) -> &[Knot] {
@@ -178,9 +192,7 @@ impl Spine {
     /// end leaves its chord by an eighth of the turn squared.
     #[must_use]
     pub fn off(&self, edge: Length, blend: Length, flank: f64) -> f64 {
-        let turn = Self::LARGEST_BEND;
-        let moved = edge.to_mm() * turn * turn / 8.0 + blend.to_mm() + ROUNDED;
-        moved * (1.0 + flank * flank + self.steepest() * self.steepest()).sqrt()
+        off(turned(edge, blend), flank, self.steepest())
     }
 
     /// How much higher than the section on the spine straight blades leave the work at most, in mm, the longest of them with an edge of
@@ -246,10 +258,7 @@ impl Spine {
     #[must_use]
     pub fn deviation(&self, overhang: f64) -> Deviation {
         let [none, endless] = [0.0, ENDLESS].map(|beyond| self.deviation_from(beyond, overhang));
-        Deviation {
-            above: none.above.max(endless.above),
-            below: none.below.max(endless.below),
-        }
+        none.larger(endless)
     }
 
     /// The same with ways so long beyond the stock.
@@ -296,6 +305,17 @@ impl Spine {
             below: deviation.below + uneven,
         }
     }
+}
+
+/// How far an edge leaves its way where it may do so by `blend` and turns from one place to the next.
+pub(crate) fn turned(edge: Length, blend: Length) -> f64 {
+    let turn = Spine::LARGEST_BEND;
+    edge.to_mm() * turn * turn / 8.0 + blend.to_mm()
+}
+
+/// How far a flank that rises by `flank` lies off its V where its edge is moved so far, in mm, and rounded, along a way as steep as that.
+pub(crate) fn off(moved: f64, flank: f64, steepest: f64) -> f64 {
+    (moved + ROUNDED) * (1.0 + flank * flank + steepest * steepest).sqrt()
 }
 
 /// What rounding of places and postures moves an edge by, in mm.

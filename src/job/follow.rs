@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use vcutc_backend_api::units::{Angle, Length};
-use vcutc_geometry::fan::Fan;
+use vcutc_geometry::columns::Columns;
 use vcutc_geometry::spine::{Deviation, Spine};
 
 /// How cuts follow the part along y.
@@ -16,12 +16,16 @@ pub enum Follow {
     Spine,
     /// Each is straight and rises or falls at a slope of its own.
     Fan,
-    /// The first of level, pitched and spine that leaves hardly more than the best.
+    /// Each rises and falls along a polyline of its own.
+    Columns,
+    /// The first of these that leaves hardly more than the best.
     Auto,
 }
 
 crate::words! {
-    Follow { Straight = "straight", Pitched = "pitched", Spine = "spine", Fan = "fan", Auto = "auto" }
+    Follow {
+        Straight = "straight", Pitched = "pitched", Spine = "spine", Fan = "fan", Columns = "columns", Auto = "auto"
+    }
 }
 
 /// What the cuts of a job follow.
@@ -29,8 +33,8 @@ crate::words! {
 pub enum Guide {
     /// All of them the same polyline.
     Spine(Arc<Spine>),
-    /// Each the straight line of its place.
-    Fan(Arc<Fan>),
+    /// Each the way of its place.
+    Columns(Arc<Columns>),
 }
 
 impl Guide {
@@ -39,16 +43,16 @@ impl Guide {
     pub fn spine(&self) -> Option<&Spine> {
         match self {
             Self::Spine(spine) => Some(spine),
-            Self::Fan(_) => None,
+            Self::Columns(_) => None,
         }
     }
 
-    /// The fan, if it is one.
+    /// The columns, if it is those.
     #[must_use]
-    pub fn fan(&self) -> Option<&Fan> {
+    pub fn columns(&self) -> Option<&Columns> {
         match self {
             Self::Spine(_) => None,
-            Self::Fan(fan) => Some(fan),
+            Self::Columns(columns) => Some(columns),
         }
     }
 
@@ -57,7 +61,7 @@ impl Guide {
     pub fn steepest(&self) -> f64 {
         match self {
             Self::Spine(spine) => spine.steepest(),
-            Self::Fan(fan) => fan.steepest(),
+            Self::Columns(columns) => columns.steepest(),
         }
     }
 
@@ -66,7 +70,7 @@ impl Guide {
     pub fn steepest_at_sides(&self) -> f64 {
         match self {
             Self::Spine(spine) => spine.end_slopes().map(f64::abs).into_iter().fold(0.0, f64::max),
-            Self::Fan(fan) => fan.steepest(),
+            Self::Columns(columns) => columns.steepest_at_sides(),
         }
     }
 
@@ -81,17 +85,14 @@ impl Guide {
                 let sink = ends.map(|(_, end)| -spine.rise(end));
                 [fall, sink].map(|lengths| lengths.into_iter().fold(0.0, f64::max))
             }
-            Self::Fan(fan) => [fan.steepest() * extension; 2],
+            Self::Columns(columns) => columns.down_beyond(extension),
         }
     }
 }
 
-/// Where lines twist by more of the slope of flanks, on a few places at most, plans count on so much: more would rule all of them out, and the
-/// proof measures what is needed. A judgement, from no source.
+/// Where ways rise differently by more of the slope of flanks, on a few places at most, plans count on so much: more would rule all of them
+/// out, and the proof measures what is needed. A judgement, from no source.
 const MOST_SHEARED: f64 = 0.5;
-
-/// How far a blade is off the straight line of a fan, in mm: rounding of places and postures.
-const ROUNDED: f64 = 0.003;
 
 /// What the cuts of an operation follow, and how its blade keeps to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,9 +121,12 @@ impl Along {
     pub fn new(guide: &Guide, edge: Length, angle: Angle, blend: Length, others: Option<Length>) -> Self {
         let pitch = Angle::rad(libm::atan(guide.steepest()));
         let overhang = edge * (angle.cos().abs() + angle.sin() * pitch.sin());
+        let deviation = match guide {
+            Guide::Spine(spine) => spine.deviation(overhang.to_mm()),
+            Guide::Columns(columns) => columns.deviation(overhang.to_mm()),
+        };
+        // Columns have their job to themselves.
         let spine = guide.spine();
-        // Straight lines do not bend, and a fan has its job to itself.
-        let deviation = spine.map_or(Deviation::default(), |spine| spine.deviation(overhang.to_mm()));
         let left_above = |spine: &Spine| others.map_or(0.0, |longest| spine.left_above(longest, blend));
         Self {
             guide: guide.clone(),
@@ -139,7 +143,7 @@ impl Along {
     pub fn deviation(&self, slope: f64) -> Deviation {
         let off = match &self.guide {
             Guide::Spine(spine) => spine.off(self.edge, self.blend, slope),
-            Guide::Fan(fan) => ROUNDED * (1.0 + slope * slope + fan.steepest() * fan.steepest()).sqrt(),
+            Guide::Columns(columns) => columns.off(self.edge, self.blend, slope),
         };
         Deviation {
             above: self.deviation.above + off,
@@ -154,12 +158,16 @@ impl Along {
         below + above.max(self.others) + self.reserve(slope)
     }
 
-    /// How much of their reach flanks of a fan may need because older tips rise beside them at another slope. Towards steeper lines a
-    /// flank meets them as if it rose by less than its slope `c`, by up to the shear `l` of the fan: of a reach that all its edge makes,
+    /// How much of their reach flanks along columns may need because older tips beside them rise otherwise. Towards steeper ways a
+    /// flank meets them as if it rose by less than its slope `c`, by up to the shear `l` of the columns: of a reach that all its edge makes,
     /// that takes the share `l / (c + l)` (derived here). The proof measures it.
     fn reserve(&self, slope: f64) -> f64 {
         let reach = self.across.to_mm() * slope / libm::hypot(1.0, slope);
-        let shear = self.guide.fan().map_or(0.0, Fan::shear).min(slope * MOST_SHEARED);
+        let shear = self
+            .guide
+            .columns()
+            .map_or(0.0, Columns::shear)
+            .min(slope * MOST_SHEARED);
         reach * shear / (slope + shear)
     }
 

@@ -1,5 +1,5 @@
 //! Sections of a part that changes along y, drawn over each other: the part at each y, with what finishing leaves there, and the
-//! contour of roughing, which is the same at every y.
+//! contour of roughing, which is the same at every y or another one at each.
 //!
 //! One section is shown. Those of the others are in the picture, too, not shown, each with its number as `data-section` and its y as
 //! `data-y`: a page shows the one that its slider points at.
@@ -21,14 +21,26 @@ pub struct Sections<'a> {
     pub heading: Heading<'a>,
     /// Width and height of the stock.
     pub stock: [f64; 2],
-    /// The machined contour, from left to right.
-    pub machined: &'a [[f64; 2]],
-    /// The part's shadow along y, from left to right.
-    pub shadow: &'a [[f64; 2]],
+    /// What roughing leaves.
+    pub roughed: Roughed<'a>,
     /// What is seen at each y, by growing y.
     pub sections: &'a [Shown],
     /// Which of them is shown, counted from 0.
     pub shown: usize,
+}
+
+/// What roughing leaves, from left to right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Roughed<'a> {
+    /// The same at every y.
+    Alike {
+        /// The machined contour.
+        machined: &'a [[f64; 2]],
+        /// The part's shadow along y.
+        shadow: &'a [[f64; 2]],
+    },
+    /// A machined contour for each section.
+    Own(&'a [Vec<[f64; 2]>]),
 }
 
 /// What is seen at a y, from left to right.
@@ -55,27 +67,46 @@ impl Sections<'_> {
 pub fn draw(sections: &Sections<'_>) -> String {
     let section = Section::of(sections.stock, sections.heading.ids);
     let bottom = section.bottom + BELOW;
-    let (description, legend) = (description(sections), legend(sections.is_finished()));
+    let (description, legend) = (description(sections), legend(sections));
     let mut svg = sheet::sheet(sections.heading, section.room, &description, bottom, &legend);
-    section.below(&mut svg, sections.machined, &format!("fill=\"{ORANGE}\""));
+    let left = format!("fill=\"{ORANGE}\"");
+    let line = |paint: &str| format!("fill=\"none\" stroke=\"{INK}\" {paint}");
+    if let Roughed::Alike { machined, .. } = sections.roughed {
+        section.below(&mut svg, machined, &left);
+    }
     for (number, seen) in sections.sections.iter().enumerate() {
         let hidden = if number == sections.shown {
             ""
         } else {
             " display=\"none\""
         };
-        at_y(&mut svg, &section, (number, seen), hidden);
+        let at = format!(
+            "data-section=\"{number}\" data-y=\"{}\"{hidden}",
+            self::number(seen.y)
+        );
+        let own = match sections.roughed {
+            Roughed::Alike { .. } => None,
+            Roughed::Own(contours) => contours.get(number),
+        };
+        if let Some(contour) = own {
+            section.below(&mut svg, contour, &format!("{left} {at}"));
+        }
+        at_y(&mut svg, &section, seen, &at);
+        if let Some(contour) = own {
+            svg.open(section.curve(contour), &line(&format!("{CONTOUR} {at}")));
+        }
     }
-    let line = |paint: &str| format!("fill=\"none\" stroke=\"{INK}\" {paint}");
-    svg.open(section.curve(sections.shadow), &line(SHADOW));
-    svg.open(section.curve(sections.machined), &line(CONTOUR));
+    if let Roughed::Alike { machined, shadow } = sections.roughed {
+        svg.open(section.curve(shadow), &line(SHADOW));
+        svg.open(section.curve(machined), &line(CONTOUR));
+    }
     section.stock(&mut svg, FRAME);
     section.axes(&mut svg);
     svg.finish()
 }
 
 /// The part at a y, with what finishing leaves. Of many sections only as many points are kept as a screen shows.
-fn at_y(svg: &mut Svg, section: &Section, (place, seen): (usize, &Shown), hidden: &str) {
+fn at_y(svg: &mut Svg, section: &Section, seen: &Shown, at: &str) {
     let curve = |points: &[[f64; 2]]| -> Vec<[f64; 2]> {
         let thinned = Thinned::of(points, section.room.columns());
         thinned.into_iter().map(|point| section.at(point)).collect()
@@ -83,7 +114,6 @@ fn at_y(svg: &mut Svg, section: &Section, (place, seen): (usize, &Shown), hidden
     let part = curve(&seen.part);
     let ends = [part.last(), part.first()].map(|end| end.map(|end| [end[0], section.bottom]));
     let outline = Trace::around(part.iter().copied().chain(ends.into_iter().flatten()));
-    let at = format!("data-section=\"{place}\" data-y=\"{}\"{hidden}", number(seen.y));
     svg.path(outline.text(), &format!("{PART} {at}"));
     if !seen.finished.is_empty() {
         svg.open(
@@ -101,20 +131,25 @@ fn description(sections: &Sections<'_>) -> String {
     } else {
         "machined contour"
     };
+    let shadow = match sections.roughed {
+        Roughed::Alike { .. } => ", its shadow along y",
+        Roughed::Own(_) => "",
+    };
     format!(
-        "{}. Section at y {} mm of a stock {width:.1} mm wide and {height:.1} mm high with the part, its shadow along y and the \
-         {contours}.",
+        "{}. Section at y {} mm of a stock {width:.1} mm wide and {height:.1} mm high with the part{shadow} and the {contours}.",
         sections.heading.subtitle,
         number(y)
     )
 }
 
-fn legend(is_finished: bool) -> Vec<Entry> {
+fn legend(sections: &Sections<'_>) -> Vec<Entry> {
+    let is_finished = sections.is_finished();
     let line = |colour: &str, paint: &str| format!("stroke=\"{colour}\" {paint}");
-    let (stays, contour) = if is_finished {
-        ("left by roughing", "contour after roughing, at every y")
-    } else {
-        ("stays above it", "machined contour, at every y")
+    let (stays, contour) = match (sections.roughed, is_finished) {
+        (Roughed::Alike { .. }, true) => ("left by roughing", "contour after roughing, at every y"),
+        (Roughed::Alike { .. }, false) => ("stays above it", "machined contour, at every y"),
+        (Roughed::Own(_), true) => ("left by roughing", "contour after roughing, at this y"),
+        (Roughed::Own(_), false) => ("stays above it", "machined contour, at this y"),
     };
     let mut legend = vec![
         Entry::area(PART, "part at this y"),
@@ -127,6 +162,8 @@ fn legend(is_finished: bool) -> Vec<Entry> {
             "contour after finishing, at this y",
         ));
     }
-    legend.push(Entry::line(line(INK, SHADOW), "shadow of the part"));
+    if let Roughed::Alike { .. } = sections.roughed {
+        legend.push(Entry::line(line(INK, SHADOW), "shadow of the part"));
+    }
     legend
 }

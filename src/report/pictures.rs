@@ -83,7 +83,10 @@ fn titled(material: &Material<'_>, what: &str) -> String {
     let part = &material.job.part;
     let shadow = match (part.surface(), part.guide()) {
         (Some(_), Some(Guide::Spine(_))) => ", over the shadow of the part along the spine of the cuts",
-        (Some(_), Some(Guide::Fan(_))) => ", over the lower ends of the lines that cover the part",
+        (Some(_), Some(Guide::Columns(columns))) if columns.is_fan() => {
+            ", over the lower ends of the lines that cover the part"
+        }
+        (Some(_), Some(Guide::Columns(_))) => ", over the lower ends of the curves that cover the part",
         (Some(_), None) => ", over the shadow of the part",
         (None, _) => "",
     };

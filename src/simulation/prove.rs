@@ -22,10 +22,10 @@
 mod along;
 mod blocked;
 mod cleared;
+mod columns;
 mod compensation;
 mod edge;
 mod entry;
-mod fan;
 mod findings;
 mod flank;
 mod half_done;
@@ -44,13 +44,13 @@ use super::sides::ThickFlank;
 use super::surface::{Side, Single, Surface, Vee};
 use along::AlongSpine;
 pub use cleared::{Cleared, ClearingFault};
+use columns::AlongColumns;
+pub use columns::{ColumnsBound, Made};
 pub use compensation::{Compensation, VNumber};
 use core::num::NonZeroU32;
 pub use edge::UsedEdge;
 pub use entry::below_top;
 pub(super) use entry::merge_heights;
-use fan::AlongFan;
-pub use fan::FanBound;
 pub use findings::Findings;
 use findings::note;
 use flank::{FlankGeometry, flanks};
@@ -67,8 +67,8 @@ use vcutc_backend_api::segments::Segment;
 use vcutc_backend_api::state::{State, TipPose};
 use vcutc_backend_api::units::Length;
 use vcutc_backend_api::verify::VerifiedProgram;
+use vcutc_geometry::columns::Column;
 use vcutc_geometry::curve::Point2;
-use vcutc_geometry::fan::Ruling;
 use vcutc_geometry::profile::Profile;
 use vcutc_geometry::spine::Spine;
 
@@ -87,9 +87,9 @@ pub struct Bound<'p> {
     pub passes: Option<Passes>,
     /// What its cuts follow, with which taken off the part is what it is here; none where they are level.
     pub spine: Option<&'p Spine>,
-    /// The fan that its cuts keep to, of which the part is the section of lower ends; none where they do not. No other operation may
+    /// The columns that its cuts keep to, of which the part is the section of lower ends; none where they do not. No other operation may
     /// have cuts then.
-    pub fan: Option<FanBound<'p>>,
+    pub columns: Option<ColumnsBound<'p>>,
     /// How much lower than their tips say flanks of level cuts have to come out.
     pub lower: Length,
     /// How far its tips are offset against forces: it is replayed as it cuts under these. None where they are not, or where it is
@@ -126,7 +126,7 @@ impl<'p> Bound<'p> {
             aside: Length::ZERO,
             passes: None,
             spine: None,
-            fan: None,
+            columns: None,
             lower: Length::ZERO,
             compensation: None,
         }
@@ -195,8 +195,8 @@ pub struct Replay {
     pub edges: Vec<UsedEdge>,
     /// How far the tips of its operations are offset, operation by operation; none of those that are not compensated.
     pub compensations: Vec<Option<Compensation>>,
-    /// The lines of the tips of a fan whose Vs make up the machined surface; none where cuts follow no fan.
-    pub rulings: Vec<Ruling>,
+    /// The columns whose Vs make up the machined surface; none where cuts follow none.
+    pub columns: Vec<Column>,
     /// Cuts of each layer of each operation, in order.
     pub layers: Vec<(OperationId, usize)>,
     /// What tracks on a surface do, operation by operation; empty until they are judged where the surface is known.
@@ -256,10 +256,10 @@ pub fn watched(
     (player.section.taken(), player.section.into_surface())
 }
 
-/// What is needed of the bounds to see what cuts take: where none follows a spine or a fan and none is compensated, nothing.
+/// What is needed of the bounds to see what cuts take: where none follows a spine or a column and none is compensated, nothing.
 fn needed<'b, 'p>(bounds: &'b [Bound<'p>]) -> &'b [Bound<'p>] {
     let moves_cuts =
-        |bound: &Bound<'_>| bound.spine.is_some() || bound.fan.is_some() || bound.compensation.is_some();
+        |bound: &Bound<'_>| bound.spine.is_some() || bound.columns.is_some() || bound.compensation.is_some();
     if bounds.iter().any(moves_cuts) {
         bounds
     } else {
@@ -365,8 +365,8 @@ struct Player<'p> {
     parts: BTreeMap<OperationId, Vec<Point2>>,
     /// Cuts along a spine.
     along: AlongSpine,
-    /// Cuts along a fan.
-    fan: AlongFan,
+    /// Cuts along columns.
+    columns: AlongColumns,
 }
 
 impl<'p> Player<'p> {
@@ -391,7 +391,7 @@ impl<'p> Player<'p> {
             counted: None,
             layers: ByLayer::default(),
             along: AlongSpine::default(),
-            fan: AlongFan::default(),
+            columns: AlongColumns::default(),
         }
     }
 
@@ -425,8 +425,8 @@ impl<'p> Player<'p> {
             self.note_level(cut, spine);
             return;
         }
-        if let Some(fan) = bound.and_then(|bound| bound.fan) {
-            self.note_off_fan(cut, fan);
+        if let Some(columns) = bound.and_then(|bound| bound.columns) {
+            self.level_for_column(cut, geometry, columns, side);
             return;
         }
         if is_single {
@@ -615,8 +615,8 @@ impl<'p> Player<'p> {
             self.follow(segment, spine, straight);
             return;
         }
-        if let (Some(fan), Some(straight)) = (bound.and_then(|bound| bound.fan), blade.straight()) {
-            self.follow_line(segment, fan, straight);
+        if let (Some(columns), Some(straight)) = (bound.and_then(|bound| bound.columns), blade.straight()) {
+            self.follow_column(segment, columns, straight);
             return;
         }
         let passes = bound.and_then(|bound| bound.passes);
@@ -648,13 +648,13 @@ impl<'p> Player<'p> {
         }
         if before.is_none_or(|(before, _)| before != operation) {
             self.note_half_done();
-            self.note_half_done_of_fan();
+            self.note_half_done_of_columns();
         }
     }
 
     fn finish(mut self) -> Replay {
         self.note_half_done();
-        self.note_half_done_of_fan();
+        self.note_half_done_of_columns();
         self.note_idle_slits();
         let (overcut, traceless) = (self.overcut(), self.traceless);
         let deepest = match (overcut, traceless) {
@@ -668,7 +668,7 @@ impl<'p> Player<'p> {
             findings: self.findings,
             longest_edge: Length::mm(self.longest_edge),
             edges: self.edges,
-            rulings: self.fan.into_rulings(),
+            columns: self.columns.into_columns(),
             compensations: self
                 .bounds
                 .iter()

@@ -6,8 +6,8 @@ use super::prove::{Cleared, Compensation, Replay, Slit, Tracked, UsedEdge};
 use super::timing::Times;
 use vcutc_backend_api::ir::{OperationId, Stock};
 use vcutc_backend_api::units::{Area, Length};
+use vcutc_geometry::columns::Column;
 use vcutc_geometry::curve::Point2;
-use vcutc_geometry::fan::Ruling;
 use vcutc_geometry::profile::{Contour, Profile};
 
 /// Figures of a program.
@@ -19,9 +19,9 @@ pub struct Report {
     pub times: Times,
     /// The machined contour's corners, from left to right; two at one x are a wall.
     pub contour: Vec<Point2>,
-    /// The lines of the tips of a fan whose Vs make up the machined surface; none where cuts follow no fan. The contour then is what they
-    /// leave at most at any y, seen from the lower ends of its lines.
-    pub rulings: Vec<Ruling>,
+    /// The columns whose Vs make up the machined surface; none where cuts follow none. The contour then is what they leave at most at any
+    /// y, seen from the lower ends of their ways.
+    pub columns: Vec<Column>,
     /// Area of the stock's cross-section that is cut away.
     pub removed: Area,
     /// Area that stays on the part.
@@ -85,7 +85,7 @@ pub fn report(replay: Replay, stock: Stock, part: &Profile, times: Times) -> Rep
     let deepest = farthest(part.points(), &Contour::new(&corners));
     Report {
         layers: replay.layers,
-        rulings: replay.rulings,
+        columns: replay.columns,
         times,
         removed: Area::mm2(whole - machined),
         residual,

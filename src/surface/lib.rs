@@ -7,7 +7,7 @@
 //! 3. [`coverage`] says whether each place of the plan lies under a triangle, and what is odd about them.
 //! 4. A surface has a shadow along y, sections, a height at each place ([`shadow`]), a highest and a lowest place.
 //! 5. A [`mod@spine`] that suits it says how cuts may rise and fall with it; with that taken off, it is roughed as by level ones.
-//!    [`residual`] says what cuts leave over it.
+//!    Or [`mod@columns`] cover it, with a way of its own for each cut. [`residual`] says what cuts leave over it.
 //! 6. A [`deviation`] is the part's upper side as a file, with what is left above each corner.
 //! 7. A [`map`] has the highest place of each of its cells, of the surface or of what is left over it.
 //! 8. A [`mod@bend`] is the curvature at a place, exact or estimated from triangles, and puts it into a [`mod@class`].
@@ -23,6 +23,7 @@
 
 pub mod bend;
 pub mod class;
+pub mod columns;
 pub mod coverage;
 pub mod curvature;
 pub mod deviation;
@@ -30,12 +31,12 @@ pub mod disc;
 pub mod drop;
 mod envelope;
 mod extremes;
-pub mod fan;
 pub mod formula;
 mod frechet;
 pub mod gouge;
 pub mod grid;
 pub mod import;
+mod knots;
 pub mod lead;
 pub mod loft;
 pub mod map;

@@ -6,6 +6,7 @@
 //! What comes out is smoothed, because a blade that follows a sharp bend lies off its tips. Any spine is right: what is cut is
 //! kept out of the surface itself, not of the grid.
 
+use crate::knots::{Place, Rule, knots};
 use crate::surface::{Surface, SurfaceError, clipped};
 use vcutc_geometry::grid;
 use vcutc_geometry::spine::{Knot, Spine};
@@ -30,26 +31,17 @@ pub struct Fitted {
 }
 
 /// How far a blade is taken to lie ahead of its tip where spines are chosen, in mm.
-const OVERHANG: f64 = 25.0;
+pub(crate) const OVERHANG: f64 = 25.0;
 
 /// Heights across and along the work that are looked at.
 const COLUMNS: u32 = 48;
-const ROWS: usize = 161;
+pub(crate) const ROWS: usize = 161;
 
 /// How often rows and columns are levelled. Every time the rest falls, first fast, then hardly.
 const LEVELLINGS: usize = 40;
 
 /// Spines are smoothed so often at most: each time over twice as many neighbours.
-const MOST_SMOOTHINGS: u32 = 12;
-
-/// The share of the largest bend that a spine may turn by from knot to knot.
-const TURN: f64 = 0.97 * Spine::LARGEST_BEND;
-
-/// Rounded to the grid, two knots so far apart, in mm, bend by one rad more, and farther ones by as much less.
-const ROUNDED: f64 = 0.0022;
-
-/// Knots are no nearer to each other than this, in mm.
-const NEAREST: f64 = 0.5;
+pub(crate) const MOST_SMOOTHINGS: u32 = 12;
 
 impl Surface {
     /// The surface with a spine taken off its heights. Triangles are divided at the knots, so that it is exact up to rounding.
@@ -172,7 +164,7 @@ impl Heights {
         let mut rises = self.levelled();
         let mut best: Option<Fitted> = None;
         for smoothing in 0..=MOST_SMOOTHINGS {
-            let fitted = knots(&rises, self.depth).and_then(|spine| self.fitted(spine));
+            let fitted = through(&rises, self.depth).and_then(|spine| self.fitted(spine));
             if let Some(fitted) = fitted
                 && best.as_ref().is_none_or(|best| fitted.leaves < best.leaves)
             {
@@ -218,76 +210,28 @@ impl Heights {
 }
 
 /// Draws every rise, but for the ends, towards its neighbours.
-fn smooth(rises: &mut [f64]) {
+pub(crate) fn smooth(rises: &mut [f64]) {
     let before = rises.to_vec();
     for (rise, near) in rises.iter_mut().skip(1).zip(before.windows(3)) {
         *rise = near[0] / 4.0 + near[1] / 2.0 + near[2] / 4.0;
     }
 }
 
-/// A spine near the curve of which the rises, evenly spaced, are the control points: a quadratic spline, whose slope goes on
-/// evenly from one middle between two of them to the next. None where it is too steep or bends too much.
-fn knots(rises: &[f64], depth: f64) -> Option<Spine> {
-    let apart = depth / (rises.len() - 1) as f64;
-    let mut walk = Walk {
-        knots: vec![Knot {
-            y: 0.0,
-            rise: *rises.first()?,
-        }],
-        angle: libm::atan((rises.get(1)? - rises.first()?) / apart),
-        turned: 0.0,
+/// A spine near the curve of which the rises, evenly spaced, are the control points. None where it is too steep or bends too much.
+fn through(rises: &[f64], depth: f64) -> Option<Spine> {
+    let rule = Rule {
+        turn: libm::atan,
+        off: f64::INFINITY,
+        most: usize::MAX,
     };
-    for (number, three) in rises.windows(3).enumerate() {
-        let [from, to] = [(three[1] - three[0]) / apart, (three[2] - three[1]) / apart];
-        let start = apart * (number as f64 + 0.5);
-        let rise = f64::midpoint(three[0], three[1]);
-        let turn = (libm::atan(to) - libm::atan(from)).abs();
-        let steps = (turn / (TURN / 8.0)).ceil().clamp(1.0, 1000.0) as u32;
-        for step in 1..=steps {
-            let along = apart * f64::from(step) / f64::from(steps);
-            let slope = from + (to - from) * along / apart;
-            walk.on(
-                Knot {
-                    y: start + along,
-                    rise: rise + f64::midpoint(from, slope) * along,
-                },
-                slope,
-            );
-        }
-    }
-    let last = Knot {
-        y: depth,
-        rise: *rises.last()?,
+    let places = knots(&[rises.to_vec()], depth, rule)?;
+    let knot = |place: Place| {
+        Some(Knot {
+            y: place.y,
+            rise: *place.heights.first()?,
+        })
     };
-    if let Some(knot) = walk.knots.last()
-        && depth - knot.y < NEAREST
-        && walk.knots.len() > 1
-    {
-        walk.knots.pop();
-    }
-    walk.knots.push(last);
-    spine(walk.knots)
-}
-
-/// A curve on its way from knot to knot.
-struct Walk {
-    knots: Vec<Knot>,
-    angle: f64,
-    /// Since the last knot.
-    turned: f64,
-}
-
-impl Walk {
-    fn on(&mut self, place: Knot, slope: f64) {
-        let angle = libm::atan(slope);
-        self.turned += (angle - self.angle).abs();
-        self.angle = angle;
-        let along = self.knots.last().map_or(0.0, |last| place.y - last.y);
-        if self.turned > 0.8 * (TURN - ROUNDED / along.max(NEAREST)) && along >= NEAREST {
-            self.knots.push(place);
-            self.turned = 0.0;
-        }
-    }
+    spine(places.into_iter().map(knot).collect::<Option<Vec<_>>>()?)
 }
 
 /// A spine through places that are put on the grid, the least of them at 0.

@@ -21,6 +21,8 @@ mod chromium;
 #[cfg(all(feature = "cli", feature = "krl"))]
 mod cli;
 mod codes;
+#[cfg(feature = "krl")]
+mod columns;
 #[cfg(all(feature = "cli", feature = "krl"))]
 #[path = "../../build/commit.rs"]
 mod commit;
@@ -36,8 +38,6 @@ mod drawn;
 mod effort;
 #[cfg(feature = "krl")]
 mod examples;
-#[cfg(feature = "krl")]
-mod fan;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod finish;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
@@ -46,6 +46,8 @@ mod fitted;
 #[cfg(feature = "krl")]
 mod five_axis;
 mod fmt;
+#[cfg(feature = "krl")]
+mod follow;
 #[cfg(feature = "krl")]
 mod forces;
 #[cfg(all(feature = "cli", feature = "krl"))]

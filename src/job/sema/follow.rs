@@ -9,6 +9,7 @@ use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::{Span, Spanned};
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_surface::columns::Each;
 use vcutc_surface::spine::Rising;
 use vcutc_surface::surface::Surface;
 
@@ -24,6 +25,15 @@ pub(super) struct Asked<'a> {
     pub(super) machine: Option<&'a Machine>,
 }
 
+/// What cuts may follow other than level lines.
+#[derive(Clone, Copy)]
+enum Manner {
+    /// All of them one spine.
+    Alike(Rising),
+    /// Each a way of its own.
+    Own(Each),
+}
+
 /// The part as the cuts of all operations follow it.
 pub(super) fn decide(asked: Asked<'_>, ways: &mut [Ways], reports: &mut Reports) -> Checked<Part> {
     let Some(follow) = agreed(ways, reports)? else {
@@ -33,20 +43,36 @@ pub(super) fn decide(asked: Asked<'_>, ways: &mut [Ways], reports: &mut Reports)
         node: follow.value,
         span: follow.span.unwrap_or(asked.place),
     };
-    let rising = match (asked.part.surface(), follow.value) {
+    let manner = match (asked.part.surface(), follow.value) {
         (_, Follow::Straight) | (None, Follow::Auto) => None,
-        (None, Follow::Pitched | Follow::Spine | Follow::Fan) => {
+        (None, Follow::Pitched | Follow::Spine | Follow::Fan | Follow::Columns) => {
             return Err(reports.push(nothing_to_follow(word, asked.place)));
         }
-        (Some(_), Follow::Pitched) => Some(Rising::Evenly),
-        (Some(_), Follow::Spine) => Some(Rising::Freely),
-        (Some(_), Follow::Fan) => return fan(asked, word, ways, reports),
-        (Some(surface), Follow::Auto) => best(&asked.part, surface, asked.machine),
+        (Some(_), Follow::Pitched) => Some(Manner::Alike(Rising::Evenly)),
+        (Some(_), Follow::Spine) => Some(Manner::Alike(Rising::Freely)),
+        (Some(_), Follow::Fan) => Some(Manner::Own(Each::Straight)),
+        (Some(_), Follow::Columns) => Some(Manner::Own(Each::Curved)),
+        (Some(surface), Follow::Auto) => best(&asked, surface, ways),
     };
+    match manner {
+        None => Ok(asked.part),
+        Some(Manner::Alike(rising)) => alike(asked, rising, word, ways, reports),
+        Some(Manner::Own(each)) => own(asked, each, word, ways, reports),
+    }
+}
+
+/// The part with all cuts along one spine.
+fn alike(
+    asked: Asked<'_>,
+    rising: Rising,
+    word: Spanned<Follow>,
+    ways: &mut [Ways],
+    reports: &mut Reports,
+) -> Checked<Part> {
     // Where nothing is better than level cuts, these are taken.
-    let Some(rising) = rising.filter(|rising| asked.part.fitted(*rising).is_some()) else {
+    if asked.part.fitted(rising).is_none() {
         return Ok(asked.part);
-    };
+    }
     if let Some(machine) = asked.machine.filter(|machine| !machine.turns_planes()) {
         return Err(reports.push(too_few_axes(word, machine)));
     }
@@ -67,8 +93,14 @@ pub(super) fn decide(asked: Asked<'_>, ways: &mut [Ways], reports: &mut Reports)
     Ok(part)
 }
 
-/// The part with every cut along the line of its place.
-fn fan(asked: Asked<'_>, word: Spanned<Follow>, ways: &mut [Ways], reports: &mut Reports) -> Checked<Part> {
+/// The part with every cut along the way of its place.
+fn own(
+    asked: Asked<'_>,
+    each: Each,
+    word: Spanned<Follow>,
+    ways: &mut [Ways],
+    reports: &mut Reports,
+) -> Checked<Part> {
     if let Some(machine) = asked.machine.filter(|machine| !machine.turns_planes()) {
         return Err(reports.push(too_few_axes(word, machine)));
     }
@@ -76,14 +108,10 @@ fn fan(asked: Asked<'_>, word: Spanned<Follow>, ways: &mut [Ways], reports: &mut
         let second = second.iter().next().map(|way| way.operation.setup().head_span);
         return Err(reports.push(not_alone(word, second.unwrap_or(asked.place))));
     }
-    let blades = ways
-        .iter()
-        .flat_map(Ways::iter)
-        .flat_map(|way| way.operation.blades());
-    if let Some(body) = blades.filter_map(BladeRef::body).map(|body| body.span).next() {
+    if let Some(body) = body(ways) {
         return Err(reports.push(stated_body(word, body)));
     }
-    let Some(part) = asked.part.fanned(asked.stock) else {
+    let Some(part) = asked.part.along_columns(each, asked.stock) else {
         return Err(reports.push(not_covered(word, asked.place)));
     };
     let steepest = part.guide().map_or(0.0, Guide::steepest);
@@ -96,6 +124,15 @@ fn fan(asked: Asked<'_>, word: Spanned<Follow>, ways: &mut [Ways], reports: &mut
         }
     }
     Ok(part)
+}
+
+/// Where the body of a blade is stated.
+fn body(ways: &[Ways]) -> Option<Span> {
+    let blades = ways
+        .iter()
+        .flat_map(Ways::iter)
+        .flat_map(|way| way.operation.blades());
+    blades.filter_map(BladeRef::body).map(|body| body.span).next()
 }
 
 /// The longest edge of the straight blades of an operation, if it has some.
@@ -126,14 +163,26 @@ fn agreed(ways: &[Ways], reports: &mut Reports) -> Checked<Option<Sourced<Follow
     Ok(found.map(|(follow, _)| follow))
 }
 
-/// The simplest way to follow a surface that leaves hardly more than the best; none where level cuts do.
-fn best(part: &Part, surface: &Surface, machine: Option<&Machine>) -> Option<Rising> {
-    if machine.is_some_and(|machine| !machine.turns_planes()) {
+/// The simplest way to follow a surface that leaves hardly more than the best; none where level cuts do. Ways of their own are looked at
+/// where cuts can have them.
+fn best(asked: &Asked<'_>, surface: &Surface, ways: &[Ways]) -> Option<Manner> {
+    if asked.machine.is_some_and(|machine| !machine.turns_planes()) {
         return None;
     }
+    let part = &asked.part;
+    let may_differ = ways.len() == 1 && body(ways).is_none();
     let straight = surface.left_by_straight_cuts();
-    let all = [Rising::Evenly, Rising::Freely];
-    let found = all.map(|rising| Some((rising, part.fitted(rising)?.leaves)));
+    let alike = |rising| Some((Manner::Alike(rising), part.fitted(rising)?.leaves));
+    let own = |each| {
+        let covered = part.covered(each).filter(|_| may_differ)?;
+        Some((Manner::Own(each), covered.leaves))
+    };
+    let found = [
+        alike(Rising::Evenly),
+        alike(Rising::Freely),
+        own(Each::Straight),
+        own(Each::Curved),
+    ];
     let least = found
         .iter()
         .flatten()
@@ -147,7 +196,7 @@ fn best(part: &Part, surface: &Surface, machine: Option<&Machine>) -> Option<Ris
     let mut found = found.into_iter().flatten();
     found
         .find(|(_, leaves)| *leaves <= enough)
-        .map(|(rising, _)| rising)
+        .map(|(manner, _)| manner)
 }
 
 fn nothing_to_follow(follow: Spanned<Follow>, part: Span) -> Diagnostic {
@@ -166,27 +215,41 @@ fn nothing_to_follow(follow: Spanned<Follow>, part: Span) -> Diagnostic {
 fn not_alone(follow: Spanned<Follow>, second: Span) -> Diagnostic {
     Diagnostic::new(
         Code::CannotFollow,
-        "cuts that follow a fan have their job to themselves",
+        match follow.node {
+            Follow::Fan => "cuts that follow a fan have their job to themselves",
+            _ => "cuts that follow columns have their job to themselves",
+        },
         follow.span,
-        "the slope of each of these cuts is its own",
+        its_own(follow),
     )
     .and(
         second,
         "this operation would have to know what they left at every y",
     )
-    .note("other operations are planned in one cross-section, and after a fan all of them differ")
+    .note("other operations are planned in one cross-section, and after these cuts all of them differ")
     .help("delete the other operations, or let all of them `follow = spine`")
+}
+
+/// What sets cuts apart that have ways of their own.
+const fn its_own(follow: Spanned<Follow>) -> &'static str {
+    match follow.node {
+        Follow::Fan => "the slope of each of these cuts is its own",
+        _ => "the way of each of these cuts is its own",
+    }
 }
 
 fn stated_body(follow: Spanned<Follow>, blade: Span) -> Diagnostic {
     Diagnostic::new(
         Code::CannotFollow,
-        "`follow = fan` does not go with a blade whose `body` is stated",
+        format!(
+            "`follow = {}` does not go with a blade whose `body` is stated",
+            follow.node.word()
+        ),
         follow.span,
-        "the slope of each of these cuts is its own",
+        its_own(follow),
     )
     .and(blade, "the body of this blade is stated")
-    .note("how bodies pass the work is computed in one cross-section, and those of a fan differ")
+    .note("how bodies pass the work is computed in one cross-section, and those of these cuts differ")
     .help("delete `body`, or use `follow = spine`")
     .fix("follow a spine: `spine`", follow.span, Follow::Spine.word())
 }
@@ -194,12 +257,27 @@ fn stated_body(follow: Spanned<Follow>, blade: Span) -> Diagnostic {
 fn not_covered(follow: Spanned<Follow>, part: Span) -> Diagnostic {
     Diagnostic::new(
         Code::CannotFollow,
-        "no straight lines cover this part",
+        match follow.node {
+            Follow::Fan => "no straight lines cover this part",
+            _ => "no curves that a blade can follow cover this part",
+        },
         follow.span,
-        "every cut follows the straight line that covers the part in its place",
+        match follow.node {
+            Follow::Fan => "every cut follows the straight line that covers the part in its place",
+            _ => "every cut follows the curve that covers the part in its place",
+        },
     )
-    .and(part, "this surface has a gap along y")
-    .help("close the gap, or use `follow = straight`")
+    .and(
+        part,
+        match follow.node {
+            Follow::Fan => "this surface has a gap along y",
+            _ => "this surface is steeper than 45 degrees along y",
+        },
+    )
+    .help(match follow.node {
+        Follow::Fan => "close the gap, or use `follow = straight`",
+        _ => "use `follow = straight`",
+    })
     .fix("cut level: `straight`", follow.span, Follow::Straight.word())
 }
 

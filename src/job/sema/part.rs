@@ -19,12 +19,12 @@ use std::sync::{Arc, OnceLock};
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::source::Span;
+use vcutc_geometry::columns::Column;
 use vcutc_geometry::curve::{Curve, Point2};
-use vcutc_geometry::fan::Ruling;
 use vcutc_geometry::profile::{Profile, ProfileError};
 use vcutc_geometry::spine::Spine;
 use vcutc_surface::bend::{Bend, Exact};
-use vcutc_surface::fan::Fanned;
+use vcutc_surface::columns::{Covered, Each};
 use vcutc_surface::map::Cells;
 use vcutc_surface::residual::Machined;
 use vcutc_surface::spine::{Fitted, Rising};
@@ -58,8 +58,8 @@ pub struct Shaded {
     shadow: Profile,
     /// How cuts might follow it, computed once: a surface outlives a run.
     ways: [OnceLock<Option<Way>>; 2],
-    /// The lines of a fan that cover it, likewise.
-    fanned: OnceLock<Option<Fanned>>,
+    /// The columns that cover it, straight and curved, likewise.
+    own: [OnceLock<Option<OwnWay>>; 2],
 }
 
 /// A way to follow a surface.
@@ -70,11 +70,19 @@ struct Way {
     along: OnceLock<Option<Arc<Shaded>>>,
 }
 
+/// A way of its own for each cut over a surface.
+#[derive(Debug)]
+struct OwnWay {
+    covered: Covered,
+    /// The surface with every cut along its column.
+    along: OnceLock<Arc<Shaded>>,
+}
+
 /// How all cuts follow a surface.
 #[derive(Debug)]
 struct Followed {
     guide: Guide,
-    /// The surface with the spine taken off; none where each cut follows a line of its own.
+    /// The surface with the spine taken off; none where each cut follows a way of its own.
     levelled: Option<Surface>,
 }
 
@@ -86,7 +94,7 @@ impl Shaded {
             followed,
             shadow,
             ways: [const { OnceLock::new() }; 2],
-            fanned: OnceLock::new(),
+            own: [const { OnceLock::new() }; 2],
         }
     }
 
@@ -126,16 +134,30 @@ impl Shaded {
         Some(Self::of(Arc::clone(&self.surface), exact, Some(followed), shadow))
     }
 
-    /// With every cut along the line of its place, in a stock of that height.
-    fn fanned(&self, height: Length) -> Option<Self> {
-        let fanned = self.fanned.get_or_init(|| self.surface.fan()).as_ref()?;
-        let shadow = fanned.fan.shadow().not_above(height);
+    fn own_way(&self, each: Each) -> Option<&OwnWay> {
+        let [straight, curved] = &self.own;
+        let way = match each {
+            Each::Straight => straight,
+            Each::Curved => curved,
+        };
+        let cover = || {
+            self.surface.columns(each).map(|covered| OwnWay {
+                covered,
+                along: OnceLock::new(),
+            })
+        };
+        way.get_or_init(cover).as_ref()
+    }
+
+    /// With every cut along its column, in a stock of that height.
+    fn covered(&self, covered: &Covered, height: Length) -> Self {
+        let shadow = covered.columns.shadow().not_above(height);
         let followed = Followed {
-            guide: Guide::Fan(Arc::new(fanned.fan.clone())),
+            guide: Guide::Columns(Arc::clone(&covered.columns)),
             levelled: None,
         };
         let exact = self.exact.clone();
-        Some(Self::of(Arc::clone(&self.surface), exact, Some(followed), shadow))
+        Self::of(Arc::clone(&self.surface), exact, Some(followed), shadow)
     }
 
     /// What all cuts that rough the surface follow; none where they are level.
@@ -149,11 +171,11 @@ impl Shaded {
     pub fn spine(&self) -> Option<&Arc<Spine>> {
         match self.guide()? {
             Guide::Spine(spine) => Some(spine),
-            Guide::Fan(_) => None,
+            Guide::Columns(_) => None,
         }
     }
 
-    /// The surface as it is seen across the cuts: with their spine taken off. A fan has none.
+    /// The surface as it is seen across the cuts: with their spine taken off. Columns have none.
     #[must_use]
     pub fn levelled(&self) -> &Surface {
         let levelled = self
@@ -245,13 +267,23 @@ impl Part {
         })
     }
 
-    /// The same part, with every cut that roughs it along the line of its place. None where that does not exist.
-    pub(crate) fn fanned(&self, stock: Stock) -> Option<Self> {
+    /// The columns that suit it best. None where none cover it, and where the part is not a surface.
+    pub(crate) fn covered(&self, each: Each) -> Option<&Covered> {
+        match &self.shape {
+            Shape::Surface(shaded) => Some(&shaded.own_way(each)?.covered),
+            Shape::Profile(_) => None,
+        }
+    }
+
+    /// The same part, with every cut that roughs it along its column. None where that does not exist.
+    pub(crate) fn along_columns(&self, each: Each, stock: Stock) -> Option<Self> {
         let Shape::Surface(shaded) = &self.shape else {
             return None;
         };
+        let way = shaded.own_way(each)?;
+        let along = || Arc::new(shaded.covered(&way.covered, stock.height));
         Some(Self {
-            shape: Shape::Surface(Arc::new(shaded.fanned(stock.height)?)),
+            shape: Shape::Surface(Arc::clone(way.along.get_or_init(along))),
             width: self.width,
         })
     }
@@ -301,15 +333,15 @@ impl Part {
         }
     }
 
-    /// What cuts leave that end at this contour, seen with what they follow taken off, from left to right; of a fan what its lines
+    /// What cuts leave that end at this contour, seen with what they follow taken off, from left to right; of columns what their Vs
     /// leave. None where that does not exist.
     #[must_use]
-    pub fn left_by(&self, contour: &[Point2], rulings: &[Ruling], stock: Stock) -> Option<Machined> {
+    pub fn left_by(&self, contour: &[Point2], columns: &[Column], stock: Stock) -> Option<Machined> {
         let machined = Machined::new(contour.to_vec()).ok()?;
         Some(match self.guide() {
             None => machined,
             Some(Guide::Spine(spine)) => machined.along(Arc::clone(spine), stock.height),
-            Some(Guide::Fan(fan)) => machined.ruled(rulings.to_vec(), fan.depth(), stock.height),
+            Some(Guide::Columns(guide)) => machined.ruled(columns.to_vec(), guide.knots(), stock.height),
         })
     }
 

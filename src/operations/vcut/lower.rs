@@ -11,7 +11,7 @@
 //! at the higher of both tips, and straight down to the lower one.
 //!
 //! Along a spine a cut is a chain through its stations, and all places beside the work are as much higher or lower as the spine is
-//! there. In a fan it is a chain of one piece.
+//! there. Along a column it is a chain through the stations of its own; in a fan that is one piece.
 //!
 //! Where a plan is compensated, each V is cut at its offset, and so are the ways to and from it.
 //!
@@ -365,7 +365,7 @@ impl<'b> Writer<'b> {
             (posture, self.builder.orientation(posture))
         });
         let held: Vec<(Orientation, OrientationId)> = held.collect();
-        // In a fan every place has a slope of its own.
+        // Every column has slopes of its own.
         if let Course::Spine(_) = self.course {
             self.along.push(HeldAlong {
                 flank: pass.flank,

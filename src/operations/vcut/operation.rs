@@ -197,8 +197,8 @@ impl Operation for RoughVcut {
         let angle = self.setup.rake.value - self.blade.half_apex.value;
         // Wider Vs would lay the shank down where cuts fall.
         let standing = parameters::widest_standing(self.setup.rake.value, guide.steepest());
-        let in_fan = guide.fan().map(parameters::widest_in_fan);
-        if let Some(widest) = standing.into_iter().chain(in_fan).reduce(Angle::min) {
+        let in_columns = guide.columns().map(parameters::widest_in_columns);
+        if let Some(widest) = standing.into_iter().chain(in_columns).reduce(Angle::min) {
             let most = &mut self.limits.swing.most;
             if self.swing.value == Auto::Auto && most.is_none_or(|most| most.value > widest) {
                 *most = Some(Sourced {

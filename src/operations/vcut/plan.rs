@@ -49,9 +49,9 @@ use searched::Searched;
 use std::borrow::Cow;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::{Duration, Length};
+use vcutc_geometry::columns::Columns;
 use vcutc_geometry::cone;
 use vcutc_geometry::curve::Point2;
-use vcutc_geometry::fan::Fan;
 use vcutc_geometry::profile::Profile;
 use vcutc_geometry::spine::Spine;
 use vcutc_job::{Auto, Order, PlanningJob};
@@ -339,10 +339,11 @@ impl PlannedVcut {
         self.decisions.iter().any(|decision| decision.field == PARAMETERS)
     }
 
-    /// The plan with level cuts, where all sections along its spine are alike.
+    /// The plan with level cuts, where all sections along its spine are alike, and where each of them stands for a chain along a column. The
+    /// cuts of a fan are chains of one piece.
     #[must_use]
     pub fn level(&self) -> Cow<'_, Self> {
-        if self.spine().is_none() {
+        if self.spine().is_none() && self.columns().is_none_or(Columns::is_fan) {
             return Cow::Borrowed(self);
         }
         let mut level = self.clone();
@@ -356,10 +357,10 @@ impl PlannedVcut {
         self.asked.along.as_ref()?.guide.spine()
     }
 
-    /// The fan of its cuts, if they follow one.
+    /// The columns of its cuts, if they follow such.
     #[must_use]
-    pub fn fan(&self) -> Option<&Fan> {
-        self.asked.along.as_ref()?.guide.fan()
+    pub fn columns(&self) -> Option<&Columns> {
+        self.asked.along.as_ref()?.guide.columns()
     }
 
     /// What becomes of its redundant Vs.

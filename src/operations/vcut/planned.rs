@@ -18,7 +18,7 @@ use vcutc_job::operation::{Operation, Trials, WorksThere};
 use vcutc_job::planned::{Balance, Compile, CutShape, Estimate, PlannedTip};
 use vcutc_job::search::RouteSet;
 use vcutc_job::{Auto, Order, PlannedOperation};
-use vcutc_simulation::prove::{Bound, Compensation, FanBound, Finding};
+use vcutc_simulation::prove::{Bound, ColumnsBound, Compensation, Finding, Made};
 use vcutc_simulation::report::Report;
 use vcutc_simulation::surface::Surface;
 
@@ -44,11 +44,12 @@ impl PlannedVcut {
 }
 
 impl PlannedVcut {
-    /// The fan that its cuts keep to, if they do.
-    fn fan_bound(&self) -> Option<FanBound<'_>> {
-        Some(FanBound {
-            fan: self.fan()?,
+    /// The columns that its cuts keep to, if they do.
+    fn columns_bound(&self) -> Option<ColumnsBound<'_>> {
+        Some(ColumnsBound {
+            columns: self.columns()?,
             allowance: self.asked.allowance.value,
+            made: Made::AsChains,
         })
     }
 
@@ -109,7 +110,7 @@ impl PlannedOperation for PlannedVcut {
             drop: self.parameters.drop - self.parameters.below,
             aside: self.parameters.standoff,
             spine: self.spine(),
-            fan: self.fan_bound(),
+            columns: self.columns_bound(),
             edge: self.asked.limits.edge.map(|limit| limit.value),
             compensation: self.compensation.as_ref().map(|compensated| &compensated.by),
             lower: self

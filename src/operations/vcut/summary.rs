@@ -83,11 +83,17 @@ fn followed(asked: &RoughVcut) -> Option<String> {
     };
     let spine = match &along.guide {
         Guide::Spine(spine) => spine,
-        Guide::Fan(fan) => {
-            return Some(format!(
-                "a fan: every cut is straight, pitched by up to {:.2} deg; heights are those of lower ends",
-                libm::atan(fan.steepest()).to_degrees(),
-            ));
+        Guide::Columns(columns) => {
+            let pitch = libm::atan(columns.steepest()).to_degrees();
+            return Some(match columns.slabs() {
+                1 => format!(
+                    "a fan: every cut is straight, pitched by up to {pitch:.2} deg; heights are those of lower ends"
+                ),
+                slabs => format!(
+                    "columns: every cut has a way of its own in {slabs} pieces, pitched by up to {pitch:.2} deg; heights are those of \
+                     lower ends"
+                ),
+            });
         }
     };
     let [first, _] = spine.end_slopes();

@@ -14,7 +14,10 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
     let finished = SurfaceMap::of_finished(&subject.material);
     let alike = match subject.material.job.part.guide() {
         None => "The cuts are the same at every y",
-        Some(Guide::Fan(_)) => "Every cut is straight and has a slope of its own",
+        Some(Guide::Columns(columns)) if columns.is_fan() => {
+            "Every cut is straight and has a slope of its own"
+        }
+        Some(Guide::Columns(_)) => "Every cut rises and falls along a curve of its own",
         Some(Guide::Spine(_)) => {
             "The cuts rise and fall along one spine, and seen along it they are the same at every y"
         }
@@ -111,9 +114,14 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
             &places,
             sections.shown(),
             &format!(
-                "The section of the part at the y of the slider{off}. The contour {} is the same at every y and lies above the \
-                 shadow, the greatest height of the part along y.{}",
-                if is_finished { "after roughing" } else { "of the cuts" },
+                "The section of the part at the y of the slider{off}{}{}",
+                match (sections.are_alike(), is_finished) {
+                    (true, true) => ". The contour after roughing is the same at every y and lies above the shadow, the greatest height \
+                                     of the part along y.",
+                    (true, false) => ". The contour of the cuts is the same at every y and lies above the shadow, the greatest height of \
+                                      the part along y.",
+                    (false, _) => ", with the contour that the cuts leave there.",
+                },
                 if is_finished {
                     " Finishing follows the part."
                 } else {

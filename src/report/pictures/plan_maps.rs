@@ -123,7 +123,7 @@ impl SurfaceMap {
         let (size, cells) = laid_out(surface);
         let machined = material.job.part.left_by(
             &corners(material),
-            &material.compiled.report.rulings,
+            &material.compiled.report.columns,
             material.job.stock,
         )?;
         // What tracks on the surface take off, sections alone know.

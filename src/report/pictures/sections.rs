@@ -1,10 +1,11 @@
-//! Sections of a part that changes along y, with the contour that the cuts leave.
+//! Sections of a part that changes along y, with the contour that the cuts leave: the same in all of them, or where cuts have ways of their
+//! own another one in each.
 
 use super::{corners, pairs};
 use crate::Material;
 use vcutc_job::follow::Guide;
 use vcutc_picture::Prefix;
-use vcutc_picture::sections::{self, Heading, Shown};
+use vcutc_picture::sections::{self, Heading, Roughed, Shown};
 use vcutc_simulation::prove::Across;
 use vcutc_surface::surface::Surface;
 
@@ -17,19 +18,44 @@ pub struct SurfaceSections {
     title: String,
     subtitle: &'static str,
     stock: [f64; 2],
-    machined: Vec<[f64; 2]>,
-    shadow: Vec<[f64; 2]>,
+    left: Left,
     shown: Vec<Shown>,
 }
 
+/// What the cuts leave, from left to right.
+#[derive(Clone, Debug)]
+enum Left {
+    /// The same at every y, over a shadow.
+    Alike {
+        machined: Vec<[f64; 2]>,
+        shadow: Vec<[f64; 2]>,
+    },
+    /// One contour for each section.
+    Own(Vec<Vec<[f64; 2]>>),
+}
+
+impl Left {
+    /// At these places along y.
+    fn of(material: &Material<'_>, places: impl Iterator<Item = f64>) -> Option<Self> {
+        let part = &material.job.part;
+        if !matches!(part.guide(), Some(Guide::Columns(_))) {
+            return Some(Self::Alike {
+                machined: pairs(&corners(material)),
+                shadow: pairs(material.plan.profile.points()),
+            });
+        }
+        let stock = material.job.stock;
+        let machined = part.left_by(&corners(material), &material.compiled.report.columns, stock)?;
+        let width = stock.width.to_mm();
+        let contours = places.map(|y| Some(pairs(&machined.section(y, width)?)));
+        Some(Self::Own(contours.collect::<Option<_>>()?))
+    }
+}
+
 impl SurfaceSections {
-    /// The sections of a part, from the front of the stock to its back; none of a part that is a profile, nor where the cuts are a fan:
-    /// no contour is the same in all of its sections.
+    /// The sections of a part, from the front of the stock to its back; none of a part that is a profile.
     #[must_use]
     pub fn of(material: &Material<'_>) -> Option<Self> {
-        if let Some(Guide::Fan(_)) = material.job.part.guide() {
-            return None;
-        }
         let surface = material.job.part.levelled()?;
         let stock = material.plan.stock;
         let finished = material.compiled.report.tracked.last();
@@ -57,8 +83,7 @@ impl SurfaceSections {
                 Some(_) => "what the cuts leave above the part, with the spine of the cuts taken off",
             },
             stock: [stock.width.to_mm(), stock.height.to_mm()],
-            machined: pairs(&corners(material)),
-            shadow: pairs(material.plan.profile.points()),
+            left: Left::of(material, shown.iter().map(|shown| shown.y))?,
             shown,
         })
     }
@@ -74,6 +99,12 @@ impl SurfaceSections {
         self.shown.len() / 2
     }
 
+    /// Whether the cuts leave the same at every y.
+    #[must_use]
+    pub const fn are_alike(&self) -> bool {
+        matches!(self.left, Left::Alike { .. })
+    }
+
     /// Writes them as SVG.
     #[must_use]
     pub fn draw(&self, ids: Prefix) -> String {
@@ -84,8 +115,10 @@ impl SurfaceSections {
                 subtitle: self.subtitle,
             },
             stock: self.stock,
-            machined: &self.machined,
-            shadow: &self.shadow,
+            roughed: match &self.left {
+                Left::Alike { machined, shadow } => Roughed::Alike { machined, shadow },
+                Left::Own(contours) => Roughed::Own(contours),
+            },
             sections: &self.shown,
             shown: self.shown(),
         })

@@ -27,8 +27,8 @@ pub(super) const OFF: f64 = 0.002;
 /// Chains along spines.
 #[derive(Default)]
 pub(super) struct AlongSpine {
-    /// The places of the chain that is not at its end.
-    open: Vec<(Point3, OrientationId)>,
+    /// The chain that is not at its end.
+    open: OpenChain,
     /// Flanks of Vs whose other flank is not cut yet.
     half_done: BTreeMap<VNumber, (Cut, Followed)>,
     /// All flanks, with their slopes.
@@ -37,7 +37,7 @@ pub(super) struct AlongSpine {
     strayed: BTreeSet<VNumber>,
     /// How far any flank so far may lie above its V.
     above: f64,
-    /// Whether a piece of the open chain is an arc, and how far it leaves the spine then.
+    /// How far an arc of the open chain leaves the spine, if it has one.
     bow: Option<Strayed>,
     /// How far flanks lie off their Vs, by the bits of how far the blade reaches: there are few postures.
     deviations: BTreeMap<u64, Deviation>,
@@ -80,6 +80,33 @@ pub(super) struct Strayed {
     pub(super) by: f64,
 }
 
+/// A chain that is not at its end.
+#[derive(Default)]
+pub(super) struct OpenChain {
+    places: Vec<(Point3, OrientationId)>,
+    has_arc: bool,
+}
+
+impl OpenChain {
+    /// Adds a piece. Where that ends the chain, its places, and whether a piece of it is an arc.
+    pub(super) fn add(&mut self, piece: &ChainPiece) -> Option<(Vec<(Point3, OrientationId)>, bool)> {
+        let [from, to] = [piece.line.from, piece.line.to].map(|pose| (pose.tip, pose.orientation));
+        if self.places.last() != Some(&from) {
+            self.places = vec![from];
+            self.has_arc = false;
+        }
+        self.places.push(to);
+        self.has_arc |= piece.line.via.is_some();
+        match piece.joint {
+            Joint::Through => None,
+            Joint::Stop => {
+                let Self { places, has_arc } = core::mem::take(self);
+                Some((places, has_arc))
+            }
+        }
+    }
+}
+
 /// A piece of a chain through the work.
 pub(super) struct ChainPiece {
     pub(super) operation: OperationId,
@@ -114,31 +141,19 @@ impl ChainPiece {
 impl Player<'_> {
     /// A piece of a chain along a spine.
     pub(super) fn follow(&mut self, segment: &Segment<'_>, spine: &Spine, blade: Straight) {
-        let Some(ChainPiece {
-            operation,
-            layer,
-            cut,
-            joint,
-            line,
-        }) = ChainPiece::of(segment)
-        else {
+        let Some(piece) = ChainPiece::of(segment) else {
             return;
         };
+        let line = piece.line;
         let [from, to] = [line.from, line.to].map(|pose| (pose.tip, pose.orientation));
-        if self.along.open.last() != Some(&from) {
-            self.along.open = vec![from];
-            self.along.bow = None;
-        }
-        self.along.open.push(to);
         if let Some(via) = line.via {
             let off = via.z - from.0.z - (spine.rise(via.y) - spine.rise(from.0.y));
             let by = off.abs().max((via.x - from.0.x).abs()).max(OFF);
             self.along.bow = Some(Strayed { y: via.y, by });
         }
-        if joint == Joint::Through {
+        let Some((places, has_arc)) = self.along.open.add(&piece) else {
             return;
-        }
-        let places = core::mem::take(&mut self.along.open);
+        };
         let held: Option<Vec<(Point3, Orientation)>> = places
             .iter()
             .map(|&(tip, held)| Some((tip, self.program.orientation(held)?)))
@@ -149,14 +164,14 @@ impl Player<'_> {
         let deviation = *known
             .entry(overhang.to_bits())
             .or_insert_with(|| spine.deviation(overhang));
-        let followed = match self.along.bow.take() {
+        let followed = match self.along.bow.take().filter(|_| has_arc) {
             Some(strayed) => Err(strayed),
             None => followed(&held, spine, blade, self.program.blend).map(|exact| exact.off_by(deviation)),
         };
         let cut = Cut {
-            operation,
-            layer,
-            cut,
+            operation: piece.operation,
+            layer: piece.layer,
+            cut: piece.cut,
             flank: match followed.map(|followed| followed.side) {
                 Ok(Side::Left) | Err(_) => Flank::Left,
                 Ok(Side::Right) => Flank::Right,
@@ -336,14 +351,14 @@ impl Plane {
     }
 
     /// How far it is turned from that at a station, in rad.
-    fn turned_from(self, station: &Station, across: f64) -> f64 {
+    pub(super) fn turned_from(self, station: &Station, across: f64) -> f64 {
         let apart = |one: f64, other: f64| (libm::atan(one) - libm::atan(other)).abs();
         apart(self.along, station.slope).max(apart(self.across, across))
     }
 }
 
 /// How far the edges reach along y from their tip at most.
-fn overhang(places: &[(Point3, Orientation)], blade: Straight) -> f64 {
+pub(super) fn overhang(places: &[(Point3, Orientation)], blade: Straight) -> f64 {
     let reaches = places.iter().flat_map(|(_, held)| {
         let m = held.matrix();
         let along_y = move |end: [f64; 3]| m[1].iter().zip(end).map(|(part, end)| part * end).sum::<f64>();

@@ -1,16 +1,16 @@
-//! A height over x that may step, or what the Vs of a fan leave.
+//! A height over x that may step, or what the Vs of columns leave.
 
 use super::ruled::Ruled;
 use core::fmt;
 use std::sync::Arc;
 use vcutc_backend_api::units::Length;
+use vcutc_geometry::columns::Column;
 use vcutc_geometry::curve::Point2;
-use vcutc_geometry::fan::Ruling;
 use vcutc_geometry::profile::height_between;
 use vcutc_geometry::spine::Spine;
 
 /// The surface that straight cuts along y leave: a polyline whose x never decrease. Beyond its ends it goes on level. Or the surface that
-/// the Vs of a fan leave.
+/// the Vs of columns leave.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Machined {
     points: Vec<Point2>,
@@ -93,14 +93,11 @@ impl Machined {
         Self { lid, ..self }
     }
 
-    /// The surface that these Vs leave of a stock of that height, whatever the polyline is: the least of all of them.
+    /// The surface that these Vs leave of a stock of that height, whatever the polyline is: the least of all of them. Slabs end at the
+    /// knots.
     #[must_use]
-    pub fn ruled(self, vees: Vec<Ruling>, depth: f64, top: Length) -> Self {
-        let ruled = Ruled {
-            vees,
-            depth,
-            top: top.to_mm(),
-        };
+    pub fn ruled(self, vees: Vec<Column>, knots: &[f64], top: Length) -> Self {
+        let ruled = Ruled::new(vees, knots.to_vec(), top.to_mm());
         let ruled = Some(Arc::new(ruled));
         Self { ruled, ..self }
     }
@@ -111,6 +108,12 @@ impl Machined {
 
     pub(crate) const fn lid(&self) -> Option<&Lid> {
         self.lid.as_ref()
+    }
+
+    /// What Vs of columns leave at a y, from x = 0 to a width, in mm; none where the surface is another one.
+    #[must_use]
+    pub fn section(&self, y: f64, width: f64) -> Option<Vec<Point2>> {
+        self.ruled.as_ref().map(|ruled| ruled.section(y, width))
     }
 
     /// How high it stands over a place of the stock, in mm; at a wall its upper end.

@@ -10,9 +10,11 @@ use crate::plan::{LaidOut, PlannedVcut, Work};
 use vcutc_backend_api::units::{Area, Duration, Length};
 use vcutc_backend_api::verify::{VerifiedProgram, verify};
 use vcutc_cancellation::Wanted;
+use vcutc_geometry::columns::Columns;
 use vcutc_geometry::curve::Point2;
 use vcutc_geometry::offset::offset_up;
 use vcutc_geometry::profile::Profile;
+use vcutc_geometry::spine::Spine;
 use vcutc_job::PlannedOperation;
 use vcutc_job::follow::Along;
 use vcutc_job::operation::Ground;
@@ -21,7 +23,7 @@ use vcutc_job::{CheckedJob, PlanningJob};
 use vcutc_process::lower::alone;
 use vcutc_simulation::body;
 use vcutc_simulation::contour::farthest;
-use vcutc_simulation::prove::{Bound, replay_on};
+use vcutc_simulation::prove::{Bound, ColumnsBound, Made, replay_on};
 use vcutc_simulation::report::area_under;
 use vcutc_simulation::surface::Surface;
 use vcutc_simulation::timing::{timing, total};
@@ -131,8 +133,8 @@ impl<'j> Bench<'j> {
     /// on more than what is above it: beside narrower flanks, and on what stands steeper than its own.
     pub(super) fn thinned(&self, laid: &LaidOut) -> Option<LaidOut> {
         let (vcut, part): (_, &Profile) = (&laid.vcut, &self.job.profile);
-        // A V of a fan that takes nothing in one section may do so in another.
-        if vcut.fan().is_some() {
+        // A V along a column that takes nothing in one section may do so in another.
+        if vcut.columns().is_some() {
             return None;
         }
         if vcut.narrowed().next().is_some() || !self.before.is_final_for(vcut.parameters.flanks.slope) {
@@ -174,16 +176,19 @@ impl<'j> Bench<'j> {
             return true;
         }
         let level = vcut.level();
-        program(&self.job, &level)
-            .is_some_and(|program| body::bodies(&program, &[bound_of(&level)]).contact.is_none())
+        program(&self.job, &level).is_some_and(|program| {
+            body::bodies(&program, &[bound_of(vcut, &level)])
+                .contact
+                .is_none()
+        })
     }
 
     /// The result of an operation.
     pub(super) fn weigh(&self, laid: LaidOut) -> Contender {
         let vcut = &laid.vcut;
         let cuts = vcut.cuts.len();
-        // Along a spine all sections are alike: what is right of a level cut, with as much more room, is right of it. A fan is proven as
-        // it is cut.
+        // Along a spine all sections are alike: what is right of a level cut, with as much more room, is right of it. Those
+        // along columns stand for chains; a fan is proven as it is cut.
         let level = vcut.level();
         let Some(program) = program(&self.job, &level) else {
             return Contender {
@@ -198,7 +203,7 @@ impl<'j> Bench<'j> {
                 residual: Area::ZERO,
             };
         };
-        let replay = replay_on(self.before.clone(), &program, &[bound_of(&level)]);
+        let replay = replay_on(self.before.clone(), &program, &[bound_of(vcut, &level)]);
         let failing = replay.findings.iter().map(|(count, _)| count).sum();
         let corners: Vec<_> = replay.surface.corners().collect();
         let part = self.job.profile.area_below(0.0, self.job.stock.width.to_mm());
@@ -250,22 +255,29 @@ impl<'j> Bench<'j> {
 }
 
 /// The part with an operation's allowance. Where the way rises, its ball is taken for one that is as high as the ellipse that it
-/// makes across the cuts: over a slope `m` of the spine that is `sqrt(1 + m^2)` times as high as wide. Of a fan what the lower ends of
-/// its tips must stay above.
+/// makes across the cuts: over a slope `m` of the spine that is `sqrt(1 + m^2)` times as high as wide. Of columns what the lower ends
+/// of their tips must stay above.
 fn bound(job: &PlanningJob<'_>, asked: &RoughVcut) -> Profile {
-    if let Some(fan) = asked.along.as_ref().and_then(|along| along.guide.fan()) {
+    if let Some(columns) = asked.along.as_ref().and_then(|along| along.guide.columns()) {
         // No flank that may be chosen is flatter.
         let flattest = 1.0 / widest_swing(asked).tan();
-        return fan.section(flattest, asked.allowance.value);
+        return columns.section(flattest, asked.allowance.value);
     }
     let steepness = asked.along.as_ref().map_or(1.0, Along::steepness);
     offset_up(&job.profile, asked.allowance.value * steepness)
 }
 
-/// What the level cuts of an operation must stay out of, with all the room that cuts along a spine need; of a fan just what they must.
-fn bound_of(level: &PlannedVcut) -> Bound<'_> {
-    if level.fan().is_some() {
-        return PlannedOperation::bound(level);
+/// What the level cuts of an operation must stay out of, with all the room that cuts along a spine need; where they stand for chains along
+/// columns, just what these must.
+fn bound_of<'v>(vcut: &'v PlannedVcut, level: &'v PlannedVcut) -> Bound<'v> {
+    if let (Some(along), Some(columns)) = (&vcut.asked.along, vcut.columns()) {
+        let bound = PlannedOperation::bound(vcut);
+        let made = match columns.is_fan() {
+            true => Made::AsChains,
+            false => Made::Level(along.deviation(vcut.parameters.flanks.slope)),
+        };
+        let columns = bound.columns.map(|columns| ColumnsBound { made, ..columns });
+        return Bound { columns, ..bound };
     }
     Bound {
         drop: level.parameters.drop,
@@ -279,13 +291,15 @@ fn program(job: &CheckedJob, vcut: &PlannedVcut) -> Option<VerifiedProgram> {
     verify(alone(job, vcut)).ok()
 }
 
-/// How long an operation takes whose cuts were made level: along their spine they take longer as that is longer.
+/// How long an operation takes whose cuts were made level: along their spine or columns they take longer as these are longer.
 fn as_long_as_its_way(vcut: &PlannedVcut, level: &VerifiedProgram) -> Duration {
-    match vcut.spine() {
+    let columns = vcut.columns().filter(|columns| !columns.is_fan());
+    let lengthening = vcut.spine().map(Spine::lengthening);
+    match lengthening.or(columns.map(Columns::lengthening)) {
         None => total(level),
-        Some(spine) => {
+        Some(lengthening) => {
             let timing = timing(level).all;
-            timing.total() + timing.cutting * (spine.lengthening() - 1.0)
+            timing.total() + timing.cutting * (lengthening - 1.0)
         }
     }
 }

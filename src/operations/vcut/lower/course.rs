@@ -1,11 +1,11 @@
 //! The way of the tip along the work, from one side of the stock to the other and as far beyond as cuts extend: level, along a spine,
-//! or in a fan along the straight line of its place.
+//! or along the column of its place.
 
 use crate::asked::RoughVcut;
 use std::sync::Arc;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
-use vcutc_geometry::fan::Fan;
+use vcutc_geometry::columns::Columns;
 use vcutc_geometry::grid;
 use vcutc_geometry::spine::Station;
 use vcutc_job::follow::Guide;
@@ -17,8 +17,8 @@ pub(super) enum Course {
     Level([Station; 2]),
     /// All places from one end to the other, two or more.
     Spine(Vec<Station>),
-    /// Each along the line of its place, from one y to another.
-    Fan(Arc<Fan>, [f64; 2]),
+    /// Each along the column of its place, from one y to another.
+    Columns(Arc<Columns>, [f64; 2]),
 }
 
 impl Course {
@@ -38,7 +38,7 @@ impl Course {
                 }
                 Self::Spine(stations)
             }
-            Some(Guide::Fan(fan)) => Self::Fan(Arc::clone(fan), [-extension, back]),
+            Some(Guide::Columns(columns)) => Self::Columns(Arc::clone(columns), [-extension, back]),
         }
     }
 
@@ -54,22 +54,20 @@ impl Course {
                 [first, .., last] => of([*first, *last]),
                 [..] => level(0.0),
             },
-            Self::Fan(fan, ys) => of(ys.map(|y| Station {
-                y,
-                rise: fan.rise(x, y),
-                slope: fan.slope(x),
-            })),
+            Self::Columns(columns, ends) => match columns.stations(x, *ends).as_slice() {
+                [first, .., last] => of([*first, *last]),
+                [..] => level(0.0),
+            },
         }
     }
 
-    /// The height of a tip at a station, whose cut is planned at that height. A line of a fan is put on the grid so that it lies
-    /// nowhere below its plan.
+    /// The height of a tip at a station, whose cut is planned at that height.
     pub(super) fn height(&self, z: f64, station: Station) -> f64 {
         match self {
             Self::Level(_) => z,
-            Self::Spine(_) if station.rise == 0.0 => z,
-            Self::Spine(_) => grid::nearest(z + station.rise),
-            Self::Fan(..) => grid::up(z + station.rise),
+            Self::Spine(_) | Self::Columns(..) if station.rise == 0.0 => z,
+            // Stations of columns are on the grid.
+            Self::Spine(_) | Self::Columns(..) => grid::nearest(z + station.rise),
         }
     }
 
@@ -78,9 +76,7 @@ impl Course {
         let mut stations = match self {
             Self::Level(_) => return None,
             Self::Spine(stations) => stations.clone(),
-            Self::Fan(..) => [Feed::Forward, Feed::Backward]
-                .map(|feed| self.end(x, feed))
-                .to_vec(),
+            Self::Columns(columns, ends) => columns.stations(x, *ends),
         };
         match feed {
             Feed::Forward => {}

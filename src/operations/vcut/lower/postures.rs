@@ -6,6 +6,9 @@ use vcutc_backend_api::ir::Flank;
 use vcutc_backend_api::units::Angle;
 use vcutc_process::posture::{Feed, Holder};
 
+/// So many ways from one posture to another are kept: those of cuts that are held alike.
+const MOST_WAYS: usize = 64;
+
 /// What an operation's postures are.
 pub(super) struct Postures {
     holder: Holder,
@@ -58,7 +61,10 @@ impl Postures {
             return *way;
         }
         let way = self.holder.by_way_of(from, to);
-        self.ways.push((from, to, way));
+        // Along columns every cut has postures of its own.
+        if self.ways.len() < MOST_WAYS {
+            self.ways.push((from, to, way));
+        }
         way
     }
 }

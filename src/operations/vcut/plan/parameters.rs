@@ -25,7 +25,7 @@ use search::Chosen;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::number::show;
-use vcutc_geometry::fan::Fan;
+use vcutc_geometry::columns::Columns;
 use vcutc_geometry::grid;
 use vcutc_job::{Auto, Direction, PlanningJob};
 use vcutc_process::posture::Holder;
@@ -601,18 +601,18 @@ pub fn widest_standing(rake: Angle, steepest: f64) -> Option<Angle> {
     (least < 1.0 && thousandths > 0.0).then(|| Angle::deg(thousandths / 1000.0))
 }
 
-/// How many times as steeply as the lines of a fan shear flanks rise at least whose swing is chosen, so that they pass above older tips
+/// How many times as steeply as columns shear flanks rise at least whose swing is chosen, so that they pass above older tips
 /// a few steps away. A judgement, from no source.
 const STEEPER_THAN_SHEAR: f64 = 3.0;
 
-/// The least of the widest swings along fans: what twists more does so on a few places only.
-const WIDE_IN_ANY_FAN: Angle = Angle::deg(35.0);
+/// The least of the widest swings along columns: what twists more does so on a few places only.
+const WIDE_IN_ANY_COLUMNS: Angle = Angle::deg(35.0);
 
-/// The widest swing to choose along a fan, in whole thousandths of a degree.
+/// The widest swing to choose along columns, in whole thousandths of a degree.
 #[must_use]
-pub fn widest_in_fan(fan: &Fan) -> Angle {
-    let widest = libm::atan(1.0 / (STEEPER_THAN_SHEAR * fan.shear()));
-    let widest = Angle::rad(widest).max(WIDE_IN_ANY_FAN);
+pub fn widest_in_columns(columns: &Columns) -> Angle {
+    let widest = libm::atan(1.0 / (STEEPER_THAN_SHEAR * columns.shear()));
+    let widest = Angle::rad(widest).max(WIDE_IN_ANY_COLUMNS);
     Angle::deg((widest.to_deg() * 1000.0).floor() / 1000.0)
 }
 
