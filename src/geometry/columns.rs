@@ -433,13 +433,13 @@ pub fn bends(knots: &[f64], heights: &[f64]) -> bool {
     // How much rounding of both ends turns a piece.
     let turned: Vec<f64> = lengths.map(|length| grid::SPACING / length).collect();
     let slopes: Vec<f64> = slopes(knots, heights).collect();
-    let is_steep = slopes
+    // Comparisons with NaN are false.
+    let is_gentle = slopes
         .iter()
         .zip(&turned)
-        // NaN is too steep.
-        .any(|(slope, turned)| !(slope.abs() + turned <= Spine::STEEPEST));
+        .all(|(slope, turned)| slope.abs() + turned <= Spine::STEEPEST);
     let mut knots = slopes.windows(2).zip(turned.windows(2));
-    is_steep
+    !is_gentle
         || knots.any(|(slopes, turned)| {
             (slopes[1] - slopes[0]).abs() + turned[0] + turned[1] > Spine::LARGEST_BEND
         })

@@ -58,7 +58,7 @@ fn curved_columns_bend_like_spines() {
     let ways = vec![(0.0, heights.clone()), (600.0, heights)];
     let columns = Columns::new(knots.clone(), vec![level(); knots.len()], ways).unwrap();
     let Deviation { above, below } = columns.deviation(25.0);
-    assert!((0.104..0.12).contains(&above), "{above}");
+    assert!((0.104..0.121).contains(&above), "{above}");
     assert!(below < 0.01, "{below}");
     let stations = columns.stations(200.0, [-30.0, 1030.0]);
     assert_eq!(stations.len(), knots.len());

@@ -42,7 +42,7 @@ fn places(count: usize) -> impl Strategy<Value = Places> {
     prop::collection::vec((0.0..60.0_f64, prop::array::uniform5(2.0..28.0_f64)), 1..count)
 }
 
-fn columns(places: &Places, slabs: usize) -> Vec<Column> {
+fn columns(places: &[(f64, [f64; 5])], slabs: usize) -> Vec<Column> {
     let column = |&(x, tips): &(f64, [f64; 5])| Column {
         x,
         tips: tips[..=slabs].into(),

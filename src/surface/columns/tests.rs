@@ -46,14 +46,14 @@ fn fans_leave_what_is_published_of_them() {
 #[test]
 fn columns_leave_what_is_published_of_them() {
     let bowl = |x: f64, y: f64| 200.0 - dome(x, y);
-    let parts: [(&dyn Fn(f64, f64) -> f64, [usize; 2]); 4] = [
-        (&dome, [40, 65]),
-        (&bowl, [40, 65]),
-        (&fairing, [40, 75]),
-        (&hypar, [1, 1]),
+    let surfaces = [
+        over([120, 200], &dome),
+        over([120, 200], &bowl),
+        over([120, 200], &fairing),
+        over([120, 200], &hypar),
     ];
-    for (number, (part, slabs)) in parts.into_iter().enumerate() {
-        let surface = over([120, 200], part);
+    let slabs = [[40, 65], [40, 65], [40, 75], [1, 1]];
+    for (number, (surface, slabs)) in surfaces.into_iter().zip(slabs).enumerate() {
         let Covered { columns, leaves } = surface.columns(Each::Curved).unwrap();
         let off = columns.deviation(OVERHANG).both();
         assert!(leaves - off < 0.06, "{number}: {leaves} {off}");
