@@ -59,7 +59,8 @@ fn curved_columns_bend_like_spines() {
     let columns = Columns::new(knots.clone(), vec![level(); knots.len()], ways).unwrap();
     let Deviation { above, below } = columns.deviation(25.0);
     assert!((0.104..0.121).contains(&above), "{above}");
-    assert!(below < 0.01, "{below}");
+    // At a side the plane may be turned by half of the first bend over all of the first piece: 25 mm / 300.
+    assert!((0.08..0.09).contains(&below), "{below}");
     let stations = columns.stations(200.0, [-30.0, 1030.0]);
     assert_eq!(stations.len(), knots.len());
     for pair in stations.windows(2) {
