@@ -10,5 +10,6 @@ pub mod lower;
 pub mod pen;
 pub mod plan;
 pub mod posture;
+pub mod slits;
 pub mod standoff;
 pub mod verdict;

@@ -1,18 +1,13 @@
 //! The passes of the first layer from above, for pictures.
 
 use crate::asked::ClearPocket;
-use crate::proof::reaching;
 use crate::proof::stated::layers;
 use vcutc_backend_api::ir::{OperationId, Program, Shape};
 use vcutc_job::operation::judged::{FromAbove, Stays, WhyItStays};
-use vcutc_region::coverage::{Spot, Square, Tool, coverage, unreachable};
-use vcutc_region::engagement::{engagement, on_pieces};
-use vcutc_region::pass::Pass;
-use vcutc_region::piece::Piece;
+use vcutc_process::from_above::reaching;
+use vcutc_process::from_above::shown::{seen, stretches};
+use vcutc_region::coverage::{Spot, Tool, coverage, unreachable};
 use vcutc_region::region::Side;
-
-/// Smaller places are not seen in a picture, in mm2.
-const SEEN: f64 = 0.01;
 
 /// The passes of a program; none of one that has none.
 pub(crate) fn from_above(
@@ -57,31 +52,8 @@ pub(crate) fn from_above(
         walls: of(Side::Wall),
         open: of(Side::Open),
         slits: Vec::new(),
-        stretches: stretches(asked, passes, radius),
+        stretches: stretches(region, passes, radius),
         entries: begins.collect(),
         uncut: seen(spots),
     })
-}
-
-/// Stretches of passes with the angle of the rim in the material, in rad; none where that is not known.
-fn stretches(asked: &ClearPocket, passes: &[Pass], radius: f64) -> Vec<(Piece, f64)> {
-    let Ok(found) = engagement(&asked.region.region, passes, radius) else {
-        return Vec::new();
-    };
-    let mut stretches = Vec::new();
-    for (pass, profile) in passes.iter().zip(&found.profiles) {
-        for (stretch, piece, begun) in on_pieces(pass, profile) {
-            let [from, to] = stretch
-                .way
-                .map(|way| ((way - begun) / piece.length()).clamp(0.0, 1.0));
-            stretches.push((piece.part(from, to), stretch.angles[1]));
-        }
-    }
-    stretches
-}
-
-/// Those places that a picture shows.
-fn seen(spots: Vec<Spot>) -> Vec<Square> {
-    let spots = spots.into_iter().filter(|spot| spot.area >= SEEN);
-    spots.flat_map(|spot| spot.squares).collect()
 }

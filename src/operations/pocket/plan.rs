@@ -19,7 +19,7 @@ use room::Room;
 use vcutc_backend_api::units::{Angle, Area, Duration, Length};
 use vcutc_job::Auto;
 use vcutc_job::operation::Ground;
-use vcutc_process::from_above::highest;
+use vcutc_process::from_above::{highest, layers};
 use vcutc_process::lower::{BLEND, ROUNDING_ROOM};
 use vcutc_region::distance::Walls;
 use vcutc_region::pattern::Tool;
@@ -286,16 +286,7 @@ fn floors(asked: &ClearPocket, top: f64) -> Result<Vec<f64>, Why> {
         return Err(Why::NothingThere { top: Length::mm(top) });
     }
     let thickest = asked.layer.value.or(asked.crusher.height.value).to_mm();
-    // A stock is no higher than a hundred metres; a layer that is thinner than a thousandth of it is refused.
-    let count = libm::ceil(deep / thickest - 1e-9).max(1.0);
-    if count > MOST_LAYERS {
-        return Err(Why::TooLarge);
-    }
-    let layers = count as u32;
-    let at = |layer: u32| top - deep * (f64::from(layer) / count);
-    Ok((1..=layers)
-        .map(|layer| if layer == layers { floor } else { at(layer) })
-        .collect())
+    layers(top, floor, thickest).ok_or(Why::TooLarge)
 }
 
 /// A pocket that is less deep does not count, in mm: far below what a machine repeats.
@@ -303,9 +294,6 @@ const THINNEST: f64 = 0.01;
 
 /// Most levels across a region.
 const MOST_LEVELS: f64 = 1000.0;
-
-/// Most layers of a pocket.
-const MOST_LAYERS: f64 = 10_000.0;
 
 /// How long the runs of a layer of this thickness take: their ways, their ways down, and the stops at their corners.
 fn time(runs: &[Run], asked: &ClearPocket, deep: f64) -> Duration {

@@ -13,12 +13,10 @@ use vcutc_backend_api::ir::{Blade, BodyStage, Crusher, OpId, OperationId, Progra
 use vcutc_backend_api::units::{Angle, Area, Length};
 use vcutc_geometry::curve::Point2;
 use vcutc_job::operation::judged::Judged;
-use vcutc_process::from_above::{closed_sides, highest, is_over};
-use vcutc_process::lower::ROUNDING_ROOM;
+use vcutc_process::from_above::{beyond_a_side, highest, is_over, reaching};
 use vcutc_region::clearance::{Clearance, clearance};
 use vcutc_region::coverage::{Coverage, Tool, coverage, unreachable};
 use vcutc_region::engagement::{Engagement, engagement, on_pieces};
-use vcutc_region::pass::Pass;
 use vcutc_region::place::Place;
 use vcutc_simulation::prove::{
     Cleared, ClearingFault, CutFault, Finding, Findings, Passes, Replay, UsedEdge,
@@ -56,15 +54,6 @@ struct Judge<'j> {
     program: &'j Program,
     findings: &'j mut Findings,
     edges: &'j mut Vec<UsedEdge>,
-}
-
-/// The tool as far as it is asked to reach: what it reaches only from places at which passes have no room for their rounding is beyond
-/// it. Where walls come together that is more than a fringe, and a corridor by so little wider than the tool is not gone into.
-pub(crate) const fn reaching(tool: Tool) -> Tool {
-    Tool {
-        keep: tool.keep + ROUNDING_ROOM.to_mm() + ROUNDING,
-        ..tool
-    }
 }
 
 /// What the passes of a layer do in the plan.
@@ -293,7 +282,8 @@ impl Judge<'_> {
             let by = Length::mm(tool.radius);
             self.note(layer, at, ClearingFault::Wall { by });
         }
-        if let Some((by, at)) = self.beyond_a_side(&all, tool.radius) {
+        let region = &self.asked.region.region;
+        if let Some((by, at)) = beyond_a_side(region, self.program.stock, &all, tool.radius) {
             self.note(layer, at, ClearingFault::Wall { by: Length::mm(by) });
         }
         let limit = self.asked.limits.uncut.value;
@@ -315,26 +305,6 @@ impl Judge<'_> {
             let limit = limit.value;
             self.note(layer, at, ClearingFault::Engaged { angle, limit });
         }
-    }
-
-    /// How far the tool enters the stock from beside it, other than through an open side, and where: ways beyond open sides have the
-    /// sides of the stock beside these for walls.
-    fn beyond_a_side(&self, passes: &[Pass], radius: f64) -> Option<(f64, Place)> {
-        let sides = closed_sides(&self.asked.region.region, self.program.stock);
-        let mut deepest: Option<(f64, Place)> = None;
-        for piece in passes.iter().flat_map(|pass| &pass.pieces) {
-            let ends = [piece.from, piece.to];
-            if ends.iter().all(|end| is_over(self.program.stock, *end)) {
-                continue;
-            }
-            if let Some((at, near)) = sides.nearest_to(*piece) {
-                let by = radius - near.distance;
-                if by > ROUNDING && deepest.is_none_or(|(known, _)| by > known) {
-                    deepest = Some((by, at));
-                }
-            }
-        }
-        deepest
     }
 
     /// How much of the rim is in the material at most where the tool is not slow, and where that is.

@@ -3,8 +3,8 @@
 
 use super::{Kind, Leg, Run};
 use crate::asked::ClearPocket;
-use crate::proof::reaching;
 use vcutc_backend_api::units::Angle;
+use vcutc_process::from_above::reaching;
 use vcutc_region::coverage::{Tool, coverage};
 use vcutc_region::engagement::{Stretch, engagement};
 use vcutc_region::pass::Pass;

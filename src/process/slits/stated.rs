@@ -1,11 +1,11 @@
-//! The slits of an operation as a program states them.
+//! The slits of a straight blade as a program states them.
 
+use crate::chains::{ChainPiece, pieces};
+use crate::from_above::{level, place_of};
 use core::num::NonZeroU32;
 use vcutc_backend_api::geometry::Orientation;
-use vcutc_backend_api::ir::{OperationId, Program, Straight};
+use vcutc_backend_api::ir::{OperationId, Program, Straight, ToolId};
 use vcutc_backend_api::segments::LinearSegment;
-use vcutc_process::chains::{ChainPiece, pieces};
-use vcutc_process::from_above::{level, place_of};
 use vcutc_region::piece::Piece;
 use vcutc_region::place::Place;
 use vcutc_region::plate::{Reach, Stroke};
@@ -21,7 +21,7 @@ const UPRIGHT: f64 = 1e-9;
 
 /// What a blade does on a move.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Motion {
+pub enum Motion {
     /// It goes level.
     Along(Stroke),
     /// It goes straight down or up: all that it passes lies within where it is at the lower end, as a stroke from its back to its front.
@@ -34,25 +34,28 @@ pub(super) enum Motion {
 
 /// A move of a blade in the work.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Stated {
-    pub(super) layer: NonZeroU32,
-    pub(super) cut: NonZeroU32,
-    pub(super) motion: Motion,
+pub struct Stated {
+    pub layer: NonZeroU32,
+    pub cut: NonZeroU32,
+    pub motion: Motion,
     /// Where it begins.
-    pub(super) at: Place,
+    pub at: Place,
     /// The height of the lower end of the tip's way, in mm.
-    pub(super) floor: f64,
+    pub floor: f64,
     /// How far the plane of the blade may leave its way, in mm.
-    pub(super) slack: f64,
+    pub slack: f64,
     /// The edge that is in the work, in mm.
-    pub(super) edge: f64,
+    pub edge: f64,
     /// The cosine of the largest angle between the axis of the blade and the vertical.
-    pub(super) least_upright: f64,
+    pub least_upright: f64,
 }
 
-/// The moves of an operation, in the order of the program. Walls reach up to `top`, in mm.
-pub(super) fn stated(program: &Program, operation: OperationId, blade: Straight, top: f64) -> Vec<Stated> {
-    let moves = pieces(program, operation).map(|piece| {
+/// The moves of a blade of an operation, in the order of the program. Walls reach up to `top`, in mm.
+#[must_use]
+pub fn stated(program: &Program, of: (OperationId, ToolId), blade: Straight, top: f64) -> Vec<Stated> {
+    let (operation, tool) = of;
+    let pieces = pieces(program, operation).filter(|piece| piece.tool == tool);
+    let moves = pieces.map(|piece| {
         let ChainPiece {
             layer,
             cut,

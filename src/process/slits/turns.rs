@@ -1,7 +1,7 @@
 //! How a blade turns about the vertical: along its slits, and in the air between them.
 
+use crate::posture::Feed;
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
-use vcutc_process::posture::Feed;
 
 /// Turns in the air go on by at most this much at once, in rad: half a revolution could go either way, and a
 /// blade may lean as well.
