@@ -10,9 +10,11 @@ pub mod curve;
 pub mod distance;
 pub mod engagement;
 pub mod foot;
+pub mod freed;
 pub mod links;
 pub mod offset;
 pub mod order;
+pub mod outward;
 pub mod pass;
 pub mod pattern;
 pub mod piece;
@@ -20,6 +22,7 @@ pub mod place;
 pub mod plate;
 pub mod region;
 mod rounded;
+pub mod rows;
 pub mod slits;
 
 #[cfg(any(test, feature = "testkit"))]

@@ -1,0 +1,96 @@
+use super::*;
+use crate::testkit::{polygon, region};
+
+/// A bay of 60 mm by 100 mm, open at x = 60.
+fn bay() -> Region {
+    let mut edges = polygon(&[(0.0, 0.0), (60.0, 0.0), (60.0, 100.0), (0.0, 100.0)]);
+    edges[1].side = Side::Open;
+    region(&[edges])
+}
+
+fn line(from: (f64, f64), to: (f64, f64)) -> Vec<Piece> {
+    vec![Piece::line(Place::new(from.0, from.1), Place::new(to.0, to.1))]
+}
+
+const WHEEL: Wheel = Wheel {
+    radius: 12.5,
+    shank: 5.0,
+};
+
+/// Slits beside all walls, and one that parts a strip along the open side.
+fn slits() -> Vec<Vec<Piece>> {
+    vec![
+        line((61.0, 0.8), (0.0, 0.8)),
+        line((0.8, 0.0), (0.8, 100.0)),
+        line((0.0, 99.2), (61.0, 99.2)),
+        line((54.0, 0.0), (54.0, 100.0)),
+    ]
+}
+
+fn free(ways: &[Vec<Piece>], passes: &[Vec<Piece>]) -> Freed {
+    let slits = Slits {
+        ways,
+        half: 0.75,
+        beside_walls: 0.8,
+    };
+    let pass = |pieces: &Vec<Piece>| Pass {
+        level: 0,
+        pieces: pieces.clone(),
+    };
+    let passes: Vec<Pass> = passes.iter().map(pass).collect();
+    freed(&bay(), slits, &passes, WHEEL).unwrap()
+}
+
+/// The disc runs outside of the stock along a strip, beyond both ends.
+fn first() -> Vec<Piece> {
+    line((65.3, -5.0), (65.3, 105.0))
+}
+
+/// Back along the next strip, with the shank over the first one.
+fn second() -> Vec<Piece> {
+    line((59.3, 12.5), (59.3, 87.5))
+}
+
+#[test]
+fn the_shank_goes_where_a_strip_was_freed() {
+    let freed = free(&slits(), &[first(), second()]);
+    assert_eq!(freed.met, None, "{freed:?}");
+    // What is left is the ground beyond the slit.
+    assert!((freed.stands - 54.0 * 100.0).abs() < 250.0, "{freed:?}");
+}
+
+#[test]
+fn without_the_strip_before_it_meets_the_ground() {
+    let freed = free(&slits(), &[second()]);
+    assert!(freed.met.is_some_and(|met| met.by > 4.0), "{freed:?}");
+}
+
+/// A strip that is not parted from the rest does not come free, nor one that hangs at a wall.
+#[test]
+fn both_slits_are_needed() {
+    for missing in [0, 2, 3] {
+        let mut fewer = slits();
+        fewer.remove(missing);
+        let freed = free(&fewer, &[first(), second()]);
+        assert!(freed.met.is_some(), "without slit {missing}: {freed:?}");
+    }
+    // A slit that ends a millimetre before the wall holds the strip as well.
+    let mut short = slits();
+    short[3] = line((54.0, 0.0), (54.0, 97.0));
+    assert!(free(&short, &[first(), second()]).met.is_some());
+    // The rim has to reach the slit.
+    let far = line((66.6, -5.0), (66.6, 105.0));
+    assert!(free(&slits(), &[far, second()]).met.is_some());
+}
+
+#[test]
+fn blades_without_thickness_prove_nothing() {
+    let slits = Slits {
+        ways: &[],
+        half: 0.0,
+        beside_walls: 0.8,
+    };
+    assert_eq!(freed(&bay(), slits, &[], WHEEL), Err(FreedFault::Tool));
+    let thin = Slits { half: 1e-3, ..slits };
+    assert_eq!(freed(&bay(), thin, &[], WHEEL), Err(FreedFault::Fine));
+}
