@@ -342,12 +342,16 @@ codes! {
     PocketTooNarrow = "VC1103", Error, "pocket too narrow for its tool";
     /// More ground of a pocket stays uncut than may.
     PocketUncut = "VC1105", Error, "ground of a pocket uncut";
+    /// The disc has no way to a strip over freed ground.
+    NoWayForDisc = "VC1106", Error, "no way for the disc";
     /// A layer is thicker than its tool.
     LayerTooThick = "VC1108", Error, "layer thicker than the tool";
     /// More stays at the foot of a wall than may, or the blade has no room in a hollow one.
     WallLeft = "VC1109", Error, "wall that a straight blade cannot follow";
     /// A blade meets another wall than the one that it follows.
     WallTooShort = "VC1110", Error, "wall without room for the blade";
+    /// More stands in corners of walls than may: the rim of a disc does not reach it.
+    PillarsStay = "VC1111", Error, "pillars in corners";
     /// Core stands beyond an open side.
     OpenSideBlocked = "VC1112", Error, "open side where core stands";
     /// A pocket reaches out of the stock, or into another one.

@@ -18,7 +18,7 @@ use vcutc_motion::figures::ReachFigures;
 use vcutc_motion::pace::Basis;
 use vcutc_motion::summary as reach_summary;
 use vcutc_simulation::body::Passage;
-use vcutc_simulation::prove::{Cleared, Passes, Slit, Tracked};
+use vcutc_simulation::prove::{Cleared, Passes, Slit, Standing, Tracked};
 use vcutc_simulation::report::Report;
 use vcutc_surface::residual::{Over, Volume};
 
@@ -118,7 +118,16 @@ fn pocket(cleared: &Cleared) -> String {
         cleared.beyond_reach.to_mm2(),
         cleared.mean_engagement.to_deg(),
         cleared.engagement.to_deg(),
-    )
+    ) + &standing(cleared.standing)
+}
+
+/// `; at most 31.2 mm2 of it stand, in 2 pillars`.
+fn standing(standing: Option<Standing>) -> String {
+    standing.map_or_else(String::new, |standing| {
+        let area = standing.area.to_mm2();
+        let pillars = counted(standing.pillars, "pillar");
+        format!("; at most {area:.1} mm2 of a layer stand, in {pillars}")
+    })
 }
 
 /// `0.26 m in 5 slits; the sides of the blade stay at least 0.009 mm off the walls, and at most 0.03 mm of core stays at their foot; ...`.

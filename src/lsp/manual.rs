@@ -111,6 +111,7 @@ pub(super) fn rows(table: Table<'_>) -> impl Iterator<Item = Row> + Clone {
             "rough rect" => headed("| Field of `rough rect` | Chosen as |"),
             "finish disc" => headed("| Field of `finish disc` | Chosen as |"),
             "clear pocket" => headed("| Field of `clear pocket` | Chosen as |"),
+            "free pocket" => headed("| Field of `free pocket` | Chosen as |"),
             _ => headed("| Field | Chosen as |"),
         },
         Table::Formulas => headed("| Value | Enters |"),
@@ -238,6 +239,7 @@ mod tests {
             "rough auto",
             "finish disc",
             "clear pocket",
+            "free pocket",
             "machine",
             "cell",
         ];
@@ -339,6 +341,7 @@ mod tests {
             "finish disc",
             "region",
             "clear pocket",
+            "free pocket",
             "machine",
             "cell",
             "let",

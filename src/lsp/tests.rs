@@ -65,6 +65,7 @@ fn heads() -> Vec<(&'static str, &'static BlockSpec)> {
         "rough auto ",
         "finish disc ",
         "clear pocket ",
+        "free pocket ",
         MACHINE,
         "cell ",
     ]

@@ -11,6 +11,7 @@ pub const OPERATIONS: Operations = Operations(&[
     &vcutc_finish::Finish,
     &vcutc_pocket::Pocket,
     &vcutc_slit::Slit,
+    &vcutc_free::Free,
 ]);
 
 /// All backends, in the order of their names.

@@ -43,7 +43,7 @@ use super::disc::PassFault;
 use super::sides::ThickFlank;
 use super::surface::{Side, Single, Surface, Vee};
 use along::AlongSpine;
-pub use cleared::{Cleared, ClearingFault};
+pub use cleared::{Cleared, ClearingFault, Standing};
 use columns::AlongColumns;
 pub use columns::{ColumnsBound, Made};
 pub use compensation::{Compensation, VNumber};

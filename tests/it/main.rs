@@ -52,6 +52,8 @@ mod follow;
 mod forces;
 #[cfg(all(feature = "cli", feature = "krl"))]
 mod forces_drawn;
+#[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
+mod free;
 #[cfg(all(feature = "gcode", feature = "krl"))]
 mod gcode;
 #[cfg(feature = "krl")]

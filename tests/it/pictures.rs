@@ -131,7 +131,7 @@ fn is_of_vs((example, _): &(String, Vec<crate::shop::Pairing>)) -> bool {
     let others = ["_rect.vcut", "_auto.vcut"];
     !others.iter().any(|end| example.ends_with(end))
         && !example.starts_with("finished_")
-        && !["seat.vcut", "window.vcut"].contains(&example.as_str())
+        && !["seat.vcut", "window.vcut", "bay.vcut"].contains(&example.as_str())
 }
 
 #[test]

@@ -43,6 +43,7 @@ pub(crate) const NOT_ON: &[(&str, &str)] = &[
     ("twist.vcut", "gantry"),
     ("shell.vcut", "changing_gantry"),
     ("window.vcut", "pocket_gantry"),
+    ("bay.vcut", "changing_gantry"),
 ];
 
 /// What a dialect of G-code has no words for: chains that go on without a stop.

@@ -47,7 +47,7 @@ pub(in crate::cli) struct PlotArgs {
 
     /// For one picture, the file or - for standard output (the default); for all, the folder (default: the current one)
     ///
-    /// Pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine, those of torques and of the deviation by forces an arm and blades of which these are known, that of processes `rough auto`, those of the surface, its curvature and class, and the residual a `surface` (or `clear pocket`), those of finishing and of the tilt a `surface` and `finish disc`, that of tracks `finish disc`, that of passes `clear pocket` or `slit walls`.
+    /// Pictures are named after the job: rib_lattice.svg, rib_contour.svg and so on. Those about axes need a machine, those of torques and of the deviation by forces an arm and blades of which these are known, that of processes `rough auto`, those of the surface, its curvature and class, and the residual a `surface` (or `clear pocket`), those of finishing and of the tilt a `surface` and `finish disc`, that of tracks `finish disc`, that of passes `clear pocket`, `slit walls` or `free pocket`.
     #[arg(short, long, value_name = "FILE.svg|DIR|-")]
     pub(in crate::cli) output: Option<String>,
 

@@ -73,6 +73,26 @@ const FEEDS_WITH_PLUNGE: BlockSpec = BlockSpec {
     inner: Inner::Refused,
 };
 
+/// `feed { ... }` of an operation whose straight blade goes down into the material, and whose disc frees what it has slit.
+pub const FEED_TO_FREE: FieldSpec = block(
+    "feed",
+    "{ cut = 150 mm/s, free = 75 mm/s, plunge = 20 mm/s, travel = 200 mm/s, reorient = 90 deg/s }",
+)
+.required()
+.takes(Takes::Fields(&FEEDS_TO_FREE));
+
+const FEEDS_TO_FREE: BlockSpec = BlockSpec {
+    title: "`feed`",
+    fields: &[
+        value("cut", "150 mm/s").required().within(SPEED),
+        value("free", "75 mm/s").required().within(SPEED),
+        value("plunge", "20 mm/s").required().within(SPEED),
+        TRAVEL,
+        REORIENT,
+    ],
+    inner: Inner::Refused,
+};
+
 const FEEDS: BlockSpec = BlockSpec {
     title: "`feed`",
     fields: &[
@@ -157,6 +177,21 @@ pub fn check_with_plunge(
     )
 }
 
+/// The same of an operation with [`FEED_TO_FREE`], with the speeds of its disc and of its way down.
+pub fn check_to_free(
+    fields: &Fields<'_>,
+    written: Written<'_>,
+    session: &mut Session<'_>,
+) -> Checked<(Setup, [Sourced<Speed>; 2])> {
+    with_speeds(
+        (&FEEDS_TO_FREE, ["free", "plunge"]),
+        Blades::Round,
+        fields,
+        written,
+        session,
+    )
+}
+
 /// The setup, and one more speed of its block of feeds.
 fn with_speed(
     (spec, name): (&'static BlockSpec, &str),
@@ -165,19 +200,35 @@ fn with_speed(
     written: Written<'_>,
     session: &mut Session<'_>,
 ) -> Checked<(Setup, Sourced<Speed>)> {
+    let (setup, [speed]) = with_speeds((spec, [name]), blades, fields, written, session)?;
+    Ok((setup, speed))
+}
+
+/// The setup, and more speeds of its block of feeds.
+fn with_speeds<const N: usize>(
+    (spec, names): (&'static BlockSpec, [&str; N]),
+    blades: Blades,
+    fields: &Fields<'_>,
+    written: Written<'_>,
+    session: &mut Session<'_>,
+) -> Checked<(Setup, [Sourced<Speed>; N])> {
     let both = fields
         .required_block("feed", &mut session.reports)
         .and_then(|inner| {
             let (feeds, fields) = feeds(spec, inner, written, session)?;
             let mut reader = Reader::new(written.scope, &mut session.reports);
-            Ok((feeds, reader.required(&fields, name)?))
+            let mut speeds = [feeds.cut; N];
+            for (speed, name) in speeds.iter_mut().zip(names) {
+                *speed = reader.required(&fields, name)?;
+            }
+            Ok((feeds, speeds))
         });
-    let (feeds, speed) = match both {
-        Ok((feeds, speed)) => (Ok(feeds), Ok(speed)),
+    let (feeds, speeds) = match both {
+        Ok((feeds, speeds)) => (Ok(feeds), Ok(speeds)),
         Err(reported) => (Err(reported), Err(reported)),
     };
     let setup = with_feeds(feeds, blades, fields, written, session);
-    Ok((setup?, speed?))
+    Ok((setup?, speeds?))
 }
 
 // The block of feeds comes first: it needs the session, of which the reader holds a part.

@@ -87,6 +87,7 @@ impl Judge<'_> {
             beyond_reach: self.beyond_reach(tool.radius),
             mean_engagement: Angle::ZERO,
             engagement: Angle::ZERO,
+            standing: None,
         };
         let mut above = highest(before, &self.asked.region.region, tool.radius);
         // What later operations rough is gone from the surface, but stands while this one cuts.

@@ -77,6 +77,9 @@ pub(crate) fn explained(asked: &ClearPocket, finding: Finding, trials: &mut dyn 
         .help("use a wider tool, or clear the region in parts"),
         ClearingFault::Wall { .. }
         | ClearingFault::Floor { .. }
+        | ClearingFault::Shank { .. }
+        | ClearingFault::Attached { .. }
+        | ClearingFault::Pillars { .. }
         | ClearingFault::Leans
         | ClearingFault::Unopened
         | ClearingFault::Engaged { .. } => in_words(asked, finding),

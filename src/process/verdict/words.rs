@@ -56,6 +56,9 @@ pub fn explained(asked: &dyn Operation, finding: Finding) -> Diagnostic {
                 ClearingFault::Thick { .. } => Code::LayerTooThick,
                 ClearingFault::Body { .. } => Code::BodyInWork,
                 ClearingFault::Wall { .. } | ClearingFault::Floor { .. } => Code::Overcut,
+                ClearingFault::Shank { .. } => Code::NoWayForDisc,
+                ClearingFault::Attached { .. } => Code::ChipNotFreed,
+                ClearingFault::Pillars { .. } => Code::PillarsStay,
                 ClearingFault::Leans
                 | ClearingFault::Unopened
                 | ClearingFault::Engaged { .. }
@@ -152,6 +155,20 @@ pub fn clearing_words(fault: ClearingFault) -> String {
             "{} mm2 stay uncut in places up to {} mm wide, the limit is {} mm2",
             show((area.to_mm2() * 10.0).ceil() / 10.0),
             show((widest.to_mm() * 100.0).ceil() / 100.0),
+            show(limit.to_mm2())
+        ),
+        ClearingFault::Shank { by } => format!(
+            "the shank of the disc is {} mm too near to ground that was not freed before",
+            show((by.to_mm() * 100.0).ceil() / 100.0)
+        ),
+        ClearingFault::Attached { area, limit } => format!(
+            "{} mm2 of ground stay attached, corners and the limit allow {} mm2",
+            show((area.to_mm2() * 10.0).ceil() / 10.0),
+            show((limit.to_mm2() * 10.0).floor() / 10.0)
+        ),
+        ClearingFault::Pillars { area, limit } => format!(
+            "{} mm2 stand in corners of walls, the limit is {} mm2",
+            show((area.to_mm2() * 10.0).ceil() / 10.0),
             show(limit.to_mm2())
         ),
         ClearingFault::Engaged { angle, limit } => format!(

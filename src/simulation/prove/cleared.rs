@@ -25,6 +25,17 @@ pub struct Cleared {
     pub mean_engagement: Angle,
     /// The largest one of passes that are not the first in uncut ground.
     pub engagement: Angle,
+    /// What stands of ground that a disc frees; none of what a crusher shreds.
+    pub standing: Option<Standing>,
+}
+
+/// What stands of a layer that a disc freed: mostly corners of walls that are sharper than its rim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Standing {
+    /// An upper bound, without what slits leave at the foot of walls.
+    pub area: Area,
+    /// In how many places.
+    pub pillars: usize,
 }
 
 /// What can be wrong with passes over a region.
@@ -67,6 +78,15 @@ pub enum ClearingFault {
         widest: Length,
         limit: Area,
     },
+    /// The shank of a disc, with the air that it keeps, meets ground that was not freed before.
+    Shank {
+        /// How far.
+        by: Length,
+    },
+    /// More ground than corners of walls stands where a disc freed all that it frees: slits do not part it, or no pass undercuts it.
+    Attached { area: Area, limit: Area },
+    /// More stands in corners of walls than may: the rim of a disc does not reach it.
+    Pillars { area: Area, limit: Area },
     /// More of the tool's rim is in the material than may be.
     Engaged { angle: Angle, limit: Angle },
     /// Its passes are too many, or too entangled, to say what they clear.

@@ -296,6 +296,7 @@ function wallLines(timeline, moment) {
   const top = program.stock[2];
   for (let op = 1; op <= moment.op; op += 1) {
     if (program.kinds[op] !== FOLLOW || !program.walls.has(program.operations[op])) continue;
+    if ("radius" in program.blades[timeline.toolAt(op)]) continue;
     const done = op < moment.op ? 1 : moment.done;
     const steps = program.vias.has(op) ? ARC_STEPS : 1;
     for (let step = 0; step < steps; step += 1) {

@@ -199,7 +199,8 @@ class Timeline {
    */
   clears(op) {
     const { program } = this;
-    return program.kinds[op] === FOLLOW && program.pockets.has(program.operations[op]);
+    const isRound = "radius" in program.blades[this.toolAt(op)];
+    return isRound && program.kinds[op] === FOLLOW && program.pockets.has(program.operations[op]);
   }
 
   /**

@@ -1,0 +1,324 @@
+//! What prevents a plan of a pocket to be freed, and contradictions between its fields.
+
+use crate::asked::{AIR, FreePocket};
+use vcutc_backend_api::ir::Stock;
+use vcutc_backend_api::units::Length;
+use vcutc_cancellation::{Effort, Wanted};
+use vcutc_diagnostics::number::show;
+use vcutc_diagnostics::source::Spanned;
+use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_job::operation::{Unplanned, WorksThere};
+use vcutc_process::slits::fit::Unfit;
+
+/// What prevents a plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Why {
+    /// The floor is not below the stock that the operations before have left.
+    NothingThere {
+        /// The highest of it over the region.
+        top: Length,
+    },
+    /// The region is too large, or too far from what is planned.
+    TooLarge,
+    /// The straight blade does not fit.
+    Unfit(Unfit),
+    /// The straight blade is so thin that nothing can be said of what its slits part.
+    TooThin,
+    /// No side is open.
+    Closed,
+    /// An island stands in the region.
+    Island { at: [f64; 2] },
+    /// No room for the rows: how far from walls these begin, in mm.
+    Narrow { level: f64 },
+    /// The disc has no way over freed ground to a place.
+    Stuck { at: [f64; 2] },
+    /// Strips of this width cannot be freed.
+    Width {
+        step: Length,
+        most: Length,
+        least: Length,
+    },
+    /// The shank is so thick for the disc that it frees no row.
+    Shank,
+    /// No pass can be laid along the walls.
+    Broken { at: [f64; 2] },
+}
+
+impl From<Unfit> for Why {
+    fn from(unfit: Unfit) -> Self {
+        Self::Unfit(unfit)
+    }
+}
+
+impl Why {
+    /// Of two the one that says more of the region: where the disc gets stuck comes before that there is no room for more strips.
+    pub(crate) const fn worth_more(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Narrow { .. } | Self::TooLarge, other) => other,
+            (known, _) => known,
+        }
+    }
+}
+
+/// An operation without a plan.
+pub(crate) struct Refused<'j> {
+    pub(crate) asked: &'j FreePocket,
+    pub(crate) why: Why,
+}
+
+impl Unplanned for Refused<'_> {
+    fn diagnostics(&self, _: &Wanted, _: &mut Effort, _: &mut WorksThere<'_>) -> Vec<Diagnostic> {
+        vec![self.diagnostic()]
+    }
+}
+
+/// What works in any region with walls.
+const CRUSHER: &str = "clear it with a crusher (`clear pocket`)";
+
+impl Refused<'_> {
+    fn diagnostic(&self) -> Diagnostic {
+        let asked = self.asked;
+        let name = &asked.region.name;
+        match self.why {
+            Why::Unfit(unfit) => unfit.diagnostic(asked.fit()),
+            Why::NothingThere { top } => Diagnostic::new(
+                Code::PocketOutside,
+                format!(
+                    "the floor of the pocket is {} mm high, the stock over `{name}` {} mm",
+                    show(asked.floor.value.to_mm()),
+                    show(top.to_mm())
+                ),
+                asked.floor.span.unwrap_or(asked.setup.head_span),
+                "nothing to clear above it",
+            )
+            .help(format!("use a floor below {} mm", show(top.to_mm()))),
+            Why::Closed => closed(asked),
+            Why::Island { at } => Diagnostic::new(
+                Code::NoWayForDisc,
+                format!(
+                    "an island of `{name}` at {} stands in the way of the rows that `{}` frees",
+                    place(at),
+                    asked.disc.name
+                ),
+                asked.region_span,
+                "has an island",
+            )
+            .and(asked.region.span, "defined here")
+            .help(format!("free the ground around it in regions of their own, or {CRUSHER}")),
+            Why::Stuck { at } => Diagnostic::new(
+                Code::NoWayForDisc,
+                format!(
+                    "`{}` has no way over freed ground to {} in `{name}`: rows begin at an open side, and end where the region is wider \
+                     farther in",
+                    asked.disc.name,
+                    place(at)
+                ),
+                asked.region_span,
+                "wider inside than at its open side, or bent",
+            )
+            .and(asked.region.span, "defined here")
+            .help(format!("use a region that is widest at its open side, or {CRUSHER}")),
+            Why::Narrow { level } => narrow(asked, level),
+            Why::Width { step, most, least } => width(asked, [step, most, least]),
+            Why::Shank => Diagnostic::new(
+                Code::NoWayForDisc,
+                format!(
+                    "the shank of `{}` leaves no room for rows: it has a radius of {} mm in a layer, its edge {} mm",
+                    asked.disc.name,
+                    show(shank(asked).to_mm()),
+                    show(asked.disc.radius.value.to_mm())
+                ),
+                asked.disc.body.span,
+                "too thick",
+            )
+            .help("use a disc with a thinner shank, or a larger edge"),
+            Why::TooThin => too_thin(asked),
+            Why::Broken { at } => Diagnostic::new(
+                Code::PocketTooNarrow,
+                format!("no pass can be laid along the walls of `{name}` at {}", place(at)),
+                asked.region_span,
+                "walls touch or nearly touch there",
+            )
+            .help("draw walls that touch farther apart, or change the disc or the step a little"),
+            Why::TooLarge => Diagnostic::new(
+                Code::PocketTooNarrow,
+                format!("`{name}` takes more strips than are planned"),
+                asked.region_span,
+                "too large for this disc",
+            )
+            .help("use a larger disc, or free the region in parts"),
+        }
+    }
+}
+
+fn closed(asked: &FreePocket) -> Diagnostic {
+    let shank = asked.disc.body.stages.first();
+    let thick = shank.map_or(0.0, |stage| 2.0 * stage.radius.value.to_mm());
+    Diagnostic::new(
+        Code::NoWayForDisc,
+        format!(
+            "`{}` is closed: the shank of `{}` ({} mm) has no room before a first strip is out",
+            asked.region.name,
+            asked.disc.name,
+            show(thick)
+        ),
+        asked.region_span,
+        "no straight open side along a side of the stock",
+    )
+    .and(asked.region.span, "defined here")
+    .help(format!(
+        "open it to a side of the stock with `open to`, or {CRUSHER}"
+    ))
+}
+
+fn narrow(asked: &FreePocket, level: f64) -> Diagnostic {
+    let needs = up(2.0 * level);
+    Diagnostic::new(
+        Code::PocketTooNarrow,
+        format!(
+            "`{}` needs {} mm between the walls of `{}` to free a row between two strips along them",
+            asked.disc.name,
+            show(needs),
+            asked.region.name
+        ),
+        asked.region_span,
+        "too narrow for the disc",
+    )
+    .and(asked.disc.radius.span.unwrap_or(asked.disc.span), "its radius")
+    .help(format!("use a smaller disc, a smaller `step`, or {CRUSHER}"))
+}
+
+fn width(asked: &FreePocket, [step, most, least]: [Length; 3]) -> Diagnostic {
+    let down = |length: Length| show((length.to_mm() * 1e3).floor() / 1e3);
+    if most < least {
+        return Diagnostic::new(
+            Code::BladesTooSmall,
+            format!(
+                "`{}` frees strips of {} mm at most beside its shank of {} mm, and slits of `{}` leave none below {} mm",
+                asked.disc.name,
+                down(most.max(Length::ZERO)),
+                show(shank(asked).to_mm()),
+                asked.blade.name,
+                show(least.to_mm())
+            ),
+            asked.setup.head_span,
+            "no strip is left between two slits",
+        )
+        .and(asked.disc.body.span, "the shank")
+        .help("use a disc with a thinner shank, a larger edge or a larger `width`, or a thinner straight blade");
+    }
+    let span = asked.step.span.unwrap_or(asked.setup.head_span);
+    if step < least {
+        let text = format!("{} mm", show(least.to_mm()));
+        return Diagnostic::new(
+            Code::BladesTooSmall,
+            format!(
+                "strips of {} mm are hardly wider than a slit of `{}`, {} mm",
+                show(step.to_mm()),
+                asked.blade.name,
+                show(asked.blade.thickness.value.to_mm())
+            ),
+            span,
+            "too narrow",
+        )
+        .and(asked.blade.span, "the straight blade")
+        .fix(format!("use at least {text}"), span, text);
+    }
+    let text = format!("{} mm", down(most));
+    Diagnostic::new(
+        Code::BladesTooSmall,
+        format!(
+            "strips of {} mm are wider than `{}` frees: {text}, beside its shank of {} mm with {} mm of air, and with a `width` of {} mm",
+            show(step.to_mm()),
+            asked.disc.name,
+            show(shank(asked).to_mm()),
+            show(AIR.to_mm()),
+            show(asked.disc.width.value.to_mm())
+        ),
+        span,
+        "too wide",
+    )
+    .and(asked.disc.body.span, "the shank")
+    .fix(format!("use a step of {text}"), span, text)
+}
+
+/// The widest of the disc's body in a layer of the greatest thickness.
+fn shank(asked: &FreePocket) -> Length {
+    let thick = asked.layer.value.or(asked.disc.depth.value);
+    let stages = asked.disc.body.stages.iter();
+    let low = stages.filter(|stage| stage.from.value < thick);
+    low.map(|stage| stage.radius.value)
+        .fold(Length::ZERO, Length::max)
+}
+
+fn too_thin(asked: &FreePocket) -> Diagnostic {
+    let thickness = asked.blade.thickness;
+    Diagnostic::new(
+        Code::BladesTooSmall,
+        format!(
+            "the slits of `{}` are {} mm wide: too thin in `{}` to prove what they part",
+            asked.blade.name,
+            show(thickness.value.to_mm()),
+            asked.region.name
+        ),
+        thickness.span.unwrap_or(asked.blade.span),
+        "too thin",
+    )
+    .help("use a thicker blade, or free the region in parts")
+}
+
+/// A blade whose back does not cut.
+pub(crate) fn one_edge(asked: &FreePocket) -> Diagnostic {
+    let name = &asked.blade.name;
+    Diagnostic::new(
+        Code::WrongBlade,
+        format!("`free pocket` needs a straight blade with two cutting edges; `{name}` has one"),
+        asked.setup.head_span,
+        "slits begin straight down",
+    )
+    .and(asked.blade.span, "with `edges = single`")
+    .help("use a blade with `edges = double`")
+}
+
+pub(crate) fn too_thick(asked: &FreePocket, layer: Length) -> Diagnostic {
+    let depth = asked.disc.depth;
+    let diagnostic = Diagnostic::new(
+        Code::LayerTooThick,
+        format!(
+            "a layer of {} mm, and `{}` takes {} mm at once",
+            show(layer.to_mm()),
+            asked.disc.name,
+            show(depth.value.to_mm())
+        ),
+        asked.layer.span.unwrap_or(asked.setup.head_span),
+        "thicker than the disc takes",
+    )
+    .and(depth.span.unwrap_or(asked.disc.span), "its depth");
+    diagnostic.help(format!("use `layer = {} mm`", show(depth.value.to_mm())))
+}
+
+pub(crate) fn floor_above_stock(asked: &FreePocket, stock: Spanned<Stock>) -> Diagnostic {
+    let height = show(stock.node.height.to_mm());
+    Diagnostic::new(
+        Code::PocketOutside,
+        format!(
+            "the floor of the pocket is {} mm high, the stock {height} mm",
+            show(asked.floor.value.to_mm())
+        ),
+        asked.floor.span.unwrap_or(asked.setup.head_span),
+        "nothing to clear above it",
+    )
+    .and(stock.span, "the stock")
+    .help(format!("use a floor below {height} mm"))
+}
+
+/// `(12.5 mm, 40 mm)`.
+fn place([x, y]: [f64; 2]) -> String {
+    let round = |value: f64| show((value * 100.0).round() / 100.0);
+    format!("({} mm, {} mm)", round(x), round(y))
+}
+
+/// Rounded up to a hundredth, so that the number shown works.
+fn up(value: f64) -> f64 {
+    (value * 100.0).ceil() / 100.0
+}
