@@ -171,6 +171,7 @@ pub(super) fn lay(
     let strips = Strips {
         measures,
         walls: &Walls::of(region),
+        stock,
         rings,
         runs: &runs(region, &mut offsets, level)?,
         sharp: &runs(region, &mut offsets, measures.level(0))?,

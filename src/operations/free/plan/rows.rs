@@ -39,6 +39,10 @@ pub(super) struct Rowed {
 /// Most rows.
 const MOST: f64 = 2000.0;
 
+/// How much more air the shank keeps, in parts of half the thickness of the straight blade: along the open side there is no slit, so squares
+/// of the proof lie on both sides of it.
+const SLACK: f64 = 0.7;
+
 /// At how many places between two rows room is looked for.
 const LOOKED_AT: u32 = 12;
 
@@ -59,7 +63,8 @@ impl Field<'_> {
         // At the end of a row the rim has to reach the corner between its slit and the one along the walls.
         let far = self.to_corner;
         let over = (radius - libm::sqrt((radius * radius - far * far).max(0.0))).max(self.measures.over);
-        let most = (radius - shank - over).min(self.measures.widest);
+        let air = SLACK * self.measures.half;
+        let most = (radius - shank - over - air).min(self.measures.widest);
         if most < 4.0 * self.measures.half {
             return Err(Why::Shank);
         }

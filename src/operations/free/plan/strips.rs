@@ -2,6 +2,8 @@
 
 use super::layout::Measures;
 use core::f64::consts::FRAC_PI_2;
+use vcutc_backend_api::ir::Stock;
+use vcutc_backend_api::units::Length;
 use vcutc_region::curve::Curve;
 use vcutc_region::distance::Walls;
 use vcutc_region::outward::{corners, outward};
@@ -16,6 +18,7 @@ use vcutc_region::slits::{Begin, Slit, SlitPiece};
 pub(super) struct Strips<'l> {
     pub(super) measures: Measures,
     pub(super) walls: &'l Walls,
+    pub(super) stock: Stock,
     /// How many strips lie beside each other.
     pub(super) rings: u32,
     /// The ways of the level that bounds the rows, from open side to open side.
@@ -28,7 +31,39 @@ impl Strips<'_> {
     /// A slit between strips, counted from the walls, as ways from open side to open side.
     pub(super) fn slit(&self, number: u32) -> Vec<Vec<Piece>> {
         let by = self.aside(number) + self.measures.radius - self.measures.over;
-        self.runs.iter().map(|run| outward(run, by)).collect()
+        self.runs
+            .iter()
+            .map(|run| self.led_out(outward(run, by)))
+            .collect()
+    }
+
+    /// A way that ends as far beyond the sides of the stock as ways run out there: moved outwards, it may end less far.
+    fn led_out(&self, mut pieces: Vec<Piece>) -> Vec<Piece> {
+        if let Some(first) = pieces.first_mut().filter(|piece| piece.is_line()) {
+            first.from = self.beyond(first.from, first.direction(0.0).times(-1.0));
+        }
+        if let Some(last) = pieces.last_mut().filter(|piece| piece.is_line()) {
+            last.to = self.beyond(last.to, last.direction(1.0));
+        }
+        pieces
+    }
+
+    /// A place beyond a side of the stock, moved out in a direction as far as it takes.
+    fn beyond(&self, at: Place, out: Place) -> Place {
+        let [width, depth] = [self.stock.width, self.stock.depth].map(Length::to_mm);
+        let reach = self.measures.reach;
+        let missing = |at: f64, out: f64, long: f64| {
+            let by = if at > long {
+                (long + reach - at) / out
+            } else {
+                (-reach - at) / out
+            };
+            let is_beyond = at > long || at < 0.0;
+            (is_beyond && by.is_finite() && by > 0.0).then_some(by)
+        };
+        let ways = [missing(at.x, out.x, width), missing(at.y, out.y, depth)];
+        let far = ways.into_iter().flatten().reduce(f64::min).unwrap_or(0.0);
+        at.plus(out.times(far))
     }
 
     /// How far a pass lies beside the level, counted from the walls.
@@ -50,9 +85,10 @@ impl Strips<'_> {
         slits
     }
 
-    /// Slits that part a pillar. Where it still meets the slits along the walls: one with the blade square to its way, which ends so far before
-    /// the walls that the blade touches them only at its corners. Else two, from the middle of the arc to the walls at both of its ends with
-    /// the leading edge upright, so that nothing of the blade is beyond its tip there. None where neither has room.
+    /// Slits that part a pillar: one along the arc with the blade square to its way, or two from its middle to both ends with the leading
+    /// edge more upright, so that less of the blade is ahead of its tip, and more behind it. They end so far before the walls that the blade
+    /// touches these only at its corners; the first of those is taken that keeps from walls and still meets the slits along them. None in
+    /// corners so flat that no pillar is left.
     fn around_a_pillar(&self, arc: Piece) -> Vec<Slit> {
         let Measures {
             half_apex,
@@ -60,23 +96,31 @@ impl Strips<'_> {
             half,
             ..
         } = self.measures;
-        let leading = [FRAC_PI_2 + half_apex; 2];
-        let halves =
-            [arc.part(0.0, 0.5).reversed(), arc.part(0.5, 1.0)].map(|way| SlitPiece { way, rakes: leading });
-        let before = 2.0 * deep * libm::tan(half_apex);
-        // So far the ends of the arc are beside the slits along the walls.
-        let aside = before * before / (2.0 * arc.radius().unwrap_or(f64::INFINITY));
-        let share = before / arc.length();
-        let is_met = share < 0.4 && aside < MEETS * 2.0 * half;
-        let whole = is_met.then(|| SlitPiece {
-            way: arc.part(share, 1.0 - share),
-            rakes: [FRAC_PI_2; 2],
+        let radius = arc.radius().unwrap_or(f64::INFINITY);
+        let flat = radius * (1.0 / libm::cos(arc.sweep / 2.0) - 1.0);
+        if flat < FLAT * half {
+            return Vec::new();
+        }
+        let pieces = UPRIGHT.into_iter().filter_map(|upright| {
+            let rake = FRAC_PI_2 + upright * half_apex;
+            let before = 2.0 * Reach::at(rake, half_apex, deep).ahead;
+            // So far the ends of the arc are beside the slits along the walls.
+            let is_met = before * before / (2.0 * radius) < MEETS * 2.0 * half;
+            let share = before / arc.length();
+            let ways = if upright == 0.0 {
+                vec![arc.part(share, 1.0 - share)]
+            } else {
+                vec![arc.part(share, 0.5).reversed(), arc.part(0.5, 1.0 - share)]
+            };
+            let pieces = ways.into_iter().map(|way| SlitPiece {
+                way,
+                rakes: [rake; 2],
+            });
+            let pieces: Vec<SlitPiece> = pieces.collect();
+            let fits = is_met && share < 0.4 && pieces.iter().all(|piece| self.is_free(*piece));
+            fits.then_some(pieces)
         });
-        let ways = [whole.into_iter().collect(), halves.to_vec()];
-        let fitting = ways
-            .into_iter()
-            .find(|pieces| !pieces.is_empty() && pieces.iter().all(|piece| self.is_free(*piece)));
-        let slits = fitting.into_iter().flatten().map(|piece| Slit {
+        let slits = pieces.take(1).flatten().map(|piece| Slit {
             pieces: vec![piece],
             begins: Begin::Within,
         });
@@ -107,7 +151,7 @@ impl Strips<'_> {
     pub(super) fn passes(&self, passes: &mut Vec<Pass>) {
         for number in (0..self.rings).rev() {
             for run in self.runs {
-                push(passes, number, outward(run, self.aside(number)));
+                push(passes, number, self.led_out(outward(run, self.aside(number))));
             }
         }
         let has_corners = |run: &&Vec<Piece>| !corners(run, self.aside(0)).is_empty();
@@ -118,6 +162,12 @@ impl Strips<'_> {
         }
     }
 }
+
+/// How upright the leading edge is held beside a pillar, from square to the way to upright.
+const UPRIGHT: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+
+/// Pillars that are thinner than this lie within the slits along the walls, in parts of half the thickness of the straight blade.
+const FLAT: f64 = 0.4;
 
 /// How far beside each other two slits lie at most that meet, in thicknesses.
 const MEETS: f64 = 0.6;
