@@ -4,7 +4,8 @@ use crate::offset::{Kind, level};
 use crate::testkit::{any_region, pocket};
 use proptest::prelude::*;
 
-/// Slits at `e + n f` and passes of the disc at `R + n f` over two of the test pockets, in mm: closed forms, counted by hand.
+/// Slits at `e + n f` and passes of the disc at `R + n f` over two of the test pockets, in mm, as an
+/// independent program computed them; ways run on beyond open sides by the first distance.
 #[test]
 fn lengths_of_slits_and_passes() {
     let (radius, standoff, step) = (12.5, 0.75, 6.75);
@@ -12,7 +13,7 @@ fn lengths_of_slits_and_passes() {
         let region = pocket(number);
         let mut sum = 0.0;
         for count in 0..100 {
-            let ways = level(&region, RUN_OUT, first + f64::from(count) * step).unwrap();
+            let ways = level(&region, first, first + f64::from(count) * step).unwrap();
             if ways.is_empty() {
                 break;
             }
@@ -33,9 +34,6 @@ fn lengths_of_slits_and_passes() {
         );
     }
 }
-
-/// How far ways run on beyond open sides for these lengths, in mm.
-const RUN_OUT: f64 = 12.5;
 
 proptest! {
     /// All of a way that is moved outwards lies as far from the way as it is moved, and no nearer to a wall than what is left.
