@@ -86,15 +86,26 @@ impl From<Orientation> for QuaternionParts {
     }
 }
 
+/// How far the length of a quaternion that was normalised is from 1 at most, by rounding.
+const UNIT: f64 = 4.0 * f64::EPSILON;
+
 impl TryFrom<QuaternionParts> for Orientation {
     type Error = &'static str;
     fn try_from(q: QuaternionParts) -> Result<Self, Self::Error> {
         let norm = (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z).sqrt();
-        if (norm - 1.0).abs() < 1e-6 {
-            Self::from_quaternion(q.w, q.x, q.y, q.z).ok_or("not a rotation")
-        } else {
-            Err("an orientation is a unit quaternion")
+        if (norm - 1.0).abs() >= 1e-6 {
+            return Err("an orientation is a unit quaternion");
         }
+        let read = Self::from_quaternion(q.w, q.x, q.y, q.z).ok_or("not a rotation")?;
+        // What was normalised before comes back to the last bit; only its sign is chosen.
+        let is_of_its_sign = read.w * q.w + read.x * q.x + read.y * q.y + read.z * q.z > 0.0;
+        let is_normalised = (norm - 1.0).abs() <= UNIT;
+        Ok(if is_normalised && is_of_its_sign {
+            let QuaternionParts { w, x, y, z } = q;
+            Self { w, x, y, z }
+        } else {
+            read
+        })
     }
 }
 
