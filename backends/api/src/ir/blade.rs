@@ -261,12 +261,24 @@ impl Straight {
         [1.0, -1.0].map(|side| [side * sine * length, 0.0, -cosine * length])
     }
 
-    /// The smallest and the largest coordinate along +x from its tip, in mm, of all between its edges.
+    /// The smallest and the largest coordinate along +x from its tip, in mm, of all between its edges that lies no higher than so
+    /// much above its tip, in mm; of all of it where one of its edges ends below that.
     #[must_use]
-    pub fn across(&self, held: Orientation) -> [f64; 2] {
-        let [along, aside, down] = held.matrix()[0];
-        let aside = aside.abs() * self.thickness.to_mm() / 2.0;
-        let [one, other] = self.edge_ends().map(|[ahead, _, up]| along * ahead + down * up);
+    pub fn across(&self, held: Orientation, most: f64) -> [f64; 2] {
+        let matrix = held.matrix();
+        let half = self.thickness.to_mm() / 2.0;
+        let [along, aside, down] = matrix[0];
+        let aside = aside.abs() * half;
+        let ends = self.edge_ends();
+        let heights = ends.map(|[ahead, _, up]| matrix[2][0] * ahead + matrix[2][2] * up);
+        // A side of the blade may be lower than its middle plane.
+        let most = most.max(0.0) + matrix[2][1].abs() * half;
+        let share = heights.map(|height| if height > most { most / height } else { 1.0 });
+        let is_cut_off = heights.into_iter().all(|height| height > most);
+        let [one, other] = [0, 1].map(|edge| {
+            let [ahead, _, up] = ends[edge];
+            (along * ahead + down * up) * if is_cut_off { share[edge] } else { 1.0 }
+        });
         [one.min(other).min(0.0) - aside, one.max(other).max(0.0) + aside]
     }
 

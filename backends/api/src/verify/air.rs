@@ -38,7 +38,7 @@ impl Walk<'_> {
     /// A move to axis values begins outside of the stock.
     pub(super) fn leaves_for_axis_values(&mut self, from: Place, tool: ToolId) {
         let Some(pose) = from.pose() else { return };
-        let reach = self.on_ways(tool, [pose.orientation; 2]);
+        let reach = self.on_ways(tool, [pose.orientation; 2], pose.tip.z);
         let retracted = self.is_outside(pose.tip, reach);
         self.require(retracted, Rule::AirMoveThroughStock);
     }
@@ -74,7 +74,7 @@ impl Walk<'_> {
     }
 
     fn is_above(&mut self, tool: ToolId, pose: TipPose) -> bool {
-        let reach = self.on_ways(tool, [pose.orientation; 2]);
+        let reach = self.on_ways(tool, [pose.orientation; 2], pose.tip.z);
         pose.tip.z - reach.down >= self.program.stock.height.to_mm() - SAME
     }
 
@@ -86,7 +86,8 @@ impl Walk<'_> {
             self.fault(Rule::KnownStart);
             return;
         };
-        let reach = self.on_ways(segment.before.tool, [from.orientation, end.orientation]);
+        let held = [from.orientation, end.orientation];
+        let reach = self.on_ways(segment.before.tool, held, from.tip.z.min(to.z));
         self.air([from.tip, to], reach);
     }
 
@@ -104,8 +105,8 @@ impl Walk<'_> {
         self.require(beside || in_front || behind || above, Rule::AirMoveThroughStock);
     }
 
-    /// How far the blade reaches from its tip on a way through the air.
-    fn on_ways(&mut self, tool: ToolId, held: [OrientationId; 2]) -> Extent {
+    /// How far the blade reaches from its tip on a way through the air, with the tip no lower than this, in mm.
+    fn on_ways(&mut self, tool: ToolId, held: [OrientationId; 2], lowest: f64) -> Extent {
         match self.program.blade(tool) {
             Some(blade) if blade.straight().is_none() => {
                 let known = held.map(|id| self.program.orientation(id));
@@ -115,12 +116,13 @@ impl Walk<'_> {
                 }
             }
             Some(blade) => {
-                // Held alike all along it may pass the stock at its sides too: there all of its edges count.
+                // Held alike all along it may pass the stock at its sides too: there its edges count as far up as the stock stands.
+                let below = self.program.stock.height.to_mm() - lowest;
                 let [from, to] = held;
                 let held = self.program.orientation(from).filter(|_| from == to);
                 let across = blade.straight().zip(held);
                 Extent {
-                    x: across.map(|(straight, held)| straight.across(held)),
+                    x: across.map(|(straight, held)| straight.across(held, below)),
                     ..Extent::TIP
                 }
             }
