@@ -163,6 +163,10 @@ fn agreed(ways: &[Ways], reports: &mut Reports) -> Checked<Option<Sourced<Follow
     Ok(found.map(|(follow, _)| follow))
 }
 
+/// Ways of their own that rise by more are taken only where the job asks for them, as a slope (20 deg): flanks along steep ways need more
+/// edge than most blades have, and whether a blade has it is known only after planning.
+const STEEP: f64 = 0.364;
+
 /// The simplest way to follow a surface that leaves hardly more than the best; none where level cuts do. Ways of their own are looked at
 /// where cuts can have them.
 fn best(asked: &Asked<'_>, surface: &Surface, ways: &[Ways]) -> Option<Manner> {
@@ -175,6 +179,7 @@ fn best(asked: &Asked<'_>, surface: &Surface, ways: &[Ways]) -> Option<Manner> {
     let alike = |rising| Some((Manner::Alike(rising), part.fitted(rising)?.leaves));
     let own = |each| {
         let covered = part.covered(each).filter(|_| may_differ)?;
+        let covered = Some(covered).filter(|covered| covered.columns.steepest() <= STEEP)?;
         Some((Manner::Own(each), covered.leaves))
     };
     let found = [
