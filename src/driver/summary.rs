@@ -138,13 +138,16 @@ fn walls(slit: &Slit) -> String {
     } else {
         String::new()
     };
+    let way = slit.way.to_mm() / 1000.0;
+    let edge = format!("at most {:.1} mm of edge is used", slit.edge.to_mm());
+    if slit.to_wall.to_mm().is_infinite() {
+        return format!("{way:.2} m in {slits}, none along a wall; {edge}");
+    }
     format!(
-        "{:.2} m in {slits}; the sides of the blade stay at least {:.3} mm off the walls, and at most {:.3} mm of core stays at their \
-         foot{corners}; at most {:.1} mm of edge is used",
-        slit.way.to_mm() / 1000.0,
+        "{way:.2} m in {slits}; the sides of the blade stay at least {:.3} mm off the walls, and at most {:.3} mm of core stays at their \
+         foot{corners}; {edge}",
         slit.to_wall.to_mm(),
         slit.stays.to_mm(),
-        slit.edge.to_mm(),
     )
 }
 

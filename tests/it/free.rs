@@ -198,6 +198,13 @@ fn crosses([a, b]: [Spot; 2], [c, d]: [Spot; 2]) -> bool {
     side(a, b, c) * side(a, b, d) <= 0.0 && side(c, d, a) * side(c, d, b) <= 0.0
 }
 
+/// Whether a place lies beside a piece of a way, within half the thickness of the blade.
+fn is_passed(at: Spot, [a, b]: [Spot; 2]) -> bool {
+    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+    let along = (at[0] - a[0]) * dx + (at[1] - a[1]) * dy;
+    (0.0..=dx * dx + dy * dy).contains(&along) && to_segment(at, [a, b]) < THICKNESS / 2.0
+}
+
 impl Ground {
     fn of(bay: &Bay, slits: &[&Way]) -> Self {
         let columns = (WIDTH / APART) as usize;
@@ -206,19 +213,21 @@ impl Ground {
             let of = |number: usize| (number as f64 + 0.317) * APART;
             [of(square % columns), of(square / columns)]
         };
-        let points: Vec<Option<Spot>> = (0..columns * rows)
+        let mut points: Vec<Option<Spot>> = (0..columns * rows)
             .map(|square| Some(at(square)).filter(|at| bay.contains(*at)))
             .collect();
         let mut is_parted = vec![[false; 2]; points.len()];
         for slit in slits {
             let mut places = slit.places.clone();
-            // Slits that go on into each other meet where each of them ends.
+            let others = || slits.iter().filter(|other| !core::ptr::eq(**other, *slit));
+            // Slits that continue into each other meet where each of them ends; one that ends within the width of another one meets it.
             let beyond = |a: Spot, b: Spot| {
-                let long = distance(a, b);
-                [
-                    a[0] + (a[0] - b[0]) / long * 0.1,
-                    a[1] + (a[1] - b[1]) / long * 0.1,
-                ]
+                let meets = others().any(|other| {
+                    let mut along = other.places.windows(2);
+                    along.any(|ends| to_segment(a, [ends[0], ends[1]]) < THICKNESS / 2.0)
+                });
+                let by = if meets { THICKNESS } else { 0.1 } / distance(a, b);
+                [a[0] + (a[0] - b[0]) * by, a[1] + (a[1] - b[1]) * by]
             };
             places.insert(0, beyond(places[0], places[1]));
             places.push(beyond(places[places.len() - 1], places[places.len() - 2]));
@@ -231,6 +240,20 @@ impl Ground {
                         for (axis, next) in [(0, square + 1), (1, square + columns)] {
                             is_parted[square][axis] |= crosses([at(square), at(next)], [ends[0], ends[1]]);
                         }
+                    }
+                }
+            }
+        }
+        // What the blade passes is gone, half its thickness to either side of its way.
+        for slit in slits {
+            for ends in slit.places.windows(2) {
+                let number =
+                    |value: f64| ((value - THICKNESS / 2.0) / APART - 0.317).ceil().max(0.0) as usize;
+                let low = [0, 1].map(|axis| number(ends[0][axis].min(ends[1][axis])));
+                for row in low[1]..(low[1] + 4).min(rows) {
+                    for column in low[0]..(low[0] + 4).min(columns) {
+                        let point = &mut points[row * columns + column];
+                        *point = point.filter(|at| !is_passed(*at, [ends[0], ends[1]]));
                     }
                 }
             }
@@ -543,9 +566,27 @@ fn regions_without_a_way_are_refused() {
         assert_eq!(codes(&text), [Code::NoWayForDisc], "{text}");
     }
     let narrow = text
-        .replace("150 mm)", "60 mm)")
-        .replace("(40 mm, 130 mm)", "(40 mm, 40 mm)");
+        .replace("150 mm)", "50 mm)")
+        .replace("(40 mm, 130 mm)", "(40 mm, 35 mm)");
     assert_eq!(codes(&narrow), [Code::PocketTooNarrow], "{narrow}");
+}
+
+/// A blade is longer than thin layers are thick, and may run out by nothing: what of it stands above the stock passes its sides. Slits keep
+/// an allowance once.
+#[test]
+fn thin_layers_no_run_out_and_an_allowance_have_ways() {
+    let text = plain().text();
+    for (field, value) in [
+        ("floor = 10 mm", "floor = 26 mm\n  layer = 2 mm"),
+        ("clearance = 10 mm", "clearance = 10 mm\n  run_out = 0 mm"),
+        ("clearance = 10 mm", "clearance = 10 mm\n  allowance = 2 mm"),
+    ] {
+        assert_eq!(codes(&text.replace(field, value)), [], "{value}");
+    }
+    assert_eq!(
+        codes(&text.replace("floor = 10 mm", "floor = 10 mm\n  chip = 1 mm")),
+        [Code::OutOfRange]
+    );
 }
 
 /// The example is tried on robots with the others; here on a gantry that turns the blade about itself.

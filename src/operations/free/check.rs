@@ -30,6 +30,8 @@ const CHIP: Length = Length::mm(150.0);
 /// How many layers slits go through where the job does not say it.
 const THROUGH: u32 = 1;
 
+/// Shorter pieces take more slits than strips, and hold nothing.
+const CHIPS: Range = Range::closed(Dimension::LENGTH, 20.0, 100_000.0);
 const AREAS: Range = Range::closed(Dimension::AREA, 0.0, 1e10);
 /// Programs keep a hundredth of a millimetre from walls for rounding and for joints, so less cannot be promised.
 const RESIDUALS: Range = Range::closed(Dimension::LENGTH, 0.02, 100.0);
@@ -46,7 +48,7 @@ pub const SPEC: BlockSpec = BlockSpec {
         value("step", "auto").within(SIZE).or_auto(),
         value("layer", "auto").within(SIZE).or_auto(),
         value("through", "1").within(LAYERS),
-        value("chip", "150 mm").within(SIZE),
+        value("chip", "150 mm").within(CHIPS),
         value("allowance", "0 mm").within(DISTANCE),
         block("limits", "{ uncut <= 1 mm2, pillars <= 150 mm2 }").takes(Takes::Fields(&LIMITS)),
         setup::FEED_TO_FREE,

@@ -6,7 +6,7 @@ use crate::proof::tools;
 use vcutc_backend_api::ir::{OperationId, Program, Shape};
 use vcutc_job::operation::judged::FromAbove;
 use vcutc_process::from_above::reaching;
-use vcutc_process::from_above::shown::{seen, stretches};
+use vcutc_process::from_above::shown::{seen, stays, stretches};
 use vcutc_region::coverage::{Tool, coverage};
 use vcutc_region::region::Side;
 
@@ -30,12 +30,18 @@ pub(crate) fn from_above(asked: &FreePocket, operation: OperationId, program: &P
     };
     let passes = layer.passes();
     let begins = passes.iter().filter_map(|pass| Some(pass.pieces.first()?.from));
+    let bare = Tool {
+        radius: tool.radius,
+        keep: (disc.radius + asked.allowance.value).to_mm(),
+    };
+    let spots = coverage(region, passes, reaching(tool)).map_or_else(|_| Vec::new(), |left| left.spots);
     Some(FromAbove {
+        stays: stays(&spots, region, bare),
         walls: of(Side::Wall),
         open: of(Side::Open),
         slits: layer.slits().to_vec(),
         stretches: stretches(region, passes, tool.radius),
         entries: begins.collect(),
-        uncut: coverage(region, passes, reaching(tool)).map_or_else(|_| Vec::new(), |left| seen(left.spots)),
+        uncut: seen(spots),
     })
 }

@@ -6,12 +6,14 @@
 
 mod crossing;
 mod layout;
+mod measures;
 mod rows;
 mod strips;
 
 use crate::asked::FreePocket;
 use crate::refused::Why;
-use layout::{Laid, Measures};
+use layout::Laid;
+use measures::Measures;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_job::operation::Ground;
 use vcutc_job::{Machine, Setup};

@@ -110,8 +110,10 @@ impl Judge<'_> {
             keep: (disc.radius + self.asked.allowance.value + self.program.blend).to_mm(),
         };
         let layers = layers(self.program, self.operation, self.tools);
-        let corners = self.beyond_reach(radius);
-        let mut done = self.nothing_yet(layers.len(), corners);
+        // An allowance moves corners, and is no pillar.
+        let corners = self.beyond_reach(radius, radius);
+        let beyond_reach = self.beyond_reach(radius, radius + self.asked.allowance.value.to_mm());
+        let mut done = self.nothing_yet(layers.len(), beyond_reach);
         let mut above = highest(before, &self.asked.region.region, radius);
         // What later operations rough is gone from the surface, but stands while this one cuts.
         let top = if self.is_last_on_the_stock {
@@ -201,11 +203,14 @@ impl Judge<'_> {
         })
     }
 
-    /// How much of the region no disc of this radius reaches that keeps the allowance; none where that is beyond what is looked at.
-    fn beyond_reach(&self, radius: f64) -> Area {
-        let keep = radius + self.asked.allowance.value.to_mm();
-        let left = unreachable(&self.asked.region.region, Tool { radius, keep });
-        Area::mm2(left.map_or(0.0, |left| left.uncut))
+    /// How much of the region no disc of this radius reaches whose centre keeps so far from walls; all of it where that is not found out.
+    fn beyond_reach(&self, radius: f64, keep: f64) -> Area {
+        let region = &self.asked.region.region;
+        let left = unreachable(region, Tool { radius, keep });
+        // Where that is not found out, all of the region counts.
+        let bounds = region.bounds();
+        let all = (bounds.high.x - bounds.low.x) * (bounds.high.y - bounds.low.y);
+        Area::mm2(left.map_or(all, |left| left.uncut))
     }
 
     fn note(&mut self, layer: &Layer, at: Place, fault: ClearingFault) {

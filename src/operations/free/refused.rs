@@ -54,6 +54,10 @@ impl Why {
     /// Of two the one that says more of the region: where the disc gets stuck comes before that there is no room for more strips.
     pub(crate) const fn worth_more(self, other: Self) -> Self {
         match (self, other) {
+            // What takes the least room.
+            (Self::Narrow { level }, Self::Narrow { level: more }) => Self::Narrow {
+                level: level.min(more),
+            },
             (Self::Narrow { .. } | Self::TooLarge, other) => other,
             (known, _) => known,
         }

@@ -3,10 +3,10 @@
 use crate::asked::ClearPocket;
 use crate::proof::stated::layers;
 use vcutc_backend_api::ir::{OperationId, Program, Shape};
-use vcutc_job::operation::judged::{FromAbove, Stays, WhyItStays};
+use vcutc_job::operation::judged::FromAbove;
 use vcutc_process::from_above::reaching;
-use vcutc_process::from_above::shown::{seen, stretches};
-use vcutc_region::coverage::{Spot, Tool, coverage, unreachable};
+use vcutc_process::from_above::shown::{seen, stays, stretches};
+use vcutc_region::coverage::{Tool, coverage};
 use vcutc_region::region::Side;
 
 /// The passes of a program; none of one that has none.
@@ -38,17 +38,8 @@ pub(crate) fn from_above(
         radius,
         keep: radius + asked.allowance.value.to_mm(),
     };
-    let beyond = unreachable(region, bare).map_or_else(|_| Vec::new(), |left| left.spots);
-    let stays = |spots: &[Spot], why: WhyItStays| {
-        let seen = spots.iter().filter(|spot| spot.area >= SEEN).cloned();
-        seen.map(|spot| Stays { spot, why }).collect::<Vec<_>>()
-    };
-    let all = [
-        stays(&spots, WhyItStays::Uncut),
-        stays(&beyond, WhyItStays::BeyondReach),
-    ];
     Some(FromAbove {
-        stays: all.concat(),
+        stays: stays(&spots, region, bare),
         walls: of(Side::Wall),
         open: of(Side::Open),
         slits: Vec::new(),

@@ -1,3 +1,5 @@
+//! What discs free of regions, against areas computed by hand.
+
 use super::*;
 use crate::testkit::{polygon, region};
 

@@ -1,3 +1,5 @@
+//! Levels moved outwards, against distances of points.
+
 use super::*;
 use crate::distance::Walls;
 use crate::offset::{Kind, level};

@@ -1,3 +1,5 @@
+//! Rows over regions, against areas.
+
 use super::*;
 use crate::testkit::{circle, rectangle};
 use proptest::prelude::*;

@@ -21,7 +21,7 @@ pub(super) fn along(strips: &Strips<'_>) -> Vec<Slit> {
     let mut slits = Vec::new();
     for number in 0..strips.rings {
         // From the outer slit, or that along the walls, which lies a little farther out.
-        let wide = measures.step + if number == 0 { measures.keeps[1] } else { 0.0 };
+        let wide = measures.step + if number == 0 { measures.farther_out() } else { 0.0 };
         for way in strips.slit(number + 1) {
             for (piece, share) in places(&way, measures.chip) {
                 let from = piece.at(share);

@@ -12,14 +12,12 @@
 //! rim would leave ground under it, and each pass lies as far from both of its slits in corners as it does along straight walls.
 
 use super::crossing;
+use super::measures::Measures;
 use super::rows::Field;
 use super::strips::{self, Strips};
-use crate::asked::{AIR, FreePocket};
+use crate::asked::FreePocket;
 use crate::refused::Why;
 use vcutc_backend_api::ir::Stock;
-use vcutc_backend_api::units::Length;
-use vcutc_job::Auto;
-use vcutc_process::lower::{BLEND, ROUNDING_ROOM};
 use vcutc_region::distance::Walls;
 use vcutc_region::offset::{Kind, OffsetFault, Offsets};
 use vcutc_region::outward::outward;
@@ -28,32 +26,6 @@ use vcutc_region::piece::Piece;
 use vcutc_region::region::{Region, Side};
 use vcutc_region::rows::Front;
 use vcutc_region::slits::Slit;
-
-/// What the blades and the job ask of strips, in mm.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Measures {
-    pub(super) radius: f64,
-    /// The shank with its air.
-    pub(super) shank: f64,
-    /// Half the thickness of the straight blade.
-    pub(super) half: f64,
-    /// What the straight blade and the rim keep from walls.
-    pub(super) keeps: [f64; 2],
-    /// How far the rim runs on beyond a slit.
-    pub(super) over: f64,
-    /// The width of strips along walls.
-    pub(super) step: f64,
-    /// The widest row.
-    pub(super) widest: f64,
-    /// The thickness of a layer, and the depth of the pocket.
-    pub(super) thick: f64,
-    pub(super) deep: f64,
-    /// Half the angle between the edges of the straight blade, in rad.
-    pub(super) half_apex: f64,
-    /// How far ways run on beyond open sides.
-    pub(super) reach: f64,
-    pub(super) chip: f64,
-}
 
 /// A layer with every choice made.
 #[derive(Clone, Debug)]
@@ -66,65 +38,8 @@ pub(super) struct Laid {
     pub(super) passes: Vec<Pass>,
 }
 
-/// Strips have to be so much wider than a slit, in thicknesses.
-const LEAST: f64 = 2.0;
-
-/// What rounding may take of a limit, in mm.
+/// What rounding may take of a line, in mm.
 const ROUNDING: f64 = 1e-6;
-
-impl Measures {
-    /// Of layers of this thickness in a pocket of this depth, in mm.
-    pub(super) fn of(asked: &FreePocket, [thick, deep]: [f64; 2]) -> Result<Self, Why> {
-        let radius = asked.disc.radius.value.to_mm();
-        let stages = asked.disc.body.stages.iter();
-        let low = stages.filter(|stage| stage.from.value.to_mm() < thick);
-        let shank = low.map(|stage| stage.radius.value.to_mm()).fold(0.0, f64::max) + AIR.to_mm();
-        let half = asked.blade.thickness.value.to_mm() / 2.0;
-        if half <= 0.0 {
-            return Err(Why::TooThin);
-        }
-        let knife = vcutc_process::slits::fit::knife(asked.fit(), thick).map_err(Why::Unfit)?;
-        let over = half + knife.keep;
-        let allowance = asked.allowance.value.to_mm();
-        let rim = allowance + BLEND.to_mm() + ROUNDING_ROOM.to_mm();
-        let most = (radius - shank - over).min(asked.disc.width.value.to_mm());
-        let step = match asked.step.value {
-            Auto::Given(step) => step.to_mm(),
-            Auto::Auto => most,
-        };
-        if step > most + ROUNDING || step < LEAST * 2.0 * half {
-            return Err(Why::Width {
-                step: Length::mm(step),
-                most: Length::mm(most),
-                least: Length::mm(LEAST * 2.0 * half),
-            });
-        }
-        Ok(Self {
-            radius,
-            shank,
-            half,
-            keeps: [knife.keep, rim],
-            over,
-            step,
-            widest: asked.step.value.or(asked.disc.width.value).to_mm(),
-            thick,
-            deep,
-            half_apex: knife.half_apex,
-            reach: radius + asked.setup.run_out.value.to_mm(),
-            chip: asked.chip.value.to_mm(),
-        })
-    }
-
-    /// How far from walls ground is the affair of the slits along them.
-    pub(super) fn beside_walls(&self) -> f64 {
-        self.over
-    }
-
-    /// How far the level lies from the walls that bounds the rows of so many strips along walls.
-    fn level(&self, rings: u32) -> f64 {
-        self.radius + self.keeps[1] + f64::from(rings) * self.step
-    }
-}
 
 /// The straight open sides of a region, each line once.
 pub(super) fn fronts(region: &Region) -> Vec<Front> {

@@ -1,7 +1,7 @@
 //! Rows along an open side: their slits, and the way of the disc from row to row.
 
 use super::crossing;
-use super::layout::Measures;
+use super::measures::Measures;
 use super::strips::upright;
 use crate::refused::Why;
 use vcutc_backend_api::ir::Stock;

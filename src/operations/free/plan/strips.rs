@@ -1,6 +1,6 @@
 //! Strips along walls: their slits, the passes of the disc, and the pillars in corners.
 
-use super::layout::Measures;
+use super::measures::Measures;
 use core::f64::consts::FRAC_PI_2;
 use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;

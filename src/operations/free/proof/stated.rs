@@ -72,7 +72,8 @@ pub(crate) fn layers(program: &Program, operation: OperationId, tools: Tools) ->
         // What the straight blade cuts before the disc comes.
         let before = all.iter().filter(|piece| piece.tool == tools.straight);
         let before = before.take_while(|piece| piece.op < first.op).count();
-        layer(pieces, slits.get(..before)?)
+        // Without slits nothing is parted.
+        layer(pieces, slits.get(..before).unwrap_or_default())
     });
     layers.collect()
 }
