@@ -29,7 +29,7 @@ pub struct Columns {
     knots: Vec<f64>,
     /// The cover at each knot.
     covers: Vec<Profile>,
-    /// From left to right. In between rises go on evenly.
+    /// From left to right. In between they rise evenly.
     lines: Vec<Line>,
 }
 
@@ -234,7 +234,7 @@ impl Columns {
         over(&self.knots, &self.rises(x), y)
     }
 
-    /// The places of the way at an x that goes on straight to a `front` before the stock and to a `back` beyond it. Their rises are on the
+    /// The places of the way at an x that continues straight to a `front` before the stock and to a `back` beyond it. Their rises are on the
     /// grid, nowhere below the way itself.
     #[must_use]
     pub fn stations(&self, x: f64, [front, back]: [f64; 2]) -> Vec<Station> {

@@ -412,7 +412,7 @@ fn the_grammar_of_editors_has_every_word_and_no_other() {
         named_by("head", Some(0)),
         set(blades.into_iter().chain(["blade"]))
     );
-    let firsts = ["rough", "finish", "clear", "slit"];
+    let firsts = ["rough", "finish", "clear", "slit", "free"];
     let seconds = firsts
         .into_iter()
         .flat_map(|first| vocabulary::head_words(first, OPERATIONS));

@@ -124,7 +124,7 @@ pub fn freed(region: &Region, slits: Slits<'_>, passes: &[Pass], wheel: Wheel) -
     })
 }
 
-/// Slits that end so near to each other in one line, in mm, go on into each other: points of programs are rounded.
+/// Slits that end so near to each other in one line, in mm, continue into each other: points of programs are rounded.
 const GAP: f64 = 3e-3;
 
 /// How much two slits may turn from each other that do, as a cosine.

@@ -4,7 +4,7 @@
 //! it, is the narrowest: the straight line that comes nearest to the section (Chebyshev). Curved ways are the section itself, smoothed
 //! along y because a blade that follows a sharp bend lies off its tips, with as few knots as keep chords near to it ([`mod@crate::knots`]).
 //! Ways are smoothed a little across the planes, and put on the section with what comes out. Between two planes and two knots
-//! heights go on evenly, so that the cover is bilinear there, and it is raised by what any triangle stands above it. Over an edge of
+//! heights change evenly, so that the cover is bilinear there, and it is raised by what any triangle stands above it. Over an edge of
 //! a triangle that is `E(t) = E0 + (E1 - E0) t + dm dy t (1 - t)`, by how slope and place change along the edge; in the inside a
 //! bilinear function has no extreme (derived here).
 

@@ -87,7 +87,7 @@ impl Measures {
         rim + self.over - (knife + self.half)
     }
 
-    /// How far from walls ground is the affair of the slits along them.
+    /// How far from walls ground belongs to the slits along them.
     pub(super) fn beside_walls(&self) -> f64 {
         self.keeps[0] + self.half
     }
