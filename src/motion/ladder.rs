@@ -173,7 +173,7 @@ fn best(ladder: &dyn Ladder, links: &Links, known: &mut Known) -> Result<Vec<usi
     cheapest(ladder, links, least, known.cheapest_with(least))
 }
 
-/// Margins that differ by less count as equal: rounding is no reason to change the branch.
+/// Margins that differ by less count as equal: rounding must not change the branch.
 const SAME_MARGIN: f64 = 1e-6;
 
 /// The largest smallest margin that any way has. `known` are the margins of the first runs, and of all afterwards.

@@ -135,7 +135,7 @@ pub(super) fn found(
         };
     }
     let failing = failures(survey, station, branches);
-    // A run that some branch carries is no obstacle.
+    // A run that some branch carries is not an obstacle.
     let all = (stations.iter().zip(all_carried).enumerate())
         .filter(|(_, (_, carried))| carried.is_empty())
         .flat_map(|(index, (other, _))| {

@@ -16,6 +16,9 @@ use vcutc_region::place::Place;
 use vcutc_region::region::Region;
 use vcutc_simulation::surface::Surface;
 
+/// A pocket that is less deep does not count, in mm: far below what a machine repeats.
+pub const THINNEST: f64 = 0.01;
+
 /// Heights this close are one, in mm.
 const LEVEL: f64 = 1e-6;
 

@@ -248,6 +248,17 @@ fn clamped(step: f64) -> u32 {
 }
 
 /// `R0`: blade over the work, tip down, leading side towards +y.
+/// How a blade that spins is held upright: all operations hold it alike.
+#[must_use]
+pub fn spinning_upright() -> Orientation {
+    let holder = Holder {
+        swing: Angle::ZERO,
+        rake: Angle::deg(90.0),
+        edges: Edges::Double,
+    };
+    holder.cutting(Flank::Left, Feed::Forward)
+}
+
 fn upright() -> DQuat {
     DQuat::from_mat3(&DMat3::from_cols(DVec3::Y, DVec3::X, DVec3::NEG_Z))
 }

@@ -5,6 +5,7 @@
 mod attempts;
 mod bodies;
 mod changes;
+pub mod floors;
 pub mod unloaded;
 pub mod words;
 

@@ -17,6 +17,7 @@ use vcutc_job::sema::session::Session;
 use vcutc_job::sema::setup::{self, inner_place};
 use vcutc_job::sema::written::Written;
 use vcutc_job::{Auto, Disc, Sourced, StraightBlade};
+use vcutc_process::verdict::floors;
 
 /// How much ground may stay uncut where the job does not say it: a judgement, from no source.
 const UNCUT: Area = Area::mm2(1.0);
@@ -145,7 +146,7 @@ fn fault(asked: &FreePocket, written: Written<'_>) -> Option<Diagnostic> {
     }
     let stock = written.stock?;
     if asked.floor.value >= stock.node.height {
-        return Some(refused::floor_above_stock(asked, stock));
+        return Some(floors::above_the_stock(asked.floor, asked.setup.head_span, stock));
     }
     beyond_stock(&asked.region, asked.region_span, stock)
 }

@@ -4,29 +4,18 @@ use crate::decided::Planned;
 use crate::plan::Stage as Layers;
 use core::num::NonZeroU32;
 use vcutc_backend_api::builder::ProgramBuilder;
-use vcutc_backend_api::geometry::Orientation;
-use vcutc_backend_api::ir::{Edges, Flank, OperationId, OperationKind, Site, SourceRef};
-use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::ir::{OperationId, OperationKind, Site, SourceRef};
+use vcutc_backend_api::units::Length;
 use vcutc_job::Setup;
 use vcutc_process::beside::{Drive, Entrance, Stage, Step, Writer};
 use vcutc_process::lower::BLEND;
 use vcutc_process::pen::{Pace, Path, Pen};
-use vcutc_process::posture::{Feed, Holder};
+use vcutc_process::posture::spinning_upright;
 use vcutc_process::slits::lower::{Heights, Series};
 use vcutc_region::pass::Pass;
 
 /// What programs call it.
 pub(crate) const KIND: OperationKind = OperationKind::named("free_pocket").unwrap();
-
-/// How the disc is held: upright, as every operation holds an upright blade.
-fn upright() -> Orientation {
-    let holder = Holder {
-        swing: Angle::ZERO,
-        rake: Angle::deg(90.0),
-        edges: Edges::Double,
-    };
-    holder.cutting(Flank::Left, Feed::Forward)
-}
 
 /// Appends the ops of one operation.
 pub(crate) fn lower(planned: &Planned, source: SourceRef, builder: &mut ProgramBuilder) {
@@ -60,7 +49,7 @@ pub(crate) fn lower(planned: &Planned, source: SourceRef, builder: &mut ProgramB
                 let steps = path
                     .stretches
                     .iter()
-                    .map(|stretch| paces.step(stretch, upright()));
+                    .map(|stretch| paces.step(stretch, spinning_upright()));
                 let steps: Vec<Step> = steps.collect();
                 let number = u32::try_from(begun + number).unwrap_or(u32::MAX);
                 let site = Site::Cut {
@@ -68,7 +57,7 @@ pub(crate) fn lower(planned: &Planned, source: SourceRef, builder: &mut ProgramB
                     layer,
                     cut: NonZeroU32::MIN.saturating_add(number),
                 };
-                writer.path(site, Entrance::of(path.from, upright()), &steps);
+                writer.path(site, Entrance::of(path.from, spinning_upright()), &steps);
             }
             begun = 0;
             layer = layer.saturating_add(1);

@@ -17,7 +17,7 @@ use measures::Measures;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_job::operation::Ground;
 use vcutc_job::{Machine, Setup};
-use vcutc_process::from_above::{highest, layers};
+use vcutc_process::from_above::{THINNEST, highest, layers};
 use vcutc_process::slits::fit;
 use vcutc_region::freed::{FreedFault, Slits, Wheel, freed};
 use vcutc_region::pass::Pass;
@@ -57,9 +57,6 @@ pub struct Stage {
     /// The floors from the top, in mm; at least one.
     pub floors: Vec<f64>,
 }
-
-/// A pocket that is less deep does not count, in mm: far below what a machine repeats.
-const THINNEST: f64 = 0.01;
 
 /// How many strips along walls are tried at most.
 const MOST_RINGS: u32 = 3;

@@ -110,7 +110,7 @@ impl Judge<'_> {
             keep: (disc.radius + self.asked.allowance.value + self.program.blend).to_mm(),
         };
         let layers = layers(self.program, self.operation, self.tools);
-        // An allowance moves corners, and is no pillar.
+        // An allowance moves corners, and is not a pillar.
         let corners = self.beyond_reach(radius, radius);
         let beyond_reach = self.beyond_reach(radius, radius + self.asked.allowance.value.to_mm());
         let mut done = self.nothing_yet(layers.len(), beyond_reach);

@@ -1,14 +1,13 @@
 //! What prevents a plan of a pocket to be freed, and contradictions between its fields.
 
 use crate::asked::{AIR, FreePocket};
-use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_cancellation::{Effort, Wanted};
 use vcutc_diagnostics::number::show;
-use vcutc_diagnostics::source::Spanned;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::operation::{Unplanned, WorksThere};
 use vcutc_process::slits::fit::Unfit;
+use vcutc_process::verdict::floors;
 
 /// What prevents a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +50,7 @@ impl From<Unfit> for Why {
 }
 
 impl Why {
-    /// Of two the one that says more of the region: where the disc gets stuck comes before that there is no room for more strips.
+    /// Of two the one that says more of the region: where the disc gets stuck, before the lack of room for more strips.
     pub(crate) const fn worth_more(self, other: Self) -> Self {
         match (self, other) {
             // What takes the least room.
@@ -85,17 +84,9 @@ impl Refused<'_> {
         let name = &asked.region.name;
         match self.why {
             Why::Unfit(unfit) => unfit.diagnostic(asked.fit()),
-            Why::NothingThere { top } => Diagnostic::new(
-                Code::PocketOutside,
-                format!(
-                    "the floor of the pocket is {} mm high, the stock over `{name}` {} mm",
-                    show(asked.floor.value.to_mm()),
-                    show(top.to_mm())
-                ),
-                asked.floor.span.unwrap_or(asked.setup.head_span),
-                "nothing to clear above it",
-            )
-            .help(format!("use a floor below {} mm", show(top.to_mm()))),
+            Why::NothingThere { top } => {
+                floors::nothing_left_above(asked.floor, asked.setup.head_span, &asked.region, top)
+            }
             Why::Closed => closed(asked),
             Why::Island { at } => Diagnostic::new(
                 Code::NoWayForDisc,
@@ -299,21 +290,6 @@ pub(crate) fn too_thick(asked: &FreePocket, layer: Length) -> Diagnostic {
     )
     .and(depth.span.unwrap_or(asked.disc.span), "its depth");
     diagnostic.help(format!("use `layer = {} mm`", show(depth.value.to_mm())))
-}
-
-pub(crate) fn floor_above_stock(asked: &FreePocket, stock: Spanned<Stock>) -> Diagnostic {
-    let height = show(stock.node.height.to_mm());
-    Diagnostic::new(
-        Code::PocketOutside,
-        format!(
-            "the floor of the pocket is {} mm high, the stock {height} mm",
-            show(asked.floor.value.to_mm())
-        ),
-        asked.floor.span.unwrap_or(asked.setup.head_span),
-        "nothing to clear above it",
-    )
-    .and(stock.span, "the stock")
-    .help(format!("use a floor below {height} mm"))
 }
 
 /// `(12.5 mm, 40 mm)`.

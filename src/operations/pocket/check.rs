@@ -19,6 +19,7 @@ use vcutc_job::sema::session::Session;
 use vcutc_job::sema::setup::{self, inner_place};
 use vcutc_job::sema::written::Written;
 use vcutc_job::{Auto, Crusher};
+use vcutc_process::verdict::floors;
 
 /// How much ground may stay uncut where the job does not say it: a judgement, from no source.
 const UNCUT: Area = Area::mm2(1.0);
@@ -157,7 +158,7 @@ fn fault(asked: &ClearPocket, written: Written<'_>) -> Option<vcutc_diagnostics:
     }
     let stock = written.stock?;
     if asked.floor.value >= stock.node.height {
-        return Some(refused::floor_above_stock(asked, stock));
+        return Some(floors::above_the_stock(asked.floor, asked.setup.head_span, stock));
     }
     beyond_stock(&asked.region, asked.region_span, stock).or_else(|| opening::out_of_place(asked))
 }

@@ -3,25 +3,14 @@
 use crate::decided::Planned;
 use core::num::NonZeroU32;
 use vcutc_backend_api::builder::ProgramBuilder;
-use vcutc_backend_api::geometry::Orientation;
-use vcutc_backend_api::ir::{Edges, Flank, OperationKind, Site, SourceRef};
-use vcutc_backend_api::units::{Angle, Length};
+use vcutc_backend_api::ir::{OperationKind, Site, SourceRef};
+use vcutc_backend_api::units::Length;
 use vcutc_process::beside::{Drive, Entrance, Stage, Step, Writer};
 use vcutc_process::lower::BLEND;
-use vcutc_process::posture::{Feed, Holder};
+use vcutc_process::posture::spinning_upright;
 
 /// What programs call it.
 pub(crate) const KIND: OperationKind = OperationKind::named("clear_pocket").unwrap();
-
-/// How the crusher is held: upright, as every operation holds an upright blade.
-pub(crate) fn upright() -> Orientation {
-    let holder = Holder {
-        swing: Angle::ZERO,
-        rake: Angle::deg(90.0),
-        edges: Edges::Double,
-    };
-    holder.cutting(Flank::Left, Feed::Forward)
-}
 
 /// Appends the ops of one operation.
 pub(crate) fn lower(planned: &Planned, source: SourceRef, builder: &mut ProgramBuilder) {
@@ -47,14 +36,14 @@ pub(crate) fn lower(planned: &Planned, source: SourceRef, builder: &mut ProgramB
             let steps: Vec<Step> = path
                 .stretches
                 .iter()
-                .map(|stretch| paces.step(stretch, upright()))
+                .map(|stretch| paces.step(stretch, spinning_upright()))
                 .collect();
             let site = Site::Cut {
                 operation,
                 layer: number,
                 cut: pass,
             };
-            writer.path(site, Entrance::of(path.from, upright()), &steps);
+            writer.path(site, Entrance::of(path.from, spinning_upright()), &steps);
             pass = pass.saturating_add(1);
         }
         number = number.saturating_add(1);

@@ -19,7 +19,7 @@ use room::Room;
 use vcutc_backend_api::units::{Angle, Area, Duration, Length};
 use vcutc_job::Auto;
 use vcutc_job::operation::Ground;
-use vcutc_process::from_above::{highest, layers};
+use vcutc_process::from_above::{THINNEST, highest, layers};
 use vcutc_process::lower::{BLEND, ROUNDING_ROOM};
 use vcutc_region::distance::Walls;
 use vcutc_region::pattern::Tool;
@@ -288,9 +288,6 @@ fn floors(asked: &ClearPocket, top: f64) -> Result<Vec<f64>, Why> {
     let thickest = asked.layer.value.or(asked.crusher.height.value).to_mm();
     layers(top, floor, thickest).ok_or(Why::TooLarge)
 }
-
-/// A pocket that is less deep does not count, in mm: far below what a machine repeats.
-const THINNEST: f64 = 0.01;
 
 /// Most levels across a region.
 const MOST_LEVELS: f64 = 1000.0;

@@ -1,14 +1,13 @@
 //! Why there is no plan of a pocket, and what its fields contradict each other in.
 
 use crate::asked::ClearPocket;
-use vcutc_backend_api::ir::Stock;
 use vcutc_backend_api::units::Length;
 use vcutc_cancellation::{Effort, Wanted};
 use vcutc_diagnostics::number::show;
-use vcutc_diagnostics::source::Spanned;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::operation::{Unplanned, WorksThere};
 use vcutc_process::lower::{BLEND, ROUNDING_ROOM};
+use vcutc_process::verdict::floors;
 
 /// Why there is no plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +31,7 @@ pub(crate) enum Why {
         /// Where a way down was looked for.
         at: [f64; 2],
     },
-    /// There is no room to go down round and round.
+    /// A helix has no room.
     NoHelix {
         /// Where it was looked for.
         at: [f64; 2],
@@ -98,17 +97,9 @@ impl Refused<'_> {
                     "use a smaller allowance".to_owned()
                 })
             }
-            Why::NothingThere { top } => Diagnostic::new(
-                Code::PocketOutside,
-                format!(
-                    "the floor of the pocket is {} mm high, the stock over `{name}` {} mm",
-                    show(asked.floor.value.to_mm()),
-                    show(top.to_mm())
-                ),
-                asked.floor.span.unwrap_or(asked.setup.head_span),
-                "nothing to clear above it",
-            )
-            .help(format!("use a floor below {} mm", show(top.to_mm()))),
+            Why::NothingThere { top } => {
+                floors::nothing_left_above(asked.floor, asked.setup.head_span, &asked.region, top)
+            }
             Why::NoWayDown { at: [x, y] } => Diagnostic::new(
                 Code::PocketTooNarrow,
                 format!(
@@ -258,22 +249,4 @@ pub(crate) fn too_thick(asked: &ClearPocket, layer: Length) -> Diagnostic {
     )
     .and(height.span.unwrap_or(asked.crusher.span), "its height")
     .help(format!("use `layer = {} mm`", show(height.value.to_mm())))
-}
-
-pub(crate) fn floor_above_stock(asked: &ClearPocket, stock: Spanned<Stock>) -> Diagnostic {
-    Diagnostic::new(
-        Code::PocketOutside,
-        format!(
-            "the floor of the pocket is {} mm high, the stock {} mm",
-            show(asked.floor.value.to_mm()),
-            show(stock.node.height.to_mm())
-        ),
-        asked.floor.span.unwrap_or(asked.setup.head_span),
-        "nothing to clear above it",
-    )
-    .and(stock.span, "the stock")
-    .help(format!(
-        "use a floor below {} mm",
-        show(stock.node.height.to_mm())
-    ))
 }

@@ -39,7 +39,7 @@ pub(super) struct Rowed {
 /// Most rows.
 const MOST: f64 = 2000.0;
 
-/// How much more air the shank keeps, in parts of half the thickness of the straight blade: along the open side there is no slit, so squares
+/// How much more air the shank keeps, in parts of half the thickness of the straight blade: the open side has no slit along it, so squares
 /// of the proof lie on both sides of it.
 const SLACK: f64 = 0.7;
 
