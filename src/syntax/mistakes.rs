@@ -29,29 +29,37 @@ pub(super) fn explain(bad: &Bad<'_>, rule: Rule) -> Diagnostic {
 
 /// Statements that are wrong as a whole, not from some place on.
 fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
-    let mut tokens = bad.tokens();
-    let first = tokens.next()?;
-    let (second, third) = (tokens.next(), tokens.next());
-    let is_entry = rule == Rule::only_entry;
-    let word = bad.token(first);
-    let here = bad.span(first.start..first.end);
-    if word == "," {
-        return Some(
-            Diagnostic::new(
-                Code::UnexpectedText,
-                "a comma without an entry before it",
-                here,
-                "one comma between entries is enough",
-            )
-            .fix("delete it", here, ""),
-        );
+    let first = bad.tokens().next()?;
+    if bad.token(first) == "," {
+        return Some(lone_comma(bad.span(first.start..first.end)));
     }
     if first.kind != TokenKind::Word {
         return None;
     }
-    let after = second.map(|token| (token.kind, bad.token(token)));
-    match (word, after) {
-        ("let" | "use" | "job", Some((TokenKind::Word | TokenKind::Text, _))) if is_entry => Some(
+    if rule == Rule::only_entry {
+        misplaced_entry(bad, first)
+    } else {
+        misplaced_at_the_top(bad, first)
+    }
+}
+
+fn lone_comma(here: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::UnexpectedText,
+        "a comma without an entry before it",
+        here,
+        "one comma between entries is enough",
+    )
+    .fix("delete it", here, "")
+}
+
+/// An entry of a block that begins with a word.
+fn misplaced_entry(bad: &Bad<'_>, first: Token) -> Option<Diagnostic> {
+    let (word, here) = (bad.token(first), bad.span(first.start..first.end));
+    let mut rest = bad.tokens().skip(1);
+    let (second, third) = (rest.next(), rest.next());
+    match (word, second.map(|token| token.kind)) {
+        ("let" | "use" | "job", Some(TokenKind::Word | TokenKind::Text)) => Some(
             Diagnostic::new(
                 Code::UnexpectedText,
                 format!("`{word}` is not allowed in a block"),
@@ -62,9 +70,8 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
                 "move the `{word}` out of the block, to the top of the file"
             )),
         ),
-        (_, Some((TokenKind::Open(Bracket::Round), _)))
-            if is_entry
-                && is_plain_name(word)
+        (_, Some(TokenKind::Open(Bracket::Round)))
+            if is_plain_name(word)
                 && let [meant, ..] = nearest(word, WITH_POINTS)[..] =>
         {
             Some(
@@ -77,7 +84,7 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
                 .fix(format!("did you mean `{meant}`?"), here, meant),
             )
         }
-        (_, None) if is_entry && is_leftover(bad) => Some(
+        (_, None) if is_leftover(bad) => Some(
             Diagnostic::new(
                 Code::UnexpectedText,
                 format!("`{}` does not belong here", shown(word)),
@@ -86,14 +93,26 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
             )
             .help(format!("delete it, or make it a separate entry: `{word} = ...`")),
         ),
-        (_, Some((TokenKind::Word | TokenKind::Text, _))) if is_entry && third.is_none() => {
+        (_, Some(TokenKind::Word | TokenKind::Text)) if third.is_none() => {
             let value = second?;
             let gap = bad.span(first.end..value.start);
             is_plain_name(word).then(|| missing_equals(word, bad.span(value.start..value.end), gap))
         }
-        ("surface", Some((TokenKind::Symbol, "="))) if !is_entry => short_forms::surface(bad),
-        ("at", Some(_)) if is_entry => short_forms::station(bad),
-        ("profile", Some((TokenKind::Symbol, "="))) if !is_entry => Some(
+        ("at", Some(_)) => short_forms::station(bad),
+        _ => None,
+    }
+}
+
+/// A statement outside of any block that begins with a word.
+fn misplaced_at_the_top(bad: &Bad<'_>, first: Token) -> Option<Diagnostic> {
+    let (word, here) = (bad.token(first), bad.span(first.start..first.end));
+    let second = bad.tokens().nth(1)?;
+    if (second.kind, bad.token(second)) != (TokenKind::Symbol, "=") {
+        return None;
+    }
+    match word {
+        "surface" => short_forms::surface(bad),
+        "profile" => Some(
             Diagnostic::new(
                 Code::UnexpectedText,
                 "a profile after `=` is one file",
@@ -103,7 +122,7 @@ fn misplaced(bad: &Bad<'_>, rule: Rule) -> Option<Diagnostic> {
             .note("kinds of files: points, airfoil, dxf, svg")
             .help("write `profile = dxf(\"rib.dxf\", layer = \"SKIN\")`, or a block `profile { ... }`"),
         ),
-        (_, Some((TokenKind::Symbol, "="))) if !is_entry && is_value_line(bad) => Some(
+        _ if is_value_line(bad) => Some(
             Diagnostic::new(
                 Code::UnexpectedText,
                 format!("expected `let` before `{word}`"),

@@ -7,12 +7,69 @@ use crate::pictures::{Curved, DiscTracks, SurfaceMap, SurfaceSections};
 use crate::space::{self, Shown};
 use vcutc_job::follow::Guide;
 
+/// What roughing is followed by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Then {
+    Finishing,
+    Nothing,
+}
+
 /// The section; none of a part that is a profile.
 pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
-    let part = SurfaceMap::of_part(&subject.material)?;
-    let residual = SurfaceMap::of_residual(&subject.material)?;
-    let finished = SurfaceMap::of_finished(&subject.material);
-    let alike = match subject.material.job.part.guide() {
+    let material = &subject.material;
+    let part = SurfaceMap::of_part(material)?;
+    let residual = SurfaceMap::of_residual(material)?;
+    let finished = SurfaceMap::of_finished(material);
+    let leaning = SurfaceMap::of_tilt(material);
+    let tracks = leaning.as_ref().and_then(|_| DiscTracks::of(material));
+    let curved = Curved::of(material);
+    let sections = SurfaceSections::of(material);
+    let then = if material.compiled.report.tracked.is_empty() {
+        Then::Nothing
+    } else {
+        Then::Finishing
+    };
+    let mut maps = Vec::new();
+    if let Some(Curved { curvature, class }) = &curved {
+        maps.extend([Shown::Values(curvature), Shown::Classes(class)]);
+    }
+    let others = [Some(&residual), finished.as_ref(), leaning.as_ref()];
+    maps.extend(others.into_iter().flatten().map(Shown::Values));
+    let figures = [
+        space::figure(material, &part, &maps),
+        Some(heights(&part)),
+        curved.as_ref().map(bends),
+        Some(left(&residual, material.job.part.guide(), then)),
+        finished.as_ref().map(after),
+        leaning.as_ref().map(tilt),
+        tracks.as_ref().map(ways),
+        sections.map(|sections| slider(&sections, material.job.part.guide(), then)),
+    ];
+    Some(Section {
+        id: "surface",
+        title: "Surface",
+        body: figures
+            .into_iter()
+            .flatten()
+            .reduce(|body, figure| body + figure)?,
+    })
+}
+
+fn heights(part: &SurfaceMap) -> Html {
+    figure(
+        &Ids {
+            page: "surface-",
+            phone: "surface-phone-",
+        },
+        Zoom::Free,
+        &format!("The height of the part: {}.", part.figures()),
+        &|ids| part.draw(ids),
+    )
+}
+
+/// What all cuts leave, or those before finishing.
+fn left(residual: &SurfaceMap, guide: Option<&Guide>, then: Then) -> Html {
+    let alike = match guide {
         None => "The cuts are the same at every y",
         Some(Guide::Columns(columns)) if columns.is_fan() => {
             "Every cut is straight and has a slope of its own"
@@ -22,138 +79,108 @@ pub(super) fn section(subject: Subject<'_>) -> Option<Section> {
             "The cuts rise and fall along one spine, and seen along it they are the same at every y"
         }
     };
-    let is_finished = !subject.material.compiled.report.tracked.is_empty();
-    let heights = figure(
-        &Ids {
-            page: "surface-",
-            phone: "surface-phone-",
-        },
-        Zoom::Free,
-        &format!("The height of the part: {}.", part.figures()),
-        &|ids| part.draw(ids),
-    );
-    let left = figure(
+    let (cuts, next) = match then {
+        Then::Finishing => ("roughing", " The next map shows what finishing leaves."),
+        Then::Nothing => ("all cuts", ""),
+    };
+    figure(
         &Ids {
             page: "residual-",
             phone: "residual-phone-",
         },
         Zoom::Free,
         &format!(
-            "How high material stands straight above the part after {}: {}. {}: in addition \
-             to scallops, material stays where the part lies below its shadow.{}",
-            if is_finished { "roughing" } else { "all cuts" },
+            "How high material stands straight above the part after {cuts}: {}. {alike}: in addition \
+             to scallops, material stays where the part lies below its shadow.{next}",
             residual.figures(),
-            alike,
-            if is_finished {
-                " The next map shows what finishing leaves."
-            } else {
-                ""
-            }
         ),
         &|ids| residual.draw(ids),
-    );
-    let after = finished.as_ref().map(|finished| {
-        figure(
-            &Ids {
-                page: "finished-",
-                phone: "finished-phone-",
-            },
-            Zoom::Free,
-            &format!(
-                "How high material stands straight above the part after finishing, in sections across the tracks: {}. A cell has \
-                 the highest place of the sections in it and next to it. The limit on the scallop applies to the distance from \
-                 the part, which is less where that is steep.",
-                finished.figures()
-            ),
-            &|ids| finished.draw(ids),
-        )
-    });
-    let leaning = SurfaceMap::of_tilt(&subject.material);
-    let tilt = leaning.as_ref().map(|tilt| {
-        figure(
-            &Ids {
-                page: "tilt-",
-                phone: "tilt-phone-",
-            },
-            Zoom::Free,
-            &format!(
-                "How far the axis of the disc leans from the normal of the part where it touches it, by its lead and side tilt: \
-                 {}{}. A place belongs to the nearest track. A cell has the largest tilt in it.",
-                tilt.figures(),
-                tilt.limit().map_or_else(String::new, |limit| format!(" ({limit})"))
-            ),
-            &|ids| tilt.draw(ids),
-        )
-    });
-    let tracks = tilt.as_ref().and_then(|_| DiscTracks::of(&subject.material));
-    let tracks = tracks.map(|tracks| {
-        figure(
-            &Ids {
-                page: "tracks-",
-                phone: "tracks-phone-",
-            },
-            Zoom::Free,
-            &format!(
-                "The ways of the centre of the disc's edge on its tracks, from above: {}. Heads of arrows show where tracks end.",
-                tracks.figures()
-            ),
-            &|ids| tracks.draw(ids),
-        )
-    });
-    let off = match subject.material.job.part.spine() {
-        None => "",
-        Some(_) => ", with the spine of the cuts taken off",
-    };
-    let sections = SurfaceSections::of(&subject.material).map(|sections| {
-        let places: Vec<f64> = sections.places().collect();
-        slide(
-            &Ids {
-                page: "sections-",
-                phone: "sections-phone-",
-            },
-            &places,
-            sections.shown(),
-            &format!(
-                "The section of the part at the y of the slider{off}{}{}",
-                match (sections.are_alike(), is_finished) {
-                    (true, true) => ". The contour after roughing is the same at every y and lies above the shadow, the greatest height \
-                                     of the part along y.",
-                    (true, false) => ". The contour of the cuts is the same at every y and lies above the shadow, the greatest height of \
-                                      the part along y.",
-                    (false, _) => ", with the contour that the cuts leave there.",
-                },
-                if is_finished {
-                    " Finishing follows the part."
-                } else {
-                    ""
-                }
-            ),
-            &|ids| sections.draw(ids),
-        )
-    });
-    let curved = Curved::of(&subject.material);
-    let mut maps = Vec::new();
-    if let Some(Curved { curvature, class }) = &curved {
-        maps.extend([Shown::Values(curvature), Shown::Classes(class)]);
-    }
-    let others = [Some(&residual), finished.as_ref(), leaning.as_ref()];
-    maps.extend(others.into_iter().flatten().map(Shown::Values));
-    let mut body = space::figure(&subject.material, &part, &maps).unwrap_or_default() + heights;
-    if let Some(curved) = &curved {
-        body += bends(curved);
-    }
-    body += left;
-    for figure in [after, tilt, tracks].into_iter().flatten() {
-        body += figure;
-    }
-    Some(Section {
-        id: "surface",
-        title: "Surface",
-        body: match sections {
-            Some(sections) => body + sections,
-            None => body,
+    )
+}
+
+/// What finishing leaves.
+fn after(finished: &SurfaceMap) -> Html {
+    figure(
+        &Ids {
+            page: "finished-",
+            phone: "finished-phone-",
         },
-    })
+        Zoom::Free,
+        &format!(
+            "How high material stands straight above the part after finishing, in sections across the tracks: {}. A cell has \
+             the highest place of the sections in it and next to it. The limit on the scallop applies to the distance from \
+             the part, which is less where that is steep.",
+            finished.figures()
+        ),
+        &|ids| finished.draw(ids),
+    )
+}
+
+/// How far the disc leans.
+fn tilt(leaning: &SurfaceMap) -> Html {
+    figure(
+        &Ids {
+            page: "tilt-",
+            phone: "tilt-phone-",
+        },
+        Zoom::Free,
+        &format!(
+            "How far the axis of the disc leans from the normal of the part where it touches it, by its lead and side tilt: \
+             {}{}. A place belongs to the nearest track. A cell has the largest tilt in it.",
+            leaning.figures(),
+            leaning
+                .limit()
+                .map_or_else(String::new, |limit| format!(" ({limit})"))
+        ),
+        &|ids| leaning.draw(ids),
+    )
+}
+
+/// How the disc goes.
+fn ways(tracks: &DiscTracks) -> Html {
+    figure(
+        &Ids {
+            page: "tracks-",
+            phone: "tracks-phone-",
+        },
+        Zoom::Free,
+        &format!(
+            "The ways of the centre of the disc's edge on its tracks, from above: {}. Heads of arrows show where tracks end.",
+            tracks.figures()
+        ),
+        &|ids| tracks.draw(ids),
+    )
+}
+
+/// The section at the y of a slider.
+fn slider(sections: &SurfaceSections, guide: Option<&Guide>, then: Then) -> Html {
+    let off = match guide {
+        Some(Guide::Spine(_)) => ", with the spine of the cuts taken off",
+        Some(Guide::Columns(_)) | None => "",
+    };
+    let contour = match (sections.are_alike(), then) {
+        (true, Then::Finishing) => {
+            ". The contour after roughing is the same at every y and lies above the shadow, the greatest height of the part along y."
+        }
+        (true, Then::Nothing) => {
+            ". The contour of the cuts is the same at every y and lies above the shadow, the greatest height of the part along y."
+        }
+        (false, _) => ", with the contour that the cuts leave there.",
+    };
+    let next = match then {
+        Then::Finishing => " Finishing follows the part.",
+        Then::Nothing => "",
+    };
+    slide(
+        &Ids {
+            page: "sections-",
+            phone: "sections-phone-",
+        },
+        &sections.places().collect::<Vec<_>>(),
+        sections.shown(),
+        &format!("The section of the part at the y of the slider{off}{contour}{next}"),
+        &|ids| sections.draw(ids),
+    )
 }
 
 /// How the part bends, in two maps.
