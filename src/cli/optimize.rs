@@ -52,7 +52,7 @@ fn tell(optimisation: &Optimisation, picture: Option<&Picture>, console: &Consol
         text += &format!("wrote {}\n", file.path());
     }
     if picture.is_some() && written.is_empty() {
-        text += "\nno picture: only operations of V cuts have a trade-off to draw\n";
+        text += "\nno picture: no operation has a trade-off to draw\n";
     }
     console.answer("optimisation", &text, json::body(optimisation))
 }
@@ -87,21 +87,20 @@ impl Picture {
         })
     }
 
-    /// Writes the picture of each operation, all or none; those of several have their numbers behind the name.
+    /// Writes the picture of each operation, all or none; those of several have their numbers after the name.
     fn write(&self, optimisation: &Optimisation) -> Result<Vec<Placed>, String> {
         let mut output = Output::to(&Destination::Folder(self.folder.clone()));
-        let alone = optimisation.operations.len() == 1;
-        for operation in &optimisation.operations {
+        let pictures = optimisation.pictures();
+        let alone = pictures.len() == 1;
+        for (number, svg) in pictures {
             let stem = &self.stem;
             let name = if alone {
                 format!("{stem}.svg")
             } else {
-                format!("{stem}_{}.svg", operation.number)
+                format!("{stem}_{number}.svg")
             };
             output.file(&name).map_err(|error| error.to_string())?;
-            output
-                .write(optimisation.svg(operation).as_bytes())
-                .map_err(|error| error.to_string())?;
+            output.write(svg.as_bytes()).map_err(|error| error.to_string())?;
         }
         output.publish()
     }

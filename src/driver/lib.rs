@@ -33,6 +33,7 @@ pub use air::{air_cut_height, into_air_cut};
 pub use asked::{machine_words, misfits, understood};
 pub use emitting::{EmitFailure, emit, write};
 pub use refusal::{Patience, Unhurried};
+pub use trials::changed;
 
 pub use vcutc_job::search::SearchEffort;
 pub use vcutc_job::sema::Typed;

@@ -6,7 +6,7 @@
 
 use super::compensation;
 use super::routes::Ended;
-use super::{Request, Run, Unhurried, target, ways};
+use super::{Outcome, Request, Run, Unhurried, compile_unhelped, target, ways};
 use crate::memory::Memory;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_cancellation::Wanted;
@@ -129,6 +129,21 @@ impl<'t> Trials<'t> {
 
 fn named(diagnostic: &Diagnostic) -> (Code, String) {
     (diagnostic.code, diagnostic.message.clone())
+}
+
+/// The job compiled with a change of its text, without help; none where the change does not fit the text or the job has errors then.
+#[must_use]
+pub fn changed(request: Request<'_>, sources: &SourceMap, edits: &[(Span, String)]) -> Option<Outcome> {
+    let texts = edited(sources, edits)?;
+    let loader = Overlay {
+        texts: &texts,
+        below: request.loader,
+    };
+    let outcome = compile_unhelped(Request {
+        loader: &loader,
+        ..request
+    });
+    outcome.ok().filter(|outcome| outcome.compiled.is_some())
 }
 
 /// The texts after a change, by the paths of their files.

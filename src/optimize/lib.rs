@@ -13,9 +13,11 @@ mod others;
 mod planned;
 mod rect;
 pub mod report;
+mod scallop;
 mod table;
 mod trade_off;
 mod trials;
+mod values;
 
 pub use against::Against;
 pub use bounds::Relaxed;
@@ -24,13 +26,15 @@ pub use loosened::{Loosened, WiderLimits};
 pub use others::OtherOperation;
 pub use planned::{FoundBy, Planned};
 pub use rect::RectOptimum;
+pub use scallop::ScallopTradeOff;
 pub use trade_off::{Point, TradeOff};
 pub use trials::{Came, Plan};
+pub use values::{OtherValue, OtherValues, ValueKind};
 
 use trade_off::Question;
 use trials::{Route, Subject, Trials};
 use vcutc_backend_api::ir::OperationId;
-use vcutc_backend_api::units::Length;
+use vcutc_backend_api::units::{Duration, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::source::SourceMap;
 use vcutc_driver::ways::Comparison;
@@ -57,6 +61,8 @@ pub struct Optimisation {
     pub rects: Vec<RectOptimum>,
     /// How other ways to do its operations compare, where the job leaves that open.
     pub comparisons: Vec<Comparison>,
+    /// The time of the whole job.
+    pub time: Duration,
     /// The simulated scallop of the whole job.
     pub scallop: Length,
     /// What there was to warn of.
@@ -164,7 +170,12 @@ pub fn optimise(
     progress(Stage::Optimising);
     let operations = operations(&job, &plan, &compiled, &sources, wanted);
     let given = given(&job, &sources);
-    let others = others::of(&plan, &compiled, &sources);
+    let in_the_text = values::Subject {
+        request,
+        sources: &sources,
+        compiled: &compiled,
+    };
+    let others = others::of(&plan, in_the_text, wanted);
     let rects = rect::of(&job, &comparisons, &operations, wanted.points, &sources);
     Ok(Optimisation {
         given,
@@ -173,6 +184,7 @@ pub fn optimise(
         comparisons,
         job: job.name,
         operations,
+        time: compiled.report.times.all.total(),
         scallop: compiled.report.scallop.height,
         warnings: diagnostics,
         sources,
@@ -360,9 +372,36 @@ impl Row {
 }
 
 impl Optimisation {
-    /// The Pareto picture of an operation as SVG.
+    /// The Pareto pictures of operations as SVG, each with the number of its operation, in order.
     #[must_use]
-    pub fn svg(&self, operation: &OperationOptimum) -> String {
+    pub fn pictures(&self) -> Vec<(u16, String)> {
+        let of_vcuts = self
+            .operations
+            .iter()
+            .map(|vcut| (vcut.number, self.of_vcut(vcut)));
+        let of_others = self.others.iter().filter_map(|other| {
+            let trade_off = other.trade_off.as_ref()?;
+            Some((other.number, self.of_other(other.number, trade_off)))
+        });
+        let mut pictures: Vec<(u16, String)> = of_vcuts.chain(of_others).collect();
+        pictures.sort_by_key(|(number, _)| *number);
+        pictures
+    }
+
+    fn of_other(&self, number: u16, trade_off: &ScallopTradeOff) -> String {
+        let (limit, now) = trade_off.now;
+        pareto::draw(&Pareto {
+            title: &format!("{}: time against scallop, as compiled", self.job),
+            subtitle: &format!("operation {number}, on the machine of the job"),
+            label: Against::Scallop.label(),
+            front: &trade_off.front(),
+            now: Some([limit.to_mm(), now.to_s()]),
+            limit: Some(limit.to_mm()),
+            models: &[],
+        })
+    }
+
+    fn of_vcut(&self, operation: &OperationOptimum) -> String {
         let trade_off = &operation.trade_off;
         let against = trade_off.against;
         let title = format!("{}: time against {}, as planned", self.job, against.word());

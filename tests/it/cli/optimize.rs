@@ -1,6 +1,6 @@
 //! `vcutc optimize`: what it prints, what it writes, and what it refuses.
 
-use super::{folder, names, vcutc};
+use super::{copy, folder, json_lines, names, vcutc};
 use crate::repository::{read, root};
 use serde_json::Value;
 use std::fs;
@@ -400,4 +400,99 @@ fn a_job_without_lattices_is_reported_as_planned() {
     let run = vcutc(root(), &arguments);
     assert!(run.stdout.contains("no picture: "), "{}", run.stdout);
     assert!(!file.exists());
+}
+
+/// Every saving that is listed is the one of the job with that change, as an engineer would make it.
+#[test]
+fn savings_of_other_operations_are_those_of_the_changed_job() {
+    let out = folder();
+    copy(&root().join("examples/shop"), &out.path().join("shop"));
+    let text = read("examples/window.vcut");
+    let job = out.path().join("window.vcut");
+    fs::write(&job, &text).unwrap();
+    let answer = json(out.path(), &["optimize", "window.vcut"]);
+    let time = |text: &str| {
+        fs::write(&job, text).unwrap();
+        let run = vcutc(out.path(), &["check", "window.vcut", "--message-format", "json"]);
+        let summary = json_lines(&run.stderr).pop().unwrap();
+        summary["numbers"]["time_s"].as_f64().unwrap()
+    };
+    let now = time(&text);
+    let mut kinds = std::collections::BTreeSet::new();
+    for other in answer["others"].as_array().unwrap() {
+        for value in other["values"].as_array().unwrap() {
+            let words = value["words"].as_str().unwrap();
+            let place: Vec<&str> = value["place"].as_str().unwrap().split(':').collect();
+            let [file, line, column] = place.as_slice() else {
+                panic!("{value}");
+            };
+            if *file != "window.vcut" {
+                continue;
+            }
+            let (line, column): (usize, usize) = (line.parse().unwrap(), column.parse().unwrap());
+            let before = words.split("= ").nth(1).unwrap();
+            let start: usize = text
+                .lines()
+                .take(line - 1)
+                .map(|line| line.len() + 1)
+                .sum::<usize>()
+                + column
+                - 1;
+            assert!(text[start..].starts_with(before), "{value}");
+            let changed = format!(
+                "{}{}{}",
+                &text[..start],
+                value["other"].as_str().unwrap(),
+                &text[start + before.len()..]
+            );
+            let then = time(&changed);
+            assert!(
+                (then - value["time"].as_f64().unwrap()).abs() < 1e-3,
+                "{value}: {then}"
+            );
+            assert!(
+                (1.0 - then / now - value["share"].as_f64().unwrap()).abs() < 1e-4,
+                "{value}: {then} of {now}"
+            );
+            kinds.insert(words.split(" = ").next().unwrap().to_owned());
+        }
+    }
+    assert!(
+        kinds.contains("feed plunge") && kinds.contains("feed cut"),
+        "{kinds:?}"
+    );
+}
+
+/// A finer surface takes the disc longer, and the picture is that of its operation.
+#[test]
+fn time_is_traded_against_the_scallop_of_a_disc() {
+    let out = folder();
+    let picture = out.path().join("dome.svg");
+    let arguments = [
+        "optimize",
+        "examples/finished_dome.vcut",
+        "--points",
+        "3",
+        "-o",
+        picture.to_str().unwrap(),
+    ];
+    let answer = json(root(), &arguments);
+    let points = answer["others"][0]["trade_off"].as_array().unwrap();
+    let figures: Vec<(f64, f64)> = points
+        .iter()
+        .map(|point| (point["limit"].as_f64().unwrap(), point["time"].as_f64().unwrap()))
+        .collect();
+    let limits: Vec<f64> = figures.iter().map(|(limit, _)| *limit).collect();
+    assert_eq!(limits, [0.025, 0.1, 0.4]);
+    assert!(
+        figures.windows(2).all(|pair| pair[0].1 > pair[1].1),
+        "{figures:?}"
+    );
+    assert_eq!(names(out.path()), ["dome_1.svg", "dome_2.svg"]);
+}
+
+fn json(folder: &Path, arguments: &[&str]) -> Value {
+    let run = vcutc(folder, &[arguments, &["--message-format", "json"]].concat());
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    serde_json::from_str(&run.stdout).unwrap()
 }

@@ -1,6 +1,6 @@
 //! `vcutc place`: what it prints, what it writes, and what it refuses.
 
-use super::{folder, names, vcutc};
+use super::{copy, folder, names, vcutc};
 use crate::repository::{read, root};
 use serde_json::Value;
 use std::fs;
@@ -77,14 +77,6 @@ fn a_base_far_away_is_brought_into_reach() {
     // A search within given bounds uses no others.
     let run = vcutc(out.path(), &["place", "far.vcut", "--z", "600..700"]);
     assert_eq!(run.code, Some(1), "{}", run.stdout);
-}
-
-fn copy(from: &std::path::Path, to: &std::path::Path) {
-    fs::create_dir(to).unwrap();
-    for entry in fs::read_dir(from).unwrap() {
-        let entry = entry.unwrap();
-        fs::copy(entry.path(), to.join(entry.file_name())).unwrap();
-    }
 }
 
 #[test]

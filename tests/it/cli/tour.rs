@@ -1,10 +1,8 @@
 //! The README's tour, line by line: every command is run in a copy of the examples and ends as the page says.
 
 use super::watch::Watch;
-use super::{command, folder, run};
+use super::{command, copy, folder, run};
 use crate::repository::{read, root};
-use std::fs;
-use std::path::Path;
 
 /// A line of a console block.
 #[derive(Debug, PartialEq)]
@@ -46,19 +44,6 @@ fn step(line: &str) -> Step {
     Step {
         arguments: arguments.split_whitespace().map(ToOwned::to_owned).collect(),
         code,
-    }
-}
-
-fn copy(from: &Path, to: &Path) {
-    fs::create_dir_all(to).unwrap();
-    for entry in fs::read_dir(from).unwrap() {
-        let entry = entry.unwrap();
-        let target = to.join(entry.file_name());
-        if entry.file_type().unwrap().is_dir() {
-            copy(&entry.path(), &target);
-        } else {
-            fs::copy(entry.path(), target).unwrap();
-        }
     }
 }
 
