@@ -55,6 +55,35 @@ fn more_plans_find_no_slower_program() {
     assert!(gained > 0.0);
 }
 
+/// A tighter limit, and the fewest cuts, are asked for as well: neither of them is faster than what the job is cut with.
+#[test]
+fn no_other_aim_is_faster_with_more_effort() {
+    // A ridge for which the usual search for time is beaten by the one for cuts.
+    let ridge = |limit: &str, objective: &str| {
+        format!(
+            "job \"ridge\"\n\nstock {{ size = (301 mm, 133 mm, 61 mm) }}\n\n\
+             profile {{ z(x) = 30 mm - 0.00101544 / 1 mm * (x - 150.5 mm)^2 }}\n\n\
+             blade dagger {{ cutting_length = 20 mm, half_apex = 5.6 deg, thickness = 1.6 mm, edges = double }}\n\n\
+             rough vcut {{\n  blade = dagger\n  rake = 64 deg\n  allowance = 1 mm\n  objective = {objective}\n  \
+             limits {{ scallop <= {limit} }}\n  \
+             feed {{ cut = 246 mm/s, travel = 342 mm/s, reorient = 38 deg/s }}\n  clearance = 11 mm\n}}\n"
+        )
+    };
+    let of = |effort, limit, objective| {
+        let files = Files::of(root()).with("ridge.vcut", ridge(limit, objective));
+        time(&compiled(effort, "ridge.vcut", &files))
+    };
+    let usual = of(SearchEffort::Normal, "5.7 mm", "time");
+    let high = of(SearchEffort::High, "5.7 mm", "time");
+    let others = [("5.13 mm", "time"), ("5.7 mm", "cuts")];
+    let others = others.map(|(limit, objective)| of(SearchEffort::Normal, limit, objective));
+    assert!(
+        others.iter().any(|other| *other < 0.99 * usual),
+        "{others:?}, {usual} s"
+    );
+    assert!(others.iter().all(|other| high <= *other), "{others:?}, {high} s");
+}
+
 /// What is given leaves nothing to search for; the hash in a program's head says how it was made all the same.
 #[test]
 fn a_job_that_leaves_nothing_open_stays_as_it_is() {

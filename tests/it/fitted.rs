@@ -4,7 +4,7 @@ use crate::pipeline::{Files, compile, rendered};
 use vcutc::driver::Outcome;
 use vcutc::geometry::curve::Point2;
 use vcutc::vcut::asked::Lattice;
-use vcutc::vcut::plan::PlannedVcut;
+use vcutc::vcut::plan::{PARAMETERS, PlannedVcut};
 
 const WAVE: &str = "
     stock { size = (220 mm, 180 mm, 70 mm) }
@@ -62,6 +62,32 @@ fn programs_are_faster_by_a_tenth_than_on_any_lattice_of_rows_and_columns() {
         let [fitted, other] = [&open, &other].map(time);
         assert!(fitted < 0.9 * other, "{fitted} s, {lattice} {other} s");
     }
+}
+
+/// 55 Vs laid out for less than the limit do what 56 do that use it up.
+#[test]
+fn tips_are_laid_out_for_less_than_the_limit_where_that_is_faster() {
+    let work = "
+        stock { size = (270 mm, 494 mm, 41 mm) }
+        profile { z(x) = 22 mm - 5 mm * cos(360 deg * x / 270 mm) }
+        blade dagger { cutting_length = 17 mm, half_apex = 9.6 deg, thickness = 0 mm, edges = double }
+    ";
+    let open = compiled(work, "limits { scallop <= 3.5 mm }");
+    let left = open.compiled.as_ref().unwrap().report.scallop.height.to_mm();
+    assert!(left < 0.985 * 3.5, "{left} mm");
+    // What was compared is what is cut.
+    let vcut = planned(&open);
+    let by_simulation = vcut
+        .decisions
+        .iter()
+        .find(|decision| decision.field == PARAMETERS)
+        .unwrap();
+    let lattice = vcut
+        .decisions
+        .iter()
+        .find(|decision| decision.field == "lattice")
+        .unwrap();
+    assert_eq!(by_simulation.taken.standing, lattice.taken.standing);
 }
 
 /// The tips whose Vs are seen in the end, from left to right.

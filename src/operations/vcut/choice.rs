@@ -13,6 +13,7 @@
 mod assumed;
 mod bench;
 mod chosen;
+mod closer;
 mod complaints;
 mod finest;
 mod limits;
@@ -22,6 +23,7 @@ mod redundant;
 mod route;
 #[cfg(test)]
 mod tests;
+mod thorough;
 mod trial;
 
 pub use bench::LITTLE;
@@ -46,7 +48,7 @@ use vcutc_diagnostics::Diagnostic;
 use vcutc_job::Auto;
 use vcutc_job::follow::Follow;
 use vcutc_job::operation::{self, Ground};
-use vcutc_job::search::{RouteSet, SearchEffort};
+use vcutc_job::search::RouteSet;
 use vcutc_simulation::surface::Surface;
 
 /// Most cuts of an operation for which other ways to cut it are planned. Larger ones take days; minutes are not what they
@@ -68,7 +70,7 @@ pub(crate) fn plan<'j>(
     let within = narrowed::within(asked, space.swing);
     let followed = space.machine.map(|machine| machine.by);
     let bench = Bench::new(asked, ground).on_machine(followed);
-    match searched(&bench, asked, &within) {
+    match thorough::searched(&bench, asked, &within) {
         Ok(LaidOut { mut vcut, after, .. }) => {
             let machine = bench.job.machine.as_ref();
             let narrowed = narrowed::narrowed(asked, space.swing);
@@ -87,34 +89,6 @@ pub(crate) fn plan<'j>(
             asked: within,
             unplanned,
         })),
-    }
-}
-
-/// The best operation that a search with the bench's effort finds. Where that is more than usual, what is found as usual stands unless
-/// something better is found: more plans lead other ways, not always to better ends.
-fn searched(bench: &Bench<'_>, asked: &RoughVcut, within: &RoughVcut) -> Result<LaidOut, Unplanned> {
-    let search = |bench: &Bench<'_>| chosen::within_all_limits(bench, asked, within);
-    let found = search(bench);
-    match bench.effort {
-        SearchEffort::Normal => found,
-        SearchEffort::High => match (found, search(&bench.with_effort(SearchEffort::Normal))) {
-            (Ok(found), Ok(usual)) => {
-                let plans = [found.vcut.searched, usual.vcut.searched];
-                let [found, usual] = [found, usual].map(|laid| {
-                    let limit = laid.vcut.asked.limits.scallop.map(|limit| limit.value);
-                    bench.weigh(laid).held_to(limit, within)
-                });
-                let is_better = found.compare(&usual) == Ordering::Less;
-                let mut best = if is_better { found.laid } else { usual.laid };
-                best.vcut.searched = match plans {
-                    [Some(found), Some(usual)] => Some(found.after(usual)),
-                    [found, usual] => found.or(usual),
-                };
-                Ok(best)
-            }
-            (Ok(laid), Err(_)) | (Err(_), Ok(laid)) => Ok(laid),
-            (Err(unplanned), Err(_)) => Err(unplanned),
-        },
     }
 }
 
@@ -503,7 +477,8 @@ fn best_fitted(bench: &Bench<'_>, asked: &RoughVcut) -> Option<Contender> {
     let laid = best_on(bench, asked, &[Lattice::Fitted]).ok()?;
     let is_clear = bench.clears_bodies(&laid.vcut);
     let weighed = bench.judged(laid, asked);
-    (is_clear && weighed.standing.time().is_some()).then_some(weighed)
+    let best = (is_clear && weighed.standing.time().is_some()).then_some(weighed)?;
+    Some(closer::best(bench, asked, best))
 }
 
 /// The lattices that are searched one after the other, fitted tips first where they may be.
