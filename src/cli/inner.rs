@@ -12,7 +12,7 @@ use vcutc_backend_api::bundle::{Sink, SinkError};
 use vcutc_backend_api::exchange::Exchange;
 use vcutc_backend_api::units::Angle;
 use vcutc_driver::{Compiled, Outcome};
-use vcutc_job::planned::{CutShape, PlannedStrip, PlannedTip};
+use vcutc_job::planned::{CutShape, PlannedStrip, PlannedTip, PlannedWay};
 use vcutc_job::{BladeRef, CheckedJob, PlannedJob, PlannedOperation};
 use vcutc_surface::deviation;
 
@@ -129,7 +129,8 @@ fn write_json(value: &impl serde::Serialize, out: &mut dyn Write) -> io::Result<
 fn write_plan(plan: &PlannedJob, out: &mut dyn Write) -> io::Result<()> {
     writeln!(
         out,
-        "operation,layer,cut,kind,blade,x_mm,z_mm,swing_deg,lead_deg,left_mm,right_mm,bottom_mm,top_mm,origin"
+        "operation,layer,cut,kind,blade,x_mm,z_mm,swing_deg,lead_deg,left_mm,right_mm,bottom_mm,top_mm,origin,\
+         y_mm,length_mm,entry"
     )?;
     for (number, operation) in (1_u32..).zip(&plan.operations) {
         write_operation(number, &**operation, out)?;
@@ -146,12 +147,36 @@ fn write_operation(number: u32, planned: &dyn PlannedOperation, out: &mut dyn Wr
             let origin = tip.origin.word();
             writeln!(
                 out,
-                "{number},{layer},{cut},{},{blade},{x:.3},{z:.3},{},{},{},{origin}",
+                "{number},{layer},{cut},{},{blade},{x:.3},{z:.3},{},{},{},{origin},,,",
                 shape.kind, shape.swing, shape.lead, shape.bounds
             )?;
         }
     }
+    for way in planned.ways() {
+        write_way(number, planned, way, out)?;
+    }
     Ok(())
+}
+
+/// A row for a way over a region of the plan.
+fn write_way(
+    number: u32,
+    planned: &dyn PlannedOperation,
+    way: PlannedWay,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let blades = planned.asked().blades();
+    let blade = blades.get(way.blade).map_or("", |blade| blade.name());
+    let ([x, y], [bottom, top]) = (way.from, way.heights);
+    writeln!(
+        out,
+        "{number},{},{},{},{blade},{x:.3},{bottom:.3},,,,,{bottom:.3},{top:.3},,{y:.3},{:.3},{}",
+        way.layer,
+        way.number,
+        way.kind.word(),
+        way.length,
+        way.entry.word()
+    )
 }
 
 /// What a row says about the shape of its cut.

@@ -125,8 +125,8 @@ fn without(what: What, material: &Material<'_>) -> Failure {
             .help("write `rough auto { ... }` with blocks `vcut` and `rect`"),
         What::Field => Failure::new("no pocket of the job is cleared along a sound field")
             .help("write `pattern = field` in `clear pocket`"),
-        What::Passes => Failure::new("the job has no pockets")
-            .help("write `region NAME { ... }` and `clear pocket { region = NAME ... }`"),
+        What::Passes => Failure::new("the job works in no region of the plan")
+            .help("write `region NAME { ... }`, and `clear pocket`, `free pocket` or `slit walls` with `region = NAME`"),
         What::Torques => match &material.job.machine {
             Some(_) => without_masses(),
             None => without_machine(),

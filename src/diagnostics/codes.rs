@@ -360,6 +360,8 @@ codes! {
     FieldBroken = "VC1116", Warning, "lines of a sound field that end or leave ground";
     /// The way into a pocket that a job asks for is not there: a hole too narrow or out of place, no room for a helix, no open side.
     NoEntry = "VC1117", Error, "no such way into a pocket";
+    /// The hole that a job names is not used.
+    HoleUnused = "VC1118", Warning, "hole that is not used";
 }
 
 #[cfg(test)]

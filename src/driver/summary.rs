@@ -121,12 +121,14 @@ fn pocket(cleared: &Cleared) -> String {
     ) + &standing(cleared.standing)
 }
 
-/// `; at most 31.2 mm2 of it stand, in 2 pillars`.
+/// `; beside the slits at most 31.2 mm2 of a layer stand, in 2 pillars (the limit on pillars counts all beyond reach)`.
 fn standing(standing: Option<Standing>) -> String {
     standing.map_or_else(String::new, |standing| {
         let area = standing.area.to_mm2();
         let pillars = counted(standing.pillars, "pillar");
-        format!("; at most {area:.1} mm2 of a layer stand, in {pillars}")
+        format!(
+            "; beside the slits at most {area:.1} mm2 of a layer stand, in {pillars} (the limit on pillars counts all beyond reach)"
+        )
     })
 }
 

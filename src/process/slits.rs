@@ -5,6 +5,7 @@ pub mod lower;
 pub mod proof;
 pub mod stated;
 mod turns;
+pub mod ways;
 
 /// The shortest lines that may stand for an arc, in mm: the rounding of their ends turns shorter ones by more than 0.2 deg, and a program
 /// lets a way leave the plane of its blade by 0.45 deg.

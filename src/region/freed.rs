@@ -6,7 +6,8 @@
 //! Squares of a grid decide, each to the safe side:
 //!
 //! - A square is undercut where all of it is within the radius of one piece of a pass.
-//! - It belongs to a slit where all of it lies within the width of the blade, and before its ends.
+//! - It belongs to a slit where all of it lies within the width of the blade, and before its ends. Where slits end, it belongs to them where
+//!   they cover all of it together.
 //! - Squares that are not undercut stand, and so does what hangs together with them by sides of squares, other than those of slits. A way
 //!   through the ground that crosses no slit passes from square to square by their sides, so nothing that stands is missed.
 //! - Where the shank comes nearer to a square that stands than it may, it meets it. Ground under which a piece of a pass goes counts as
@@ -20,8 +21,10 @@ use crate::place::Place;
 use crate::region::{Inside, Region, Side};
 use core::f64::consts::FRAC_1_SQRT_2;
 use grid::{Flags, Grid};
+use joined::Cover;
 
 mod grid;
+mod joined;
 
 /// A disc, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -203,6 +206,7 @@ impl Ground {
                 });
             }
         }
+        self.draw_ends(slits);
         for (at, aside) in joints(slits.ways) {
             self.grid.around(Extent::of(at, at), wide, |flags, middle| {
                 if middle.distance(at) <= wide - aside {
@@ -215,6 +219,19 @@ impl Ground {
                 *flags |= Flags::STANDS;
             }
         });
+    }
+
+    /// Squares at the ends of slits that several of these cover together.
+    fn draw_ends(&mut self, slits: Slits<'_>) {
+        let (cover, side) = (Cover::of(slits), self.grid.side());
+        let ends = slits.ways.iter().filter_map(|way| way.first().zip(way.last()));
+        for at in ends.flat_map(|(first, last)| [first.from, last.to]) {
+            self.grid.around(Extent::of(at, at), slits.half, |flags, middle| {
+                if !flags.has(Flags::SLIT) && cover.covers(middle, side) {
+                    *flags |= Flags::SLIT;
+                }
+            });
+        }
     }
 
     /// Lets only that stand which hangs together with what is not undercut.

@@ -61,6 +61,12 @@ impl Front {
             .plus(self.into.times(depth))
     }
 
+    /// How much a direction leads into the ground: 1 straight into it, -1 straight out.
+    #[must_use]
+    pub fn inward(&self, direction: Place) -> f64 {
+        direction.dot(self.into)
+    }
+
     /// How far into the ground some pieces go at most, in mm.
     #[must_use]
     pub fn deepest(&self, pieces: &[Piece]) -> f64 {

@@ -23,11 +23,13 @@ const WIDTH: f64 = 180.0;
 const DEPTH: f64 = 180.0;
 const AIR: f64 = 1.0;
 
-/// A bay that is open at x = 180 and no wider farther in.
+/// A bay that is open at x = 180, convex beyond that side.
 #[derive(Clone, Debug)]
 struct Bay {
     /// Its corners, the first and the last at the open side.
     corners: Vec<Spot>,
+    /// Sides that are open besides, each by the corner where it begins.
+    open: &'static [usize],
     /// The radius of the disc, and of its shank.
     radius: f64,
     shank: f64,
@@ -40,9 +42,12 @@ impl Bay {
         let [first, rest @ ..] = self.corners.as_slice() else {
             unreachable!()
         };
-        let walls: String = rest
-            .iter()
-            .map(|at| format!("  line to {}\n", place(*at)))
+        let sides = rest.iter().enumerate();
+        let walls: String = sides
+            .map(|(side, at)| {
+                let word = if self.open.contains(&side) { "open" } else { "line" };
+                format!("  {word} to {}\n", place(*at))
+            })
             .collect();
         let Self {
             radius, shank, more, ..
@@ -73,7 +78,9 @@ free pocket {{
     }
 
     fn walls(&self) -> Vec<[Spot; 2]> {
-        self.corners.windows(2).map(|ends| [ends[0], ends[1]]).collect()
+        let sides = self.corners.windows(2).enumerate();
+        let walls = sides.filter(|(side, _)| !self.open.contains(side));
+        walls.map(|(_, ends)| [ends[0], ends[1]]).collect()
     }
 
     fn contains(&self, [x, y]: Spot) -> bool {
@@ -89,12 +96,30 @@ free pocket {{
         walls.fold(f64::INFINITY, f64::min)
     }
 
+    fn assert_comes_free(&self) {
+        let outcome = compiled(&self.text());
+        assert!(
+            !has_errors(&outcome.diagnostics),
+            "{}\n{:?}",
+            self.text(),
+            outcome.diagnostics.first()
+        );
+        assert_frees(self, program(&outcome));
+    }
+
     /// What a round rim leaves in the corners of the walls, in mm2.
     fn pillars(&self) -> f64 {
-        let corners = self.corners.windows(3).map(|at| {
+        let corners = self.corners.windows(3).enumerate();
+        let corners =
+            corners.filter(|(side, _)| [*side, side + 1].iter().all(|side| !self.open.contains(side)));
+        let corners = corners.map(|(_, at)| {
             let direction = |a: Spot, b: Spot| (b[1] - a[1]).atan2(b[0] - a[0]);
             let turn = (direction(at[1], at[2]) - direction(at[0], at[1])).rem_euclid(core::f64::consts::TAU);
-            let half = (core::f64::consts::PI - turn) / 2.0;
+            // A corner that points into the bay leaves none.
+            let half = (core::f64::consts::PI - turn).max(0.0) / 2.0;
+            if half == 0.0 {
+                return 0.0;
+            }
             self.radius.powi(2) * (1.0 / half.tan() - (core::f64::consts::FRAC_PI_2 - half))
         });
         corners.sum()
@@ -287,11 +312,12 @@ impl Ground {
         }
         while let Some(at) = open.pop() {
             let columns = self.columns;
-            let mut links = vec![
-                (at + 1, self.is_parted[at][0]),
-                (at + columns, self.is_parted[at][1]),
-            ];
-            if at >= 1 {
+            let mut links = vec![(at + columns, self.is_parted[at][1])];
+            // A row of points ends at the sides of the stock.
+            if (at + 1) % columns > 0 {
+                links.push((at + 1, self.is_parted[at][0]));
+            }
+            if at % columns > 0 {
                 links.push((at - 1, self.is_parted[at - 1][0]));
             }
             if at >= columns {
@@ -332,7 +358,8 @@ fn assert_frees(bay: &Bay, program: &Program) {
             );
         }
         for corner in &way.corners {
-            let is_free = bay.contains(*corner) || corner[0] >= WIDTH;
+            let is_out = corner[0] >= WIDTH || !bay.open.is_empty() && corner[0] <= 0.0;
+            let is_free = bay.contains(*corner) || is_out;
             assert!(
                 is_free,
                 "the blade is beyond a wall at {corner:?}, {} mm",
@@ -395,8 +422,9 @@ fn assert_frees(bay: &Bay, program: &Program) {
 
 fn bays() -> impl Strategy<Value = Bay> {
     let sides = (5.0..30.0_f64, 110.0..170.0_f64, 10.0..50.0_f64);
-    let comes_in = (0.0..25.0_f64, 0.0..25.0_f64, 0.0..20.0_f64);
-    let tools = (10.0..16.0_f64, 0.2..0.33_f64);
+    // Wider or narrower farther in, with a chamfer and a slanting end.
+    let comes_in = (-4.5..40.0_f64, -4.5..40.0_f64, 0.0..20.0_f64, -30.0..30.0_f64);
+    let tools = (10.5..16.0_f64, 0.2..0.33_f64);
     let more = prop_oneof![
         Just(""),
         Just("chip = 40 mm"),
@@ -404,18 +432,24 @@ fn bays() -> impl Strategy<Value = Bay> {
         Just("step = 5 mm")
     ];
     (sides, comes_in, tools, more).prop_map(
-        |((low, high, end), (lower, upper, chamfer), (radius, share), more)| {
+        |((low, high, end), (lower, upper, chamfer, slant), (radius, share), more)| {
             let round = |value: f64| (value * 100.0).round() / 100.0;
             let mut corners = vec![[WIDTH, high]];
+            // The end is a few millimetres wide at least, and corners are convex.
+            let most = (high - low - 30.0) / 2.0;
+            let (lower, upper) = (lower.min(most), upper.min(most));
             if chamfer > 5.0 {
                 corners.push([end + chamfer, high - upper]);
                 corners.push([end, high - upper - chamfer]);
+                corners.push([end, low + lower]);
             } else {
-                corners.push([end, high - upper]);
+                corners.push([end + slant.max(0.0), high - upper]);
+                corners.push([end - slant.min(0.0), low + lower]);
             }
-            corners.extend([[end, low + lower], [WIDTH, low]]);
+            corners.push([WIDTH, low]);
             Bay {
                 corners: corners.into_iter().map(|at| at.map(round)).collect(),
+                open: &[],
                 radius: round(radius),
                 shank: round(radius * share),
                 more,
@@ -429,10 +463,54 @@ proptest! {
 
     #[test]
     fn strips_come_free(bay in bays()) {
-        let outcome = compiled(&bay.text());
-        prop_assert!(!has_errors(&outcome.diagnostics), "{}\n{:?}", bay.text(), outcome.diagnostics.first());
-        assert_frees(&bay, program(&outcome));
+        bay.assert_comes_free();
     }
+}
+
+/// Walls that open farther in, by less than a blade can follow as an arc, and by more.
+#[test]
+fn bays_that_open_farther_in_come_free() {
+    for wider in [0.05, 1.0, 4.0, 12.0] {
+        let corners = [[WIDTH, 150.0], [40.0, 150.0 + wider], [40.0, 20.0], [WIDTH, 20.0]];
+        let corners = corners.to_vec();
+        Bay { corners, ..plain() }.assert_comes_free();
+    }
+}
+
+/// Convex bays that narrow to corners of less than 60 deg, into which the disc has to go on level by level.
+#[test]
+fn acute_corners_come_free() {
+    let bays: [([Spot; 4], [f64; 2]); 2] = [
+        (
+            [[WIDTH, 115.41], [11.59, 90.68], [33.15, 66.31], [WIDTH, 21.76]],
+            [9.89, 2.11],
+        ),
+        (
+            [[WIDTH, 112.21], [21.65, 85.82], [87.24, 64.75], [WIDTH, 31.68]],
+            [14.35, 4.4],
+        ),
+    ];
+    for (corners, [radius, shank]) in bays {
+        let bay = Bay {
+            corners: corners.to_vec(),
+            radius,
+            shank,
+            more: "through = 2",
+            ..plain()
+        };
+        bay.assert_comes_free();
+    }
+}
+
+/// A strip from one side of the stock to the other, open at both ends.
+#[test]
+fn a_strip_that_is_open_at_both_ends_comes_free() {
+    let bay = Bay {
+        corners: vec![[WIDTH, 150.0], [0.0, 140.0], [0.0, 30.0], [WIDTH, 20.0]],
+        open: &[1],
+        ..plain()
+    };
+    bay.assert_comes_free();
 }
 
 fn plain() -> Bay {
@@ -444,6 +522,7 @@ fn plain() -> Bay {
             [40.0, 20.0],
             [WIDTH, 20.0],
         ],
+        open: &[],
         radius: 12.5,
         shank: 4.0,
         more: "",
@@ -499,7 +578,8 @@ fn a_slit_that_is_not_deep_enough_holds_its_strip() {
     // A slit between two rows, or one of the walls: which of them stands in the plan.
     let slits = outcome().compiled.as_ref().unwrap().report.slit[0].slits;
     let mut held = 0;
-    for slit in 1..=u32::try_from(slits).unwrap() / 2 {
+    // There are two layers of them.
+    for slit in 1..=u32::try_from(slits).unwrap() / 4 {
         let found = found(|program| moved(program, slit, |to| to.z += 0.5));
         let is_held = found.iter().any(|fault| {
             matches!(

@@ -108,6 +108,11 @@ pub trait PlannedOperation: PlannedValue + Any + Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Its ways over a region of the plan, in the order of the program, layer by layer; none of one whose cuts sections show.
+    fn ways(&self) -> Vec<PlannedWay> {
+        Vec::new()
+    }
+
     /// The blade that makes a cut of this shape: the first one, where an operation has one only.
     fn blade_of(&self, _shape: CutShape) -> Option<BladeRef<'_>> {
         self.asked().blades().first().copied()
@@ -310,6 +315,78 @@ pub struct PlannedTip {
     pub origin: TipOrigin,
     /// What it does to the cross-section.
     pub shape: CutShape,
+}
+
+/// A way of a blade over a region of the plan, from where it goes down to where it goes up. Lengths are in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlannedWay {
+    /// The layer it belongs to, counted from 1 at the top.
+    pub layer: u32,
+    /// Which way of its layer it is, counted from 1.
+    pub number: u32,
+    pub kind: WayKind,
+    /// Which of the operation's blades goes along it, counted from 0.
+    pub blade: usize,
+    /// Where it begins, in x and y.
+    pub from: [f64; 2],
+    /// Its depth, and where the material begins above it.
+    pub heights: [f64; 2],
+    /// How long it is, without its way down.
+    pub length: f64,
+    pub entry: WayEntry,
+}
+
+/// What a blade does along a way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WayKind {
+    /// It slits.
+    Slit,
+    /// A crusher clears.
+    Pass,
+    /// A disc frees a strip, or rows of them.
+    Strip,
+}
+
+impl WayKind {
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Slit => "slit",
+            Self::Pass => "pass",
+            Self::Strip => "strip",
+        }
+    }
+}
+
+/// How a blade gets to the beginning of a way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WayEntry {
+    /// At depth, from beside the stock.
+    Open,
+    /// Straight down into the material.
+    Plunge,
+    /// Down to and fro along a line.
+    Ramp,
+    /// Down round and round.
+    Helix,
+    /// Straight down into a hole.
+    Hole,
+    /// Straight down where it has been.
+    Return,
+}
+
+impl WayEntry {
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Open => "open",
+            Self::Plunge => "plunge",
+            Self::Ramp => "ramp",
+            Self::Helix => "helix",
+            Self::Hole => "opening",
+            Self::Return => "return",
+        }
+    }
 }
 
 /// What a cut does to the cross-section, as far as pictures of plans show it. Lengths are in mm.

@@ -58,7 +58,11 @@ impl Operation for FreePocket {
                 // No section shows a pocket.
                 after: ground.before,
             }),
-            Err(why) => Err(Box::new(Refused { asked: self, why })),
+            Err(why) => Err(Box::new(Refused {
+                asked: self,
+                remedy: why.of_the_region().then(|| plan::remedy(self, &ground)).flatten(),
+                why,
+            })),
         }
     }
 }

@@ -2,23 +2,28 @@
 //!
 //! The disc comes in through an open side at depth, where its shank is outside of the stock. It frees strips in rows along that side, one
 //! after the other, so that its shank is always over those before. Around these rows strips along the walls stay, which it frees last,
-//! the one beside the rows first. Corners that are sharper than its rim stand as pillars: slits part them from the strips.
+//! the one beside the rows first. Corners that are sharper than its rim stand as pillars: slits part them from the strips. Into acute
+//! corners it goes on level by level.
 
 mod crossing;
+mod gentle;
+mod inner;
 mod layout;
 mod measures;
 mod rows;
 mod strips;
 
 use crate::asked::FreePocket;
-use crate::refused::Why;
+use crate::refused::{Remedy, Why};
 use layout::Laid;
 use measures::Measures;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_job::operation::Ground;
-use vcutc_job::{Machine, Setup};
+use vcutc_job::planned::{PlannedWay, WayEntry, WayKind};
+use vcutc_job::{Auto, Machine, Setup};
 use vcutc_process::from_above::{THINNEST, highest, layers};
-use vcutc_process::slits::fit;
+use vcutc_process::slits::fit::{self, Unfit};
+use vcutc_process::slits::ways::ways as slits_as_planned;
 use vcutc_region::freed::{FreedFault, Slits, Wheel, freed};
 use vcutc_region::pass::Pass;
 use vcutc_region::piece::Piece;
@@ -56,6 +61,25 @@ pub struct Stage {
     pub slits: Vec<Slit>,
     /// The floors from the top, in mm; at least one.
     pub floors: Vec<f64>,
+}
+
+/// Steps and radii that are tried, as shares of those there are.
+const SMALLER: [f64; 3] = [0.8, 0.6, 0.4];
+
+/// The first change that gives a plan.
+pub(crate) fn remedy(asked: &FreePocket, ground: &Ground<'_>) -> Option<Remedy> {
+    let down = |value: Length, share: f64| Length::mm(libm::floor(value.to_mm() * share * 10.0) / 10.0);
+    let most = asked.step.value.or(asked.disc.radius.value / 2.0);
+    let steps = SMALLER.map(|share| Remedy::Step(down(most, share)));
+    let radii = SMALLER.map(|share| Remedy::Radius(down(asked.disc.radius.value, share)));
+    steps.into_iter().chain(radii).find(|remedy| {
+        let mut changed = asked.clone();
+        match remedy {
+            Remedy::Step(step) => changed.step.value = Auto::Given(*step),
+            Remedy::Radius(radius) => changed.disc.radius.value = *radius,
+        }
+        plan(&changed, ground).is_ok()
+    })
 }
 
 /// How many strips along walls are tried at most.
@@ -107,6 +131,7 @@ fn best(asked: &FreePocket, measures: Measures, ground: &Ground<'_>) -> Result<L
     for front in fronts {
         for rings in 1..=MOST_RINGS {
             let laid = layout::lay(asked, measures, (front, rings), ground.job.stock).and_then(|laid| {
+                is_followed(&laid.slits)?;
                 goes_free(asked, measures, &laid)?;
                 Ok(laid)
             });
@@ -125,6 +150,14 @@ fn best(asked: &FreePocket, measures: Measures, ground: &Ground<'_>) -> Result<L
         Some((_, laid)) => Ok(laid),
         None => Err(fault.unwrap_or(Why::TooLarge)),
     }
+}
+
+/// Whether the straight blade follows the slits between strips.
+fn is_followed(slits: &[Slit]) -> Result<(), Why> {
+    fit::can_be_followed(slits).map_err(|unfit| match unfit {
+        Unfit::Short { way } => Why::Bent { way },
+        other => Why::Unfit(other),
+    })
 }
 
 /// Whether the shank goes over freed ground only. The proof says it again, of the program.
@@ -148,8 +181,9 @@ fn goes_free(asked: &FreePocket, measures: Measures, laid: &Laid) -> Result<(), 
     })?;
     match found.met {
         None => Ok(()),
-        Some(met) => Err(Why::Stuck {
+        Some(met) => Err(Why::Met {
             at: [met.at.x, met.at.y],
+            by: met.by,
         }),
     }
 }
@@ -167,7 +201,6 @@ fn stages(asked: &FreePocket, laid: &Laid, top: f64, floors: &[f64]) -> Result<V
         let knife = fit::knife(asked.fit(), top - lowest)?;
         let mut slits = fit::along_walls(asked.fit(), knife)?;
         slits.extend(laid.slits.iter().cloned());
-        fit::can_be_followed(&slits)?;
         Ok(Stage {
             slits,
             floors: floors.to_vec(),
@@ -187,6 +220,24 @@ fn layer_time(asked: &FreePocket, slits: &[Slit], passes: &[Pass]) -> Duration {
         + lifts / setup.travel_feed.value
 }
 
+/// A way of the disc as plans show it: layer and number, bottom and top of its layer.
+fn strip_as_planned(pass: &Pass, [layer, number]: [u32; 2], heights: [f64; 2]) -> PlannedWay {
+    let from = pass
+        .pieces
+        .first()
+        .map_or([0.0; 2], |piece| [piece.from.x, piece.from.y]);
+    PlannedWay {
+        layer,
+        number,
+        kind: WayKind::Strip,
+        blade: 1,
+        from,
+        heights,
+        length: pass.length(),
+        entry: WayEntry::Open,
+    }
+}
+
 impl Plan {
     /// How many slits and ways of the disc there are.
     pub(crate) fn cuts(&self) -> usize {
@@ -202,6 +253,25 @@ impl Plan {
     /// How often the blade is changed.
     pub(crate) fn changes(&self) -> usize {
         2 * self.stages.len() - 1
+    }
+
+    /// Slits and ways of the disc, in the order of the program.
+    pub(crate) fn ways(&self) -> Vec<PlannedWay> {
+        let mut ways = Vec::new();
+        let (mut layer, mut above) = (1, self.top);
+        for stage in &self.stages {
+            let lowest = stage.floors.last().copied().unwrap_or(above);
+            ways.extend(slits_as_planned(&stage.slits, layer, [lowest, above]));
+            let mut number = u32::try_from(stage.slits.len()).unwrap_or(u32::MAX);
+            for &floor in &stage.floors {
+                for pass in &self.passes {
+                    number = number.saturating_add(1);
+                    ways.push(strip_as_planned(pass, [layer, number], [floor, above]));
+                }
+                (layer, above, number) = (layer + 1, floor, 0);
+            }
+        }
+        ways
     }
 
     fn time(&self, asked: &FreePocket, machine: Option<&Machine>) -> Duration {

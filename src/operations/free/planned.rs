@@ -13,7 +13,7 @@ use vcutc_job::PlannedOperation;
 use vcutc_job::description::{ParameterFigure, ParameterTable};
 use vcutc_job::operation::judged::{FromAbove, Judged};
 use vcutc_job::operation::{Operation, Trials, WorksThere};
-use vcutc_job::planned::{Estimate, PlannedTip};
+use vcutc_job::planned::{Estimate, PlannedTip, PlannedWay};
 use vcutc_simulation::prove::{Bound, Finding, Passes, Replay};
 use vcutc_simulation::report::Report;
 
@@ -33,6 +33,10 @@ impl PlannedOperation for Planned {
     /// No section shows its cuts.
     fn tips(&self) -> Vec<PlannedTip> {
         Vec::new()
+    }
+
+    fn ways(&self) -> Vec<PlannedWay> {
+        self.plan.ways()
     }
 
     fn swing(&self) -> Angle {

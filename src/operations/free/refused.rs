@@ -8,6 +8,7 @@ use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::operation::{Unplanned, WorksThere};
 use vcutc_process::slits::fit::Unfit;
 use vcutc_process::verdict::floors;
+use vcutc_region::piece::Piece;
 
 /// What prevents a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,8 +30,14 @@ pub(crate) enum Why {
     Island { at: [f64; 2] },
     /// No room for the rows: how far from walls these begin, in mm.
     Narrow { level: f64 },
-    /// The disc has no way over freed ground to a place.
+    /// There is no room to go on from one row to the next.
     Stuck { at: [f64; 2] },
+    /// Rows are parted by walls.
+    Parted { at: [f64; 2] },
+    /// The shank would meet ground that still stands there, by so many mm.
+    Met { at: [f64; 2], by: f64 },
+    /// A slit between strips is an arc that is too short for the straight blade.
+    Bent { way: Piece },
     /// Strips of this width cannot be freed.
     Width {
         step: Length,
@@ -50,6 +57,26 @@ impl From<Unfit> for Why {
 }
 
 impl Why {
+    /// Whether other measures of strips may help.
+    pub(crate) const fn of_the_region(self) -> bool {
+        match self {
+            Self::Narrow { .. }
+            | Self::Stuck { .. }
+            | Self::Parted { .. }
+            | Self::Met { .. }
+            | Self::Bent { .. }
+            | Self::Shank
+            | Self::Broken { .. } => true,
+            Self::NothingThere { .. }
+            | Self::TooLarge
+            | Self::Unfit(_)
+            | Self::TooThin
+            | Self::Closed
+            | Self::Island { .. }
+            | Self::Width { .. } => false,
+        }
+    }
+
     /// Of two the one that says more of the region: where the disc gets stuck, before the lack of room for more strips.
     pub(crate) const fn worth_more(self, other: Self) -> Self {
         match (self, other) {
@@ -63,10 +90,21 @@ impl Why {
     }
 }
 
+/// A change of the job with which there is a plan: it was tried.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Remedy {
+    /// Narrower strips.
+    Step(Length),
+    /// A disc with a smaller edge, and the same body.
+    Radius(Length),
+}
+
 /// An operation without a plan.
 pub(crate) struct Refused<'j> {
     pub(crate) asked: &'j FreePocket,
     pub(crate) why: Why,
+    /// What gives a plan.
+    pub(crate) remedy: Option<Remedy>,
 }
 
 impl Unplanned for Refused<'_> {
@@ -100,20 +138,33 @@ impl Refused<'_> {
             )
             .and(asked.region.span, "defined here")
             .help(format!("free the ground around it in regions of their own, or {CRUSHER}")),
-            Why::Stuck { at } => Diagnostic::new(
-                Code::NoWayForDisc,
+            Why::Stuck { at } => self.no_way(
                 format!(
-                    "`{}` has no way over freed ground to {} in `{name}`: rows begin at an open side, and end where the region is wider \
-                     farther in",
-                    asked.disc.name,
-                    place(at)
+                    "at {} in `{name}`, `{}` has no room to go on from one row to the next",
+                    place(at),
+                    asked.disc.name
                 ),
-                asked.region_span,
-                "wider inside than at its open side, or bent",
-            )
-            .and(asked.region.span, "defined here")
-            .help(format!("use a region that is widest at its open side, or {CRUSHER}")),
-            Why::Narrow { level } => narrow(asked, level),
+                "its rows begin at an open side, and lie beside each other",
+            ),
+            Why::Parted { at } => self.no_way(
+                format!(
+                    "beyond {} walls part the rows of `{}` in `{name}`, and it has no way from one part to the other",
+                    place(at),
+                    asked.disc.name
+                ),
+                "has a neck or two arms for this disc",
+            ),
+            Why::Met { at, by } => self.no_way(
+                format!(
+                    "at {} in `{name}`, the shank of `{}` with its air would be {} mm within ground that still stands",
+                    place(at),
+                    asked.disc.name,
+                    show(up(by))
+                ),
+                "no order of strips that was tried keeps the shank over ground that is out",
+            ),
+            Why::Bent { way } => self.bent(way),
+            Why::Narrow { level } => self.helped(narrow(asked, level), "use a smaller disc, or "),
             Why::Width { step, most, least } => width(asked, [step, most, least]),
             Why::Shank => Diagnostic::new(
                 Code::NoWayForDisc,
@@ -143,6 +194,48 @@ impl Refused<'_> {
             )
             .help("use a larger disc, or free the region in parts"),
         }
+    }
+}
+
+impl Refused<'_> {
+    fn no_way(&self, message: String, label: &str) -> Diagnostic {
+        let asked = self.asked;
+        let diagnostic = Diagnostic::new(Code::NoWayForDisc, message, asked.region_span, label);
+        let diagnostic = diagnostic.and(asked.region.span, "defined here");
+        self.helped(diagnostic, "")
+    }
+
+    fn bent(&self, way: Piece) -> Diagnostic {
+        let asked = self.asked;
+        let diagnostic = Diagnostic::new(
+            Code::WallTooShort,
+            format!(
+                "at {} a slit between strips of `{}` turns by {} deg between short lines, so it is an arc of {} mm: too short for a blade \
+                 that turns with it",
+                place([way.from.x, way.from.y]),
+                asked.region.name,
+                show((way.sweep.abs().to_degrees() * 100.0).round() / 100.0),
+                show((way.length() * 100.0).round() / 100.0)
+            ),
+            asked.region_span,
+            "has short walls that turn a little",
+        );
+        let diagnostic = diagnostic.and(asked.region.span, "defined here");
+        self.helped(diagnostic, "draw these walls as one line or one arc, or ")
+    }
+
+    /// With what was tried, or else with what may help.
+    fn helped(&self, diagnostic: Diagnostic, otherwise: &str) -> Diagnostic {
+        let asked = self.asked;
+        diagnostic.help(match self.remedy {
+            Some(Remedy::Step(step)) => format!("use `step = {} mm`, or {CRUSHER}", show(step.to_mm())),
+            Some(Remedy::Radius(radius)) => format!(
+                "use a disc like `{}` with a radius of {} mm, or {CRUSHER}",
+                asked.disc.name,
+                show(radius.to_mm())
+            ),
+            None => format!("{otherwise}{CRUSHER}"),
+        })
     }
 }
 
@@ -180,7 +273,6 @@ fn narrow(asked: &FreePocket, level: f64) -> Diagnostic {
         "too narrow for the disc",
     )
     .and(asked.disc.radius.span.unwrap_or(asked.disc.span), "its radius")
-    .help(format!("use a smaller disc, a smaller `step`, or {CRUSHER}"))
 }
 
 fn width(asked: &FreePocket, [step, most, least]: [Length; 3]) -> Diagnostic {

@@ -14,7 +14,7 @@ pub(crate) fn explained(asked: &FreePocket, finding: Finding) -> Diagnostic {
             let diagnostic = Diagnostic::new(
                 Code::PillarsStay,
                 format!(
-                    "{area} mm2 stand in the corners of `{}`: the rim of `{}` has a radius of {} mm; the limit is {} mm2",
+                    "{area} mm2 in the corners of `{}` are beyond the rim of `{}`, which has a radius of {} mm; the limit on pillars is {} mm2",
                     asked.region.name,
                     asked.disc.name,
                     show(asked.disc.radius.value.to_mm()),

@@ -70,7 +70,11 @@ impl Operation for ClearPocket {
                 // No section shows a pocket.
                 after: ground.before,
             }),
-            Err(why) => Err(Box::new(Refused { asked: self, why })),
+            Err(why) => Err(Box::new(Refused {
+                asked: self,
+                remedy: plan::remedy(self, &ground, why),
+                why,
+            })),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The plan of a pocket: layers, and in each the same passes in the same order.
 
+mod clock;
 mod entry;
 pub mod helix;
 mod hole;
@@ -9,8 +10,9 @@ mod order;
 pub mod path;
 mod room;
 
-use crate::asked::{ClearPocket, Pattern};
-use crate::refused::Why;
+use crate::asked::{ClearPocket, Pattern, WayIn};
+use crate::refused::{Remedy, Why};
+use clock::Clock;
 use entry::Ways;
 use helix::Helix;
 use lay::Laid;
@@ -19,6 +21,7 @@ use room::Room;
 use vcutc_backend_api::units::{Angle, Area, Duration, Length};
 use vcutc_job::Auto;
 use vcutc_job::operation::Ground;
+use vcutc_job::planned::{PlannedWay, WayEntry, WayKind};
 use vcutc_process::from_above::{THINNEST, highest, layers};
 use vcutc_process::lower::{BLEND, ROUNDING_ROOM};
 use vcutc_region::distance::Walls;
@@ -117,9 +120,6 @@ impl Kind {
     }
 }
 
-/// With how much a machine is taken to brake and start again at corners, in mm/s2: it weighs patterns, and enters nothing else.
-const ACCELERATION: f64 = 2000.0;
-
 /// Plans a pocket in what the operations before it have left.
 ///
 /// # Errors
@@ -172,6 +172,28 @@ pub(crate) fn plan(asked: &ClearPocket, ground: &Ground<'_>) -> Result<Plan, Why
     })
 }
 
+/// Radii that are tried, as shares of the tool's.
+const NARROWER: [f64; 5] = [0.9, 0.8, 0.7, 0.6, 0.5];
+
+/// The first change that gives a plan where a way down is missing.
+pub(crate) fn remedy(asked: &ClearPocket, ground: &Ground<'_>, why: Why) -> Option<Remedy> {
+    let radii = NARROWER.map(|share| libm::floor(asked.crusher.radius.value.to_mm() * share * 10.0) / 10.0);
+    let radii = radii.map(|radius| Remedy::Radius(Length::mm(radius)));
+    let tried = match why {
+        Why::NoHelix { .. } => core::iter::once(Remedy::Ramp).chain(radii).collect(),
+        Why::NotOpen { .. } => vec![Remedy::Ramp],
+        _ => Vec::new(),
+    };
+    tried.into_iter().find(|remedy| {
+        let mut changed = asked.clone();
+        match remedy {
+            Remedy::Ramp => changed.entry.value = Auto::Given(WayIn::Ramp),
+            Remedy::Radius(radius) => changed.crusher.radius.value = *radius,
+        }
+        plan(&changed, ground).is_ok()
+    })
+}
+
 /// How far passes are apart, in mm.
 fn step(asked: &ClearPocket) -> Result<f64, Why> {
     let step = match asked.step.value {
@@ -196,6 +218,7 @@ fn compared(asked: &ClearPocket, tool: &Tool, room: Room<'_>, (keep, deep): (f64
     let ways = Ways {
         entry: asked.entry.value,
         hole: asked.opening.map(|opening| opening.value),
+        clock: Clock::of(asked, deep),
     };
     let mut compared = Compared::default();
     for &pattern in patterns {
@@ -207,26 +230,18 @@ fn compared(asked: &ClearPocket, tool: &Tool, room: Room<'_>, (keep, deep): (f64
             }
         };
         for laid in choices {
-            match order::runs(&laid.passes, &laid.extra, ways, room).and_then(|runs| uses(runs, ways)) {
+            match order::runs(&laid.passes, &laid.extra, ways, room) {
                 Ok(runs) => {
                     let runs = limits::slowed(runs, asked);
                     let standing = limits::standing(&runs, asked, keep);
-                    compared.take(laid, runs, (standing, |runs: &[Run]| time(runs, asked, deep)));
+                    let time = ways.clock.of_runs(&runs);
+                    compared.take(laid, runs, (standing, time));
                 }
                 Err(why) => compared.fault = Some(why),
             }
         }
     }
     compared
-}
-
-/// The runs, if one of them begins in the hole that is given.
-fn uses(runs: Vec<Run>, ways: Ways) -> Result<Vec<Run>, Why> {
-    let begins_there = |run: &Run| matches!(run.entry, Entry::Hole { .. });
-    if ways.hole.is_some() && !runs.iter().any(begins_there) {
-        return Err(Why::BesideTheHole);
-    }
-    Ok(runs)
 }
 
 /// What was compared.
@@ -248,13 +263,7 @@ struct Candidate {
 
 impl Compared {
     /// Keeps what takes the least time of all that keep the limits.
-    fn take(
-        &mut self,
-        laid: Laid,
-        runs: Vec<Run>,
-        (standing, time): (Standing, impl Fn(&[Run]) -> Duration),
-    ) {
-        let time = time(&runs);
+    fn take(&mut self, laid: Laid, runs: Vec<Run>, (standing, time): (Standing, Duration)) {
         match self
             .tried
             .iter_mut()
@@ -292,44 +301,28 @@ fn floors(asked: &ClearPocket, top: f64) -> Result<Vec<f64>, Why> {
 /// Most levels across a region.
 const MOST_LEVELS: f64 = 1000.0;
 
-/// How long the runs of a layer of this thickness take: their ways, their ways down, and the stops at their corners.
-fn time(runs: &[Run], asked: &ClearPocket, deep: f64) -> Duration {
-    let (cut, slow) = (asked.setup.cut_feed.value, asked.plunge_feed.value);
-    let feed = |leg: &Leg| if leg.kind.is_slow() { slow } else { cut };
-    let legs = runs.iter().flat_map(|run| &run.legs);
-    let ways: Duration = legs.map(|leg| Length::mm(leg.piece.length()) / feed(leg)).sum();
-    let stop = Duration::s(cut.to_mm_per_s() / ACCELERATION);
-    let stops: usize = runs.iter().map(|run| 1 + corners(&run.legs)).sum();
-    let ramp = asked.crusher.ramp.value.to_rad();
-    let sloping = deep / libm::sin(ramp);
-    let ramps = runs.iter().map(|run| match run.entry {
-        Entry::Ramp { line } => sloping + 2.0 * line.length(),
-        Entry::Helix { helix } => sloping + helix.side() * f64::from(helix.corners),
-        Entry::Hole { .. } | Entry::Return { .. } | Entry::Open { .. } => 0.0,
-    });
-    let ramps = Length::mm(ramps.sum()) / slow;
-    let corners_of_ways_down = runs.iter().map(|run| match run.entry {
-        Entry::Helix { helix } => helix.sides_down(deep, ramp) as usize + helix.corners as usize,
-        Entry::Ramp { .. } | Entry::Hole { .. } | Entry::Return { .. } | Entry::Open { .. } => 0,
-    });
-    let stops = stops + corners_of_ways_down.sum::<usize>();
-    // Up, across and down again: twice the clearance at the speed of travel.
-    let lift = asked.setup.clearance.value * 2.0 / asked.setup.travel_feed.value;
-    ways + ramps + stop * stops as f64 + lift * runs.len() as f64
-}
-
-/// How many corners a run has at which it comes to a stop.
-fn corners(legs: &[Leg]) -> usize {
-    let pairs = legs.iter().zip(legs.iter().skip(1));
-    pairs
-        .filter(|(before, after)| {
-            let (out, on) = (before.piece.direction(1.0), after.piece.direction(0.0));
-            libm::atan2(out.cross(on), out.dot(on)).abs() > vcutc_backend_api::verify::LARGEST_KINK.to_rad()
-        })
-        .count()
-}
-
 impl Run {
+    /// As plans show it: layer and number, bottom and top of its layer.
+    pub(crate) fn planned(&self, [layer, number]: [u32; 2], heights: [f64; 2]) -> PlannedWay {
+        let (from, entry) = match self.entry {
+            Entry::Ramp { line } => (line.from, WayEntry::Ramp),
+            Entry::Helix { helix } => (helix.last, WayEntry::Helix),
+            Entry::Hole { at } => (at, WayEntry::Hole),
+            Entry::Return { at } => (at, WayEntry::Return),
+            Entry::Open { from } => (from, WayEntry::Open),
+        };
+        PlannedWay {
+            layer,
+            number,
+            kind: WayKind::Pass,
+            blade: 0,
+            from: [from.x, from.y],
+            heights,
+            length: self.legs.iter().map(|leg| leg.piece.length()).sum(),
+            entry,
+        }
+    }
+
     /// Whether the tool leaves it upwards, and not through an open side.
     #[must_use]
     pub fn leaves_upwards(&self) -> bool {
@@ -338,9 +331,15 @@ impl Run {
 }
 
 impl Plan {
+    /// Whether a run begins in the hole that the job names.
+    pub(crate) fn uses_the_hole(&self) -> bool {
+        let mut entries = self.runs.iter().map(|run| run.entry);
+        entries.any(|entry| matches!(entry, Entry::Hole { .. }))
+    }
+
     /// How long it takes at the programmed speeds, about.
     pub(crate) fn time(&self, asked: &ClearPocket) -> Duration {
         let deep = self.floors.first().map_or(0.0, |floor| self.top - floor);
-        time(&self.runs, asked, deep) * self.floors.len() as f64
+        Clock::of(asked, deep).of_runs(&self.runs) * self.floors.len() as f64
     }
 }

@@ -12,7 +12,7 @@ use vcutc_diagnostics::Diagnostic;
 use vcutc_job::description::{ParameterFigure, ParameterTable};
 use vcutc_job::operation::judged::{FromAbove, Judged};
 use vcutc_job::operation::{Operation, Trials, WorksThere};
-use vcutc_job::planned::Estimate;
+use vcutc_job::planned::{Estimate, PlannedWay};
 use vcutc_job::{PlannedOperation, SoundField, Sources};
 use vcutc_simulation::prove::{Bound, Finding, Passes, Replay};
 use vcutc_simulation::report::Report;
@@ -28,6 +28,18 @@ impl PlannedOperation for Planned {
 
     fn cuts(&self) -> usize {
         self.plan.runs.len() * self.plan.floors.len()
+    }
+
+    fn ways(&self) -> Vec<PlannedWay> {
+        let plan = &self.plan;
+        let tops = core::iter::once(plan.top).chain(plan.floors.iter().copied());
+        let layers = (1_u32..).zip(plan.floors.iter().zip(tops));
+        layers
+            .flat_map(|(layer, (&floor, top))| {
+                let runs = (1_u32..).zip(&plan.runs);
+                runs.map(move |(number, run)| run.planned([layer, number], [floor, top]))
+            })
+            .collect()
     }
 
     fn extension(&self) -> Length {
@@ -85,7 +97,8 @@ impl PlannedOperation for Planned {
     }
 
     fn warnings(&self) -> Vec<Diagnostic> {
-        verdict::of_field(self).into_iter().collect()
+        let hole = verdict::of_the_hole(self);
+        verdict::of_field(self).into_iter().chain(hole).collect()
     }
 
     fn parameters(&self) -> Vec<ParameterFigure> {

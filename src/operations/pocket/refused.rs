@@ -41,8 +41,6 @@ pub(crate) enum Why {
         /// Where.
         at: [f64; 2],
     },
-    /// No run begins in the hole that is given.
-    BesideTheHole,
     /// There is no sound field over the region.
     NoField,
     /// All sides are open, and the passes of this pattern follow walls.
@@ -54,10 +52,21 @@ pub(crate) enum Why {
     },
 }
 
+/// A change of the job with which there is a plan: it was tried.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Remedy {
+    /// Down a ramp.
+    Ramp,
+    /// With a narrower tool.
+    Radius(Length),
+}
+
 /// An operation without a plan.
 pub(crate) struct Refused<'j> {
     pub(crate) asked: &'j ClearPocket,
     pub(crate) why: Why,
+    /// What gives a plan.
+    pub(crate) remedy: Option<Remedy>,
 }
 
 impl Unplanned for Refused<'_> {
@@ -114,7 +123,6 @@ impl Refused<'_> {
             .help("use a narrower tool"),
             Why::NoHelix { at } => self.no_helix(at),
             Why::NotOpen { at } => self.not_open(at),
-            Why::BesideTheHole => self.beside_the_hole(),
             Why::NoField => Diagnostic::new(
                 Code::PocketTooNarrow,
                 format!("the sound field over `{name}` cannot be computed"),
@@ -177,7 +185,16 @@ impl Refused<'_> {
         );
         self.at_entry(message, "no room for it")
             .and(asked.region_span, "the region")
-            .help("use `entry = ramp`, or a narrower tool")
+            .help(match self.remedy {
+                Some(Remedy::Ramp) => "use `entry = ramp`".to_owned(),
+                Some(Remedy::Radius(radius)) => {
+                    format!(
+                        "a ramp has no room either: use a tool with a radius of {} mm",
+                        show(radius.to_mm())
+                    )
+                }
+                None => "a ramp has no room either: use a much narrower tool".to_owned(),
+            })
     }
 
     fn not_open(&self, [x, y]: [f64; 2]) -> Diagnostic {
@@ -190,22 +207,11 @@ impl Refused<'_> {
         );
         self.at_entry(message, "the tool may not go down into the material")
             .and(asked.region_span, "the region")
-            .help("use `entry = auto`, or name a hole with `opening = hole(x = , y = , radius = )`")
-    }
-
-    fn beside_the_hole(&self) -> Diagnostic {
-        let asked = self.asked;
-        let opening = asked.opening.and_then(|opening| opening.span);
-        Diagnostic::new(
-            Code::NoEntry,
-            format!(
-                "no pass over `{}` begins in the opening: walls are between them, or the tool comes in through an open side",
-                asked.region.name
-            ),
-            opening.unwrap_or(asked.region_span),
-            "not used",
-        )
-        .help("delete `opening`, or name a hole from which a straight way leads to a pass")
+            .help(match (asked.opening, self.remedy) {
+                (_, Some(_)) => "use `entry = ramp`",
+                (None, None) => "name a hole with `opening = hole(x = , y = , radius = )`",
+                (Some(_), None) => "name a hole from which a straight way leads to that place",
+            })
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::asked::ClearPocket;
 use crate::decided::Planned;
+use crate::plan::Entry;
 use std::any::Any;
 use vcutc_backend_api::units::{Area, Length};
 use vcutc_diagnostics::number::show;
@@ -153,6 +154,38 @@ fn place(finding: Finding) -> String {
         round(finding.tip.x),
         round(finding.y.unwrap_or_default())
     )
+}
+
+/// Warns where no run begins in the hole that the job names.
+pub(crate) fn of_the_hole(planned: &Planned) -> Option<Diagnostic> {
+    let (asked, plan) = (&planned.asked, &planned.plan);
+    let opening = asked.opening.filter(|_| !plan.uses_the_hole())?;
+    let goes_down = plan.runs.iter().find_map(|run| match run.entry {
+        Entry::Ramp { line } => Some(("a ramp", line.from)),
+        Entry::Helix { helix } => Some(("a helix", helix.last)),
+        Entry::Hole { .. } | Entry::Return { .. } | Entry::Open { .. } => None,
+    });
+    let why = match goes_down {
+        None => "it comes in through an open side".to_owned(),
+        Some((way, at)) => format!(
+            "it goes down {way} at ({} mm, {} mm), to which no straight way leads from the hole",
+            show((at.x * 100.0).round() / 100.0),
+            show((at.y * 100.0).round() / 100.0)
+        ),
+    };
+    let diagnostic = Diagnostic::new(
+        Code::HoleUnused,
+        format!(
+            "`{}` goes into `{}` without the hole: {why}",
+            asked.crusher.name, asked.region.name
+        ),
+        opening.span.unwrap_or(asked.setup.head_span),
+        "not used",
+    );
+    Some(diagnostic.help(match goes_down {
+        None => "delete `opening`",
+        Some(_) => "delete `opening`, or name a hole from which a straight way leads to the first pass",
+    }))
 }
 
 /// Warns where the lines of a sound field are not the whole story.

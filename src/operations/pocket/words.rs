@@ -15,7 +15,7 @@ const RADIUS: &str = "the widest with which nothing stays between passes";
 const FEWEST: &str = "the fewest equal layers that the tool cuts";
 const ROUNDEST: &str = "as round as leaves nothing between passes";
 const HALF: &str = "half the step, which rounds corners to about that radius";
-const SIMPLEST: &str = "a ramp, or a helix where no line is as long as the tool is wide";
+const QUICKEST: &str = "the faster of a ramp and a helix, on each way down";
 const ALONG: &str = "the faster of 0 deg and 90 deg";
 
 /// The tables: tool, cut, motion.
@@ -64,7 +64,7 @@ pub(crate) fn tables(planned: &Planned) -> Vec<ParameterTable> {
         "entry",
         &asked.entry,
         entries(planned),
-        SIMPLEST,
+        QUICKEST,
     ));
     if let Some(opening) = asked.opening {
         cut.push(ParameterRow::of("opening", opening, |hole| {
@@ -215,7 +215,7 @@ fn value(planned: &Planned, field: &str) -> Option<(String, &'static str)> {
         "layer" => (length_text(layer(planned)), FEWEST),
         "corners" => (corners(planned), ROUNDEST),
         "angle" => (angle_text(plan.angle), ALONG),
-        "entry" => (entries(planned), SIMPLEST),
+        "entry" => (entries(planned), QUICKEST),
         "lift" => (length_text(plan.field?.lift), HALF),
         _ => return None,
     })

@@ -10,7 +10,8 @@ use vcutc_job::PlannedOperation;
 use vcutc_job::description::{ParameterFigure, ParameterTable};
 use vcutc_job::operation::judged::{FromAbove, Judged};
 use vcutc_job::operation::{Operation, Trials, WorksThere};
-use vcutc_job::planned::Estimate;
+use vcutc_job::planned::{Estimate, PlannedWay};
+use vcutc_process::slits::ways::ways;
 use vcutc_simulation::prove::{Bound, Finding, Passes, Replay};
 use vcutc_simulation::report::Report;
 
@@ -25,6 +26,11 @@ impl PlannedOperation for Planned {
 
     fn cuts(&self) -> usize {
         self.plan.slits.len()
+    }
+
+    fn ways(&self) -> Vec<PlannedWay> {
+        let plan = &self.plan;
+        ways(&plan.slits, 1, [self.asked.floor.value.to_mm(), plan.top])
     }
 
     fn extension(&self) -> Length {

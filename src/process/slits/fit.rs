@@ -95,9 +95,14 @@ pub fn along_walls(asked: Asked<'_>, knife: Knife) -> Result<Vec<Slit>, Unfit> {
 /// An arc is too short.
 pub fn can_be_followed(slits: &[Slit]) -> Result<(), Unfit> {
     let mut ways = slits.iter().flat_map(|slit| &slit.pieces).map(|piece| piece.way);
-    let is_short = |way: &Piece| step_of(*way).is_some_and(|step| step < SHORTEST_STEP);
-    ways.find(is_short)
+    ways.find(|way| !is_followed(*way))
         .map_or(Ok(()), |way| Err(Unfit::Short { way }))
+}
+
+/// Whether programs can state a way so that a blade turns with it.
+#[must_use]
+pub fn is_followed(way: Piece) -> bool {
+    step_of(way).is_none_or(|step| step >= SHORTEST_STEP)
 }
 
 impl Unfit {

@@ -102,14 +102,16 @@ impl Judge<'_> {
         }
         self.astray(&moves);
         let floor = self.asked.floor.to_mm() + ROUNDING;
-        let slits = ways(moves.iter().filter(|stated| stated.floor <= floor));
-        let pieces: Vec<Piece> = slits.iter().flatten().copied().collect();
+        let all = ways(moves.iter());
+        // What stays at the foot of walls is up to the deepest ones.
+        let deepest = ways(moves.iter().filter(|stated| stated.floor <= floor));
+        let pieces: Vec<Piece> = deepest.into_iter().flatten().collect();
         let edge = moves.iter().map(|stated| stated.edge).fold(0.0, f64::max);
         let [stays, in_corners] = self.foot(&pieces);
         Slit {
             operation: self.operation,
-            slits: slits.len(),
-            way: Length::mm(pieces.iter().map(|piece| piece.length()).sum()),
+            slits: all.len(),
+            way: Length::mm(all.iter().flatten().map(|piece| piece.length()).sum()),
             to_wall: Length::mm(to_wall),
             stays,
             in_corners,

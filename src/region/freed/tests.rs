@@ -98,3 +98,57 @@ fn blades_without_thickness_prove_nothing() {
     let thin = Slits { half: 1e-3, ..slits };
     assert_eq!(freed(&bay(), thin, &[], WHEEL), Err(FreedFault::Fine));
 }
+
+/// Two slits along walls that turn by 15 deg, each of which ends at the corner: no way leads between them, however the squares lie. Where
+/// one of them ends a millimetre before, one does.
+#[test]
+fn slits_that_meet_at_an_angle_part_the_ground() {
+    let (sin, cos) = libm::sincos(15.0_f64.to_radians());
+    for shift in 0..12 {
+        let shift = f64::from(shift) * 0.03;
+        let corner = (30.0 + shift, 0.8 + shift);
+        let before = |by: f64| line((-1.0, corner.1), (corner.0 - by, corner.1));
+        let after = line(corner, (corner.0 + 40.0 * cos, corner.1 + 40.0 * sin));
+        let is_met = |by: f64| {
+            let ways = [before(by), after.clone()];
+            let slits = Slits {
+                ways: &ways,
+                half: 0.75,
+                beside_walls: 0.0,
+            };
+            let side = FINENESS * slits.half;
+            let grid = Grid::over(bay().bounds().grown(2.0 * side), side).unwrap();
+            let mut ground = Ground {
+                half: side * FRAC_1_SQRT_2,
+                grid,
+            };
+            ground.draw(&bay(), slits);
+            let [low, high] = [(10.0, -0.2), (10.0, 20.0)].map(|(x, y)| Place::new(x, y));
+            let mut seeds = Vec::new();
+            ground.grid.all(|flags, at| {
+                let is_between = at.y > -0.3 && at.x > -0.3 && at.x < 50.0;
+                if !is_between {
+                    *flags |= Flags::SLIT;
+                }
+            });
+            let mut number = 0;
+            ground.grid.all(|flags, at| {
+                if at.distance(low) < 0.4 && !flags.has(Flags::SLIT) {
+                    seeds.push(number);
+                }
+                number += 1;
+            });
+            ground.grid.keep(Flags::STANDS, |_| false);
+            ground
+                .grid
+                .flood(seeds, Flags::STANDS, |flags| !flags.has(Flags::SLIT));
+            let mut is_met = false;
+            ground
+                .grid
+                .all(|flags, at| is_met |= at.distance(high) < 0.4 && flags.has(Flags::STANDS));
+            is_met
+        };
+        assert!(!is_met(0.0), "{shift}");
+        assert!(is_met(1.2), "{shift}");
+    }
+}

@@ -415,7 +415,7 @@ fn the_plan_has_a_row_for_each_cut() {
     let (header, rows) = plan.split_once('\n').unwrap();
     assert_eq!(
         header,
-        "operation,layer,cut,kind,blade,x_mm,z_mm,swing_deg,lead_deg,left_mm,right_mm,bottom_mm,top_mm,origin"
+        "operation,layer,cut,kind,blade,x_mm,z_mm,swing_deg,lead_deg,left_mm,right_mm,bottom_mm,top_mm,origin,y_mm,length_mm,entry"
     );
     let counted = run
         .stderr

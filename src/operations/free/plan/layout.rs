@@ -12,6 +12,7 @@
 //! rim would leave ground under it, and each pass lies as far from both of its slits in corners as it does along straight walls.
 
 use super::crossing;
+use super::inner::{self, Inner};
 use super::measures::Measures;
 use super::rows::Field;
 use super::strips::{self, Strips};
@@ -83,13 +84,14 @@ pub(super) fn lay(
         stock,
     };
     let rowed = field.rows()?;
+    let runs = runs(region, &mut offsets, level)?;
     let strips = Strips {
         measures,
         walls: &Walls::of(region),
         stock,
         rings,
-        runs: &runs(region, &mut offsets, level)?,
-        sharp: &runs(region, &mut offsets, measures.level(0))?,
+        inner: &inner_levels(region, &mut offsets, (measures, rings), &runs)?,
+        runs: &runs,
     };
     let mut slits = strips.slits();
     slits.extend(rowed.slits);
@@ -135,7 +137,7 @@ fn bounding(
     let first = loops.next().ok_or(Why::Narrow { level })?;
     let other = loops.next().and_then(|other| Some(other.pieces.first()?.from));
     match other {
-        Some(at) => Err(Why::Stuck { at: [at.x, at.y] }),
+        Some(at) => Err(Why::Parted { at: [at.x, at.y] }),
         None => Ok(first.pieces),
     }
 }
@@ -148,6 +150,23 @@ fn runs(region: &Region, offsets: &mut Offsets, level: f64) -> Result<Vec<Vec<Pi
     let ways = offsets.level(level).map_err(without_level)?;
     let runs = ways.into_iter().filter(|way| way.kind == Kind::Run);
     Ok(runs.map(|way| way.pieces).collect())
+}
+
+/// The levels on which the disc goes on into the corners of these ways.
+fn inner_levels(
+    region: &Region,
+    offsets: &mut Offsets,
+    (measures, rings): (Measures, u32),
+    outer: &[Vec<Piece>],
+) -> Result<Vec<Inner>, Why> {
+    let wide = f64::from(rings) * measures.step;
+    let of = inner::levels(rings, outer);
+    let levels = (1..=of).map(|stage| {
+        let aside = wide * inner::share([stage, of]);
+        let runs = runs(region, offsets, measures.level(0) + aside)?;
+        Ok(Inner::of([stage, of], aside, runs, rings))
+    });
+    levels.collect()
 }
 
 fn without_level(fault: OffsetFault) -> Why {

@@ -46,6 +46,9 @@ const SLACK: f64 = 0.7;
 /// At how many places between two rows room is looked for.
 const LOOKED_AT: u32 = 12;
 
+/// At how many places of a side it is looked at how far walls open.
+const SAMPLES: u32 = 8;
+
 /// How far a way into the next row keeps from where the centre may not be, in mm, and how often it is moved aside by so much.
 const ASIDE: f64 = 0.25;
 const TRIALS: u32 = 60;
@@ -60,15 +63,18 @@ struct Row {
 impl Field<'_> {
     pub(super) fn rows(&self) -> Result<Rowed, Why> {
         let Measures { radius, shank, .. } = self.measures;
-        // At the end of a row the rim has to reach the corner between its slit and the one along the walls.
-        let far = self.to_corner;
-        let over = (radius - libm::sqrt((radius * radius - far * far).max(0.0))).max(self.measures.over);
         let air = SLACK * self.measures.half;
-        let most = (radius - shank - over - air).min(self.measures.widest);
-        if most < 4.0 * self.measures.half {
+        let most = |over: f64| (radius - shank - over - air).min(self.measures.widest);
+        let is_wide = |over: &f64| most(*over) >= 4.0 * self.measures.half;
+        // Where walls open too far for that, rows are laid as between square ones; whether the disc finds its way is looked at later.
+        let wider = self.over(self.widening());
+        let wider = wider.filter(is_wide);
+        let Some(over) = wider.or_else(|| self.over(0.0).filter(is_wide)) else {
             return Err(Why::Shank);
-        }
-        let deep = self.front.deepest(self.ground).min(self.deepest);
+        };
+        let most = most(over);
+        // Where the far side is open too, no slit lies along it either.
+        let deep = self.front.deepest(self.ground).min(self.deepest + air);
         let count = libm::ceil(deep / most);
         if !(1.0..=MOST).contains(&count) {
             return Err(Why::TooLarge);
@@ -100,6 +106,26 @@ impl Field<'_> {
         })
     }
 
+    /// How far the rim has to run on beyond the slit of a row, so that at the end of the row it reaches the corner between this slit and the
+    /// one along the walls, which open farther in by an angle of this sine; none where the centre has no room for that.
+    fn over(&self, widening: f64) -> Option<f64> {
+        let (radius, far) = (self.measures.radius, self.to_corner);
+        let beside = libm::sqrt((radius * radius - far * far).max(0.0));
+        let square = libm::sqrt((1.0 - widening * widening).max(0.0));
+        let over = (radius - square * beside + widening * far).max(self.measures.over);
+        (over <= radius - far).then_some(over)
+    }
+
+    /// The sine of the angle by which the ground of the rows opens most farther in.
+    fn widening(&self) -> f64 {
+        let sides = self.ground.iter().flat_map(|side| {
+            let shares = (0..=SAMPLES).map(|sample| f64::from(sample) / f64::from(SAMPLES));
+            let inside = shares.filter(|share| self.front.depth(side.at(*share)) > 0.0);
+            inside.map(|share| self.front.inward(side.direction(share).left()))
+        });
+        sides.fold(0.0, f64::max).min(1.0)
+    }
+
     /// A row at a depth, in one piece.
     fn row(&self, bounds: &[Piece], depth: f64) -> Result<Row, Why> {
         match self.front.row(bounds, depth).as_slice() {
@@ -107,7 +133,7 @@ impl Field<'_> {
             [] => Err(Why::TooLarge),
             [first, ..] => {
                 let at = self.front.place(first[1], depth);
-                Err(Why::Stuck { at: [at.x, at.y] })
+                Err(Why::Parted { at: [at.x, at.y] })
             }
         }
     }

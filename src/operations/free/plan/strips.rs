@@ -1,5 +1,7 @@
 //! Strips along walls: their slits, the passes of the disc, and the pillars in corners.
 
+use super::gentle::gentle;
+use super::inner::{Inner, has_corners};
 use super::measures::Measures;
 use core::f64::consts::FRAC_PI_2;
 use vcutc_backend_api::ir::Stock;
@@ -23,8 +25,8 @@ pub(super) struct Strips<'l> {
     pub(super) rings: u32,
     /// The ways of the level that bounds the rows, from open side to open side.
     pub(super) runs: &'l [Vec<Piece>],
-    /// The ways nearest to the walls, with their corners.
-    pub(super) sharp: &'l [Vec<Piece>],
+    /// The levels on which the disc goes on into corners, the one nearest to the walls last.
+    pub(super) inner: &'l [Inner],
 }
 
 impl Strips<'_> {
@@ -33,7 +35,7 @@ impl Strips<'_> {
         let by = self.aside(number) + self.measures.radius - self.measures.over;
         self.runs
             .iter()
-            .map(|run| self.led_out(outward(run, by)))
+            .map(|run| gentle(self.led_out(outward(run, by))))
             .collect()
     }
 
@@ -80,7 +82,7 @@ impl Strips<'_> {
             runs.iter().flat_map(|run| corners(run, by)).collect()
         };
         let mut arcs = around(self.runs, self.aside(0) + reach);
-        arcs.extend(around(self.sharp, reach));
+        arcs.extend(self.inner.iter().flat_map(|inner| inner.arcs(reach)));
         slits.extend(arcs.into_iter().flat_map(|arc| self.around_a_pillar(arc)));
         slits
     }
@@ -146,18 +148,20 @@ impl Strips<'_> {
             .is_none_or(|(_, near)| near.distance >= keeps[0])
     }
 
-    /// Appends the passes of the disc, those beside the rows first, and a last one into the corners: each begins where it is nearest to
-    /// where the one before it ended.
+    /// Appends the passes of the disc, those beside the rows first, then those into the corners: each begins where it is nearest to where
+    /// the one before it ended.
     pub(super) fn passes(&self, passes: &mut Vec<Pass>) {
         for number in (0..self.rings).rev() {
             for run in self.runs {
                 push(passes, number, self.led_out(outward(run, self.aside(number))));
             }
         }
-        let has_corners = |run: &&Vec<Piece>| !corners(run, self.aside(0)).is_empty();
-        if self.runs.iter().any(|run| has_corners(&run)) {
-            for run in self.sharp {
-                push(passes, 0, run.clone());
+        if !self.runs.iter().any(|run| has_corners(run)) {
+            return;
+        }
+        for inner in self.inner {
+            for run in inner.passes() {
+                push(passes, 0, if inner.is_last() { run } else { self.led_out(run) });
             }
         }
     }

@@ -1,5 +1,6 @@
 //! How the tool gets down to where a run begins.
 
+use super::clock::Clock;
 use super::room::Room;
 use super::{Entry, Kind, Leg, Run, helix, hole};
 use crate::asked::WayIn;
@@ -14,6 +15,9 @@ use vcutc_region::place::Place;
 /// so much of a line its rim passes everywhere.
 const LONG_ENOUGH: f64 = 2.0;
 
+/// How wide a circle is that leaves nothing under the tool either, in radii, but for rounding.
+const WIDE_ENOUGH: f64 = 0.999;
+
 /// How long that line is at most, in radii: longer ways down take no less time.
 const LONGEST: f64 = 12.0;
 
@@ -26,6 +30,7 @@ const SHORTEST: f64 = 0.5;
 /// How runs may begin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ways {
+    pub(super) clock: Clock,
     pub(super) entry: Auto<WayIn>,
     pub(super) hole: Option<Hole>,
 }
@@ -54,9 +59,21 @@ pub(super) fn enter(pass: &Pass, kind: Kind, ways: Ways, room: Room<'_>) -> Resu
         (line.length() >= shortest).then_some((Entry::Ramp { line }, None))
     };
     let round = || helix::near(first, room).map(|(helix, link)| (Entry::Helix { helix }, link));
+    let is_wide = |way: &(Entry, Option<Piece>)| match way.0 {
+        Entry::Helix { helix } => helix.radius() >= room.radius * WIDE_ENOUGH,
+        Entry::Ramp { .. } | Entry::Hole { .. } | Entry::Return { .. } | Entry::Open { .. } => true,
+    };
+    let time = |way: &(Entry, Option<Piece>)| {
+        let link = way.1.map(to_begin);
+        ways.clock.down(way.0) + ways.clock.of_legs(link.as_slice())
+    };
     let (entry, link) = match ways.entry {
-        // A line to and fro that is shorter than the tool is wide leaves more under the tool that its rim does not pass.
-        Auto::Auto => ramp(LONG_ENOUGH * room.radius)
+        // Along a line that is shorter than the tool is wide, and round a circle that is narrower, ground under the tool is left that its
+        // rim does not pass, along the line more than round the circle.
+        Auto::Auto => [ramp(LONG_ENOUGH * room.radius), round().filter(is_wide)]
+            .into_iter()
+            .flatten()
+            .reduce(|one, other| if time(&other) < time(&one) { other } else { one })
             .or_else(round)
             .or_else(|| ramp(SHORTEST))
             .ok_or(Why::NoWayDown { at })?,
@@ -69,13 +86,17 @@ pub(super) fn enter(pass: &Pass, kind: Kind, ways: Ways, room: Room<'_>) -> Resu
 
 /// A run that begins with a way to its first leg, if there is one.
 fn begun(entry: Entry, link: Option<Piece>, legs: Vec<Leg>) -> Run {
-    let link = link.map(|piece| Leg {
-        piece,
-        kind: Kind::Link,
-    });
     Run {
         entry,
-        legs: link.into_iter().chain(legs).collect(),
+        legs: link.map(to_begin).into_iter().chain(legs).collect(),
+    }
+}
+
+/// A way from where the tool is down to where a pass begins.
+const fn to_begin(piece: Piece) -> Leg {
+    Leg {
+        piece,
+        kind: Kind::Link,
     }
 }
 

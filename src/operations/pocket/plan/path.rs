@@ -121,10 +121,15 @@ fn round_down(helix: Helix, layer: Layer, top: f64, ramp: Angle) -> Pen {
     pen
 }
 
-fn back_and_forth(pen: &mut Pen, line: Piece, [from, to]: [f64; 2], ramp: Angle, pace: Pace) {
-    let steepest = line.length() * libm::tan(ramp.to_rad() * CARE);
+/// How often the tool goes along a line, to and fro, to get down so far, in mm, no more steeply than `ramp`, in rad.
+pub(super) fn ways_down(line: Piece, drop: f64, ramp: f64) -> u32 {
+    let steepest = line.length() * libm::tan(ramp * CARE);
     // The cast saturates, and a stock is at most 100 m high.
-    let ways = 2 * libm::ceil((from - to) / (2.0 * steepest)).max(0.0) as u32;
+    2 * libm::ceil(drop / (2.0 * steepest)).max(0.0) as u32
+}
+
+fn back_and_forth(pen: &mut Pen, line: Piece, [from, to]: [f64; 2], ramp: Angle, pace: Pace) {
+    let ways = ways_down(line, from - to, ramp.to_rad());
     for way in 1..=ways {
         let end = if way % 2 == 1 { line.to } else { line.from };
         let share = f64::from(way) / f64::from(ways);
