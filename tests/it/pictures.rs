@@ -620,7 +620,7 @@ region seat {
   island { circle (70 mm, 55 mm) radius 12 mm }
 }
 clear pocket {
-  region = seat, blade = hog, floor = 8 mm, pattern = offset, step = 10 mm
+  region = seat, blade = hog, floor = 8 mm, pattern = offset, step = 10 mm, entry = ramp
   limits { uncut <= 400 mm2 }
   feed { cut = 75 mm/s, plunge = 20 mm/s, travel = 200 mm/s, reorient = 90 deg/s }
   clearance = 10 mm

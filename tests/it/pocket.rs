@@ -291,7 +291,7 @@ fn a_program_moved_by_micrometres_enters_a_wall() {
 
 #[test]
 fn a_program_lowered_goes_below_the_floor() {
-    let outcome = compiled(&job(&plain().text(), ASKED, ""));
+    let outcome = compiled(&job(&plain().text(), ASKED, "entry = ramp"));
     let found = findings_of(&outcome, |program| {
         moved(program, |at| {
             let z = if at.z < HEIGHT - 1.0 { at.z - 0.01 } else { at.z };

@@ -229,9 +229,10 @@ proptest! {
     }
 }
 
-/// Where a line as long as the tool is wide has room it is a ramp as ever; where none has, a helix leaves less under the tool.
+/// Where a line as long as the tool is wide and a circle of its radius have room, it is the faster of both; where only the line has, a ramp;
+/// where neither has, a helix leaves less under the tool.
 #[test]
-fn a_helix_takes_the_place_of_short_ramps_only() {
+fn the_faster_way_down_is_taken_of_those_that_leave_nothing() {
     let entry = |seat: Seat, more: &str| {
         let outcome = compiled(&job(seat, 6.0, more));
         assert!(!has_errors(&outcome.diagnostics), "{:?}", outcome.diagnostics);
@@ -248,7 +249,15 @@ fn a_helix_takes_the_place_of_short_ramps_only() {
     };
     for pattern in ["offset", "zigzag", "sfs"] {
         let pattern = format!("pattern = {pattern}");
-        assert_eq!(entry(Seat::Round { radius: 20.0 }, &pattern), "ramp");
+        let wide = Seat::Round { radius: 20.0 };
+        let time = |way: &str| {
+            let outcome = compiled(&job(wide, 6.0, &format!("{pattern}\n  entry = {way}")));
+            outcome.plan.unwrap().operations[0].estimate().time.to_s()
+        };
+        let [ramp, helix, auto] = ["ramp", "helix", "auto"].map(time);
+        assert!((auto - ramp.min(helix)).abs() < 1e-9, "{auto} {ramp} {helix}");
+        let faster = if helix < ramp { "helix" } else { "ramp" };
+        assert_eq!(entry(wide, &pattern), faster);
         assert_eq!(
             entry(
                 Seat::Square {
