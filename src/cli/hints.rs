@@ -6,10 +6,11 @@ use super::patience::{HelpBudget, Timer};
 use super::snapshot::Made;
 use std::time::Duration;
 use vcutc_cancellation::Wanted;
-use vcutc_driver::Outcome;
-use vcutc_driver::hints::{Hint, hints};
+use vcutc_driver::hints::{Hint, following, hints};
+use vcutc_driver::{Compiled, Outcome};
+use vcutc_job::CheckedJob;
 
-/// Reports what would make a job faster that its machine made slow.
+/// Reports what would make a job faster that its machine made slow, and what would leave less on its part.
 pub(super) fn report(
     outcome: &Outcome,
     made: &Made,
@@ -21,13 +22,18 @@ pub(super) fn report(
         return;
     }
     let compiling: Duration = timings.iter().map(|(_, time)| *time).sum();
-    let found = found_within(outcome, console.help_budget(), compiling);
+    let search = |job: &CheckedJob, compiled: &Compiled, wanted: &Wanted| {
+        let mut found = hints(job, compiled, wanted);
+        found.extend(following(job, compiled, wanted));
+        found
+    };
+    let found = found_within(outcome, console.help_budget(), compiling, search);
     for hint in found.hints {
         console.hint(&hint, &outcome.sources);
     }
     if let Some(limit) = found.ended_after {
         console.remark(&format!(
-            "the search for changes that make this job faster ended after {:.1} s; `--help-budget {:.0}s` searches longer",
+            "the search for changes that make this job better ended after {:.1} s; `--help-budget {:.0}s` searches longer",
             limit.as_secs_f64(),
             (limit.as_secs_f64() * 10.0).ceil()
         ));
@@ -49,17 +55,22 @@ pub(super) fn of_a_page(outcome: &Outcome, budget: HelpBudget) -> Vec<Hint> {
         HelpBudget::Of(Duration::ZERO) => budget,
         HelpBudget::Of(_) | HelpBudget::Unlimited => HelpBudget::Unlimited,
     };
-    found_within(outcome, work, Duration::ZERO).hints
+    found_within(outcome, work, Duration::ZERO, hints).hints
 }
 
 /// The hints that are found in that time, or in the time that the job took; none where no time is given at all.
-fn found_within(outcome: &Outcome, budget: HelpBudget, compiling: Duration) -> Found {
+fn found_within(
+    outcome: &Outcome,
+    budget: HelpBudget,
+    compiling: Duration,
+    search: impl Fn(&CheckedJob, &Compiled, &Wanted) -> Vec<Hint>,
+) -> Found {
     let (Some(job), Some(compiled)) = (&outcome.job, &outcome.compiled) else {
         return Found::default();
     };
     match budget {
         HelpBudget::Unlimited => Found {
-            hints: hints(job, compiled, &Wanted::ALWAYS),
+            hints: search(job, compiled, &Wanted::ALWAYS),
             ended_after: None,
         },
         HelpBudget::Of(Duration::ZERO) => Found::default(),
@@ -68,7 +79,7 @@ fn found_within(outcome: &Outcome, budget: HelpBudget, compiling: Duration) -> F
             let (wanted, interest) = Wanted::while_held();
             let _timer = Timer::start(limit, interest);
             Found {
-                hints: hints(job, compiled, &wanted),
+                hints: search(job, compiled, &wanted),
                 ended_after: wanted.is_needless().then_some(limit),
             }
         }

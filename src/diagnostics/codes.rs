@@ -151,6 +151,8 @@ codes! {
     FieldBesideFitted = "VC0249", Error, "field that does not go with fitted tips";
     /// A field of `clear pocket` that its pattern does not use.
     FieldOfAnotherPattern = "VC0250", Error, "field of another pattern";
+    /// A part that rises more steeply than the ways that cuts follow over it.
+    SteeperThanCuts = "VC0251", Warning, "part steeper than its cuts";
 
     /// A job that leaves nothing to cut.
     NothingToCut = "VC0301", Error, "nothing to cut";

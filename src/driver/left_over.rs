@@ -21,8 +21,9 @@ pub struct LeftOver {
     pub shaded: Volume,
     /// Below what that lies.
     pub below: Below,
-    /// What cuts that are infinitely close would leave at most, where level ones leave much more than they would along a spine.
-    pub follow: Option<Compared>,
+    /// How high material stays above the part at most where level cuts are infinitely close, as a grid of its heights shows; where it
+    /// would be much less along a spine.
+    pub level: Option<Length>,
 }
 
 /// What cuts cannot go below, however close they are.
@@ -36,31 +37,19 @@ pub enum Below {
     Curves,
 }
 
-/// How high material stays above a part at most, as a grid of its heights shows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Compared {
-    pub level: Length,
-    pub along: Length,
-}
-
 /// Level cuts leave much more where they leave so many times as much, and that is more than so many mm.
 const MUCH: (f64, f64) = (2.0, 1.0);
 
-impl Compared {
-    /// None where the machine cannot pitch blades.
-    fn of(part: &Part, machine: Option<&Machine>) -> Option<Self> {
-        if machine.is_some_and(|machine| !machine.turns_planes()) {
-            return None;
-        }
-        let surface = part.surface().filter(|_| part.guide().is_none())?;
-        let (times, least) = MUCH;
-        let level = surface.left_by_straight_cuts();
-        let along = part.fitted(Rising::Freely)?.leaves;
-        (level > times * along && level > least).then(|| Self {
-            level: Length::mm(level),
-            along: Length::mm(along),
-        })
+/// What level cuts leave, where that is much; none where the machine cannot pitch blades.
+fn left_by_level_cuts(part: &Part, machine: Option<&Machine>) -> Option<Length> {
+    if machine.is_some_and(|machine| !machine.turns_planes()) {
+        return None;
     }
+    let surface = part.surface().filter(|_| part.guide().is_none())?;
+    let (times, least) = MUCH;
+    let level = surface.left_by_straight_cuts();
+    let along = part.fitted(Rising::Freely)?.leaves;
+    (level > times * along && level > least).then(|| Length::mm(level))
 }
 
 impl LeftOver {
@@ -90,7 +79,7 @@ impl LeftOver {
             all,
             shaded,
             below: lies_below,
-            follow: Compared::of(part, job.machine.as_ref()),
+            level: left_by_level_cuts(part, job.machine.as_ref()),
         })
     }
 }

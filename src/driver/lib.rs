@@ -12,6 +12,7 @@ pub mod checks;
 mod compensation;
 pub mod dynamics;
 mod emitting;
+pub mod families;
 pub mod hints;
 mod home;
 pub mod left_over;
@@ -46,7 +47,8 @@ use crate::memory::Memory;
 use crate::numbers::Numbers;
 use crate::summary::chosen::{self, OperationFigures};
 use crate::summary::times::{TimeFigures, figures as time_figures};
-use crate::summary::{summary, with_processes, with_surface};
+use crate::summary::{summary, with_choices, with_surface};
+use families::{Chosen, ComparedFamily};
 use refusal::{NotTaken, Refused, Unhelped};
 use routes::{Ended, Made};
 use trials::{Machine, Trials};
@@ -148,6 +150,8 @@ pub struct Outcome {
     pub compiled: Option<Compiled>,
     /// How other ways to do its operations compare, where the job leaves that open.
     pub comparisons: Vec<Comparison>,
+    /// How other ways for its cuts to follow the part compare, the one that is taken first, where the job leaves that open.
+    pub families: Vec<ComparedFamily>,
     /// The targets of this build that drive the job's machine.
     pub drivers: Vec<&'static str>,
 }
@@ -313,8 +317,8 @@ pub fn decided(job: CheckedJob, wanted: &Wanted) -> CheckedJob {
         wanted,
         patience: &mut Unhurried,
     };
-    let decided = ways::decided(&job, &SourceMap::default(), &mut run, &mut |_| ());
-    decided.map_or(job, |decided| decided.job)
+    let chosen = families::decided(&job, &SourceMap::default(), &mut run, &mut |_| ());
+    chosen.map_or(job, |chosen| chosen.decided.job)
 }
 
 /// Compiles a job that was checked before, perhaps changed since. None where it has errors, or is not wanted any more.
@@ -339,10 +343,11 @@ fn plan_and_prove(
 ) {
     let mut made = None;
     if let Some(job) = &outcome.job
-        && let Some(decided) = ways::decided(job, &outcome.sources, run, progress)
+        && let Some(Chosen { decided, families }) = families::decided(job, &outcome.sources, run, progress)
     {
         outcome.job = Some(decided.job);
         outcome.comparisons = decided.comparisons;
+        outcome.families = families;
         made = decided.made;
     }
     let Some(job) = &outcome.job else { return };
@@ -369,12 +374,13 @@ fn plan_and_prove(
             outcome.diagnostics.extend(much_stays);
             outcome.diagnostics.extend(warned.into_iter().flatten());
             let mut compiled = *compiled;
-            with_processes(&mut compiled.summary, &outcome.comparisons);
+            with_choices(&mut compiled.summary, &outcome.families, &outcome.comparisons);
             (outcome.plan, outcome.compiled) = (Some(*plan), Some(compiled));
         }
         Ended::Refused(refused) => {
             let before = (&outcome.sources, outcome.diagnostics.as_slice());
-            let found = helped(job, &refused, before, request, run, progress);
+            let mut found = helped(job, &refused, before, request, run, progress);
+            summary::families::explain(&mut found, &outcome.families);
             outcome.plan = refused.into_plan();
             outcome.diagnostics.extend(found);
         }

@@ -99,6 +99,10 @@ impl<'j> Search<'j, '_, '_> {
     fn followed(mut self, mut plan: PlannedJob) -> Ended<'j> {
         let mut refused: Option<Box<NotCarriedOut>> = None;
         loop {
+            // Proofs of long programs take as long as their plans.
+            if self.run.wanted.is_needless() {
+                return Ended::Cancelled;
+            }
             if self.settled.is_none() {
                 self.settled = plan::settled(self.job, &plan);
             }
@@ -111,6 +115,9 @@ impl<'j> Search<'j, '_, '_> {
                 (Err(Refused::Unsound(..)), Some(before)) => return unreached(before),
                 (Err(why), _) => return Ended::Refused(why),
             };
+            if self.run.wanted.is_needless() {
+                return Ended::Cancelled;
+            }
             let changes = self.fallback.changes(&sound.plan);
             let this = match self.carried_out(sound, changes) {
                 Ok(made) => return self.or_faster(made),
@@ -215,6 +222,9 @@ impl<'j> Search<'j, '_, '_> {
         let Ok(plan) = self.run.memory.choose(within, space, self.run.wanted) else {
             return Narrower::Slower;
         };
+        if self.run.wanted.is_needless() {
+            return Narrower::Slower;
+        }
         let Ok(sound) = self.proven(reaching::as_asked(plan, self.job)) else {
             return Narrower::Slower;
         };

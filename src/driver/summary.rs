@@ -2,11 +2,13 @@
 
 pub mod air;
 pub mod chosen;
+pub(crate) mod families;
 pub mod processes;
 pub mod times;
 
 use crate::checks::Checks;
-use crate::left_over::{Below, Compared, LeftOver};
+use crate::families::ComparedFamily;
+use crate::left_over::{Below, LeftOver};
 use crate::ways::Comparison;
 use vcutc_backend_api::ir::Site;
 use vcutc_backend_api::script::duration_words;
@@ -164,7 +166,7 @@ pub(crate) fn with_surface(
         all,
         shaded,
         below,
-        follow,
+        level,
     }) = left_over
     else {
         return lines;
@@ -197,14 +199,13 @@ pub(crate) fn with_surface(
         }
     };
     lines.push(row("shadow", &format!("{} of that lie {why}", litres(*shaded))));
-    if let Some(Compared { level, along }) = follow {
+    if let Some(level) = level {
         lines.push(row(
             "follow",
             &format!(
-                "there up to {:.2} mm stay above the part; cuts of `rough vcut` that rise and fall with it, `follow = spine`, leave about \
-                 {:.2} mm",
-                level.to_mm(),
-                along.to_mm()
+                "there up to {:.2} mm stay above the part; `follow = auto` of `rough vcut` looks for cuts that rise and fall with it and \
+                 leave less",
+                level.to_mm()
             ),
         ));
     }
@@ -235,10 +236,13 @@ fn litres(volume: Volume) -> String {
     format!("{:.3} l", volume.to_litres())
 }
 
-/// Adds what there is to say of other ways to do its operations, after what is said of these.
-pub(crate) fn with_processes(lines: &mut Vec<String>, comparisons: &[Comparison]) {
+/// Adds what there is to say of what the job leaves open as a whole: how its cuts follow the part, and ways to do its operations.
+pub(crate) fn with_choices(lines: &mut Vec<String>, families: &[ComparedFamily], comparisons: &[Comparison]) {
     let at = lines.len().min(2);
-    lines.splice(at..at, processes::lines(comparisons));
+    let choices = families::lines(families)
+        .into_iter()
+        .chain(processes::lines(comparisons));
+    lines.splice(at..at, choices);
 }
 
 /// `at least 3.20 mm above the stock in cuts, nearest in layer 7, cut 12`.

@@ -6,7 +6,7 @@
 
 use super::compensation;
 use super::routes::Ended;
-use super::{Outcome, Request, Run, Unhurried, compile_unhelped, target, ways};
+use super::{Outcome, Request, Run, Unhurried, compile_unhelped, families, target};
 use crate::memory::Memory;
 use std::collections::{BTreeMap, BTreeSet};
 use vcutc_cancellation::Wanted;
@@ -105,8 +105,8 @@ impl<'t> Trials<'t> {
             wanted: &self.budget.wanted,
             patience: &mut Unhurried,
         };
-        let decided = ways::decided(&job, &sources, &mut run, &mut |_| ());
-        let (job, made) = decided.map_or((job, None), |decided| (decided.job, decided.made));
+        let chosen = families::decided(&job, &sources, &mut run, &mut |_| ());
+        let (job, made) = chosen.map_or((job, None), |chosen| (chosen.decided.job, chosen.decided.made));
         let ended = compensation::ended(made, &job, &sources, &mut run, &mut |_| ());
         let (plan, left) = match ended {
             Ended::Compiled(made) => {

@@ -53,7 +53,7 @@ pub struct WayFigures {
     pub planned: PlanTime,
 }
 
-/// A job with all choices made.
+/// A job whose operations are each done in one way.
 pub(super) struct Decided {
     pub(super) job: CheckedJob,
     pub(super) comparisons: Vec<Comparison>,
@@ -145,6 +145,6 @@ fn figures(made: &Made, operation: usize) -> Came {
     })
 }
 
-fn first_error(found: Vec<Diagnostic>) -> Option<Diagnostic> {
+pub(super) fn first_error(found: Vec<Diagnostic>) -> Option<Diagnostic> {
     found.into_iter().find(|one| one.severity() == Severity::Error)
 }

@@ -1,5 +1,6 @@
 //! How cuts follow a part that changes along y.
 
+use crate::{Auto, Sourced};
 use std::sync::Arc;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_geometry::columns::Columns;
@@ -18,13 +19,57 @@ pub enum Follow {
     Fan,
     /// Each rises and falls along a polyline of its own.
     Columns,
-    /// The first of these that leaves hardly more than the best.
+    /// As the best of these does, which planning finds out.
     Auto,
+}
+
+/// A way for all cuts of a job to follow its part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Family {
+    /// [`Follow::Straight`].
+    Straight,
+    /// [`Follow::Pitched`].
+    Pitched,
+    /// [`Follow::Spine`].
+    Spine,
+    /// [`Follow::Fan`].
+    Fan,
+    /// [`Follow::Columns`].
+    Columns,
 }
 
 crate::words! {
     Follow {
         Straight = "straight", Pitched = "pitched", Spine = "spine", Fan = "fan", Columns = "columns", Auto = "auto"
+    }
+    Family {
+        Straight = "straight", Pitched = "pitched", Spine = "spine", Fan = "fan", Columns = "columns"
+    }
+}
+
+impl Follow {
+    /// The family that it names; none where the choice is left open.
+    #[must_use]
+    pub const fn family(self) -> Option<Family> {
+        match self {
+            Self::Straight => Some(Family::Straight),
+            Self::Pitched => Some(Family::Pitched),
+            Self::Spine => Some(Family::Spine),
+            Self::Fan => Some(Family::Fan),
+            Self::Columns => Some(Family::Columns),
+            Self::Auto => None,
+        }
+    }
+}
+
+impl Sourced<Follow> {
+    /// The family, as a value that may be left to the compiler.
+    #[must_use]
+    pub fn open(self) -> Sourced<Auto<Family>> {
+        Sourced {
+            value: self.value.family().map_or(Auto::Auto, Auto::Given),
+            span: self.span,
+        }
     }
 }
 

@@ -20,6 +20,7 @@ pub use operation::planned::{self, PlannedJob, PlannedOperation};
 pub use operation::planning::PlanningJob;
 pub use operation::{Operation, search};
 pub use regions::{Hole, NamedRegion, SoundField, Sources};
+pub use sema::families::Candidate;
 pub use sema::part::{Part, Shaded};
 pub use setup::Setup;
 pub use tools::{HeldChange, HeldTool, HeldTools};
@@ -76,6 +77,9 @@ pub struct CheckedJob {
     pub operations: Vec<Box<dyn Operation>>,
     /// Which of the operations may be done otherwise: each stands here in its first way.
     pub open: Vec<ways::OpenChoice>,
+    /// How all cuts may follow the part, in the order in which that is tried, where the job leaves it open. The operations stand here with
+    /// level cuts then.
+    pub families: Vec<Candidate>,
     /// How hard the best of what it leaves open is searched for.
     pub effort: SearchEffort,
     /// On what: the one that `cell` names, else the one in the job's own file, else the only one there is.

@@ -11,7 +11,7 @@ pub mod planned;
 pub mod planning;
 pub mod search;
 
-use super::follow::{Follow, Guide};
+use super::follow::{Family, Follow, Guide};
 use super::{BladeRef, Setup, Sourced};
 use core::any::Any;
 use core::fmt::Debug;
@@ -87,6 +87,19 @@ pub trait Operation: OperationValue + Any + Debug + Send + Sync {
         })
     }
 
+    /// The same operation with its cuts made to follow the part so; as it is where that is nothing that it has to choose.
+    ///
+    /// # Errors
+    /// What else it asks that does not go with that.
+    fn following(&self, _family: Family) -> Result<Box<dyn Operation>, Box<Diagnostic>> {
+        Ok(self.copied())
+    }
+
+    /// The same operation with it left open how its cuts follow the part; none where that is nothing that it has to choose, or is open.
+    fn following_best(&self) -> Option<Variant> {
+        None
+    }
+
     /// Makes its cuts follow what they follow in this job: those of all its operations follow the part alike.
     /// `others` is the longest edge of the straight blades of the other operations, if there are any.
     fn go_along(&mut self, _guide: &Guide, _others: Option<Length>) {}
@@ -139,13 +152,17 @@ pub trait Operation: OperationValue + Any + Debug + Send + Sync {
     }
 }
 
-/// What open parameters are to make least, as far as other stages care.
+/// What open parameters are to make least.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aim {
     /// The time.
     Time,
-    /// Something else.
-    Otherwise,
+    /// What stays on the part.
+    Scallop,
+    /// The number of cuts.
+    Cuts,
+    /// The longest edge in use.
+    Edge,
 }
 
 /// Whether the compiler chooses the swing.

@@ -12,6 +12,7 @@ mod cell;
 mod decimal_comma;
 mod described;
 pub mod eval;
+pub mod families;
 pub mod field_ranges;
 pub mod fields;
 mod files;
@@ -273,7 +274,7 @@ fn whole(
         stock: stock.node,
         machine: machine.as_ref(),
     };
-    let part = follow::decide(asked, &mut ways, &mut session.reports)?;
+    let follow::Decided { part, families } = follow::decide(asked, &mut ways, &mut session.reports)?;
     let open = ways.iter().enumerate().filter(|(_, ways)| ways.are_several());
     let open = open.map(|(operation, ways)| OpenChoice {
         operation,
@@ -289,6 +290,7 @@ fn whole(
         profile_span: place,
         effort: said.effort,
         open: open.collect(),
+        families,
         operations: ways.into_iter().map(|ways| ways.into_first().operation).collect(),
         machine,
     })

@@ -33,7 +33,7 @@ const HALVINGS: u32 = 9;
 /// A speed below the highest one that is followed, as a share of it: the axes may not follow all motions at that one.
 const BELOW: f64 = 0.92;
 
-/// A change that was tried and saves time.
+/// A change that was tried and makes the job better.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hint {
     /// What it does, such as `` `reorient = 65 deg/s` saves 31 % (26 min 58.2 s) ``, and what to write where; without edits where that
@@ -41,7 +41,7 @@ pub struct Hint {
     pub fix: Fix,
     /// How long the changed job takes.
     pub time: Duration,
-    /// The share of the time that this saves, from 0 to 1.
+    /// The share of the time that this saves, up to 1; below 0 where it takes longer.
     pub saved: f64,
 }
 

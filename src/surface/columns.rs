@@ -8,6 +8,10 @@
 //! a triangle that is `E(t) = E0 + (E1 - E0) t + dm dy t (1 - t)`, by how slope and place change along the edge; in the inside a
 //! bilinear function has no extreme (derived here).
 
+mod steep;
+
+pub use steep::Steep;
+
 use crate::coverage::Tangled;
 use crate::knots::{Place, Rule, knots};
 use crate::residual::{Machined, Volume};
@@ -153,7 +157,10 @@ impl Shape {
     fn straight(strips: &Strips, surface: &Surface) -> Option<Self> {
         let [_, depth] = surface.size();
         let sections: Vec<Vec<[f64; 2]>> = (0..=strips.count).map(|plane| strips.section(plane)).collect();
-        let slopes: Option<Vec<f64>> = sections.iter().map(|section| nearest_slope(section)).collect();
+        let slopes: Option<Vec<f64>> = sections
+            .iter()
+            .map(|section| Some(nearest_slope(section, Spine::STEEPEST)?.clamp(-STEEPEST, STEEPEST)))
+            .collect();
         let slopes = slopes?;
         let mut leaves = 0.0_f64;
         let mut lines = Vec::with_capacity(sections.len());
@@ -428,14 +435,14 @@ fn smoothed(values: &[f64], place: usize) -> f64 {
     near.iter().sum::<f64>() / near.len() as f64
 }
 
-/// The slope of the straight line nearest to a section: how wide its strip is, is convex in the slope.
-fn nearest_slope(section: &[[f64; 2]]) -> Option<f64> {
+/// The slope of the straight line nearest to a section, of all up to a bound: how wide its strip is, is convex in the slope.
+fn nearest_slope(section: &[[f64; 2]], bound: f64) -> Option<f64> {
     section.first()?;
     let wide = |slope: f64| {
         let [least, most] = range(section.iter().map(|[y, z]| z - slope * y));
         most - least
     };
-    let (mut low, mut high) = (-Spine::STEEPEST, Spine::STEEPEST);
+    let (mut low, mut high) = (-bound, bound);
     for _ in 0..NARROWINGS {
         let third = (high - low) / 3.0;
         if wide(low + third) <= wide(high - third) {
@@ -444,7 +451,7 @@ fn nearest_slope(section: &[[f64; 2]]) -> Option<f64> {
             low += third;
         }
     }
-    Some(f64::midpoint(low, high).clamp(-STEEPEST, STEEPEST))
+    Some(f64::midpoint(low, high))
 }
 
 #[cfg(test)]

@@ -38,6 +38,7 @@ mod drawn;
 mod effort;
 #[cfg(feature = "krl")]
 mod examples;
+mod families;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]
 mod finish;
 #[cfg(all(feature = "gcode", feature = "krl", feature = "rapid"))]

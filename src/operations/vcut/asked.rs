@@ -4,7 +4,7 @@ use std::sync::Arc;
 use vcutc_backend_api::units::{Angle, Duration, Length};
 use vcutc_diagnostics::source::Span;
 use vcutc_geometry::curve::Point2;
-use vcutc_job::follow::{Along, Follow};
+use vcutc_job::follow::{Along, Family, Follow};
 use vcutc_job::{Auto, Bounds, Order, Setup, Sourced, StraightBlade, words};
 
 /// V-shaped roughing. Ranges given here are checked.
@@ -49,9 +49,11 @@ pub struct RoughVcut {
     pub standoff: Sourced<Auto<Length>>,
     /// How the cuts follow a part that changes along y. Default `straight`.
     pub follow: Sourced<Follow>,
+    /// The family of ways that they follow it by: the one that the job names, or the one that was chosen.
+    pub family: Family,
     /// What tips are offset against. Default `nothing`.
     pub compensate: Sourced<Compensate>,
-    /// What that came to; none where the cuts are level.
+    /// What the cuts follow; none where they are level.
     pub along: Option<Along>,
 }
 

@@ -1,20 +1,21 @@
 //! `rough vcut { ... }`: V-shaped roughing.
 
 mod fitted;
+mod follow;
 mod limits_block;
 #[cfg(test)]
 mod tests;
 mod tips;
 
+pub(crate) use follow::NARROWEST_ALONG;
+
 use crate::asked::{
     Avoid, Compensate, Formulas, Lattice, Objective, Redundant, Residual, RoughVcut, Sequence,
 };
-use crate::operation::NARROWEST_ALONG;
-use vcutc_backend_api::units::{Angle, Length};
-use vcutc_diagnostics::number::show;
-use vcutc_diagnostics::source::Span;
-use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_job::follow::Follow;
+use vcutc_backend_api::units::Length;
+use vcutc_diagnostics::Diagnostic;
+use vcutc_job::Order;
+use vcutc_job::follow::{Family, Follow};
 use vcutc_job::operation::Operation;
 use vcutc_job::sema::field_ranges::{DISTANCE, OVERLAP, SIZE, SWING};
 use vcutc_job::sema::fields::{BlockSpec, Fields, Inner, Takes, block, points, value};
@@ -24,7 +25,6 @@ use vcutc_job::sema::report::Checked;
 use vcutc_job::sema::session::Session;
 use vcutc_job::sema::setup;
 use vcutc_job::sema::written::Written;
-use vcutc_job::{Auto, Order};
 
 /// Its fields.
 pub const SPEC: BlockSpec = BlockSpec {
@@ -99,81 +99,9 @@ impl Kind for Vcut {
     }
 }
 
-/// A value that only level cuts take, of an operation whose cuts follow a spine.
-struct LevelOnly {
-    field: &'static str,
-    value: &'static str,
-    span: Option<Span>,
-    label: &'static str,
-    /// What the other value does, and its word.
-    instead: (&'static str, &'static str),
-}
-
-impl LevelOnly {
-    fn refused(self, operation: &RoughVcut) -> Diagnostic {
-        let Self { field, value, .. } = self;
-        let head = operation.setup.head_span;
-        let place = self.span.unwrap_or(head);
-        let word = operation.follow.value.word();
-        let (title, other) = self.instead;
-        Diagnostic::new(
-            Code::CannotFollow,
-            format!("`{field} = {value}` does not go with `follow = {word}`"),
-            place,
-            self.label,
-        )
-        .and(
-            operation.follow.span.unwrap_or(head),
-            "these cuts rise and fall with the part",
-        )
-        .help(format!("delete `{field}`, or cut straight"))
-        .fix(format!("{title}: `{other}`"), place, other)
-    }
-}
-
-/// Narrower flanks along a spine.
-fn narrower_along(operation: &RoughVcut) -> Diagnostic {
-    let narrower = LevelOnly {
-        field: "avoid",
-        value: Avoid::Swing.word(),
-        span: operation.avoid.span,
-        label: "narrower flanks are cut straight only",
-        instead: ("raise tips where Vs do not fit", Avoid::Lift.word()),
-    };
-    narrower.refused(operation)
-}
-
-/// Tips offset along a spine.
-fn compensated_along(operation: &RoughVcut) -> Diagnostic {
-    let compensated = LevelOnly {
-        field: "compensate",
-        value: Compensate::Forces.word(),
-        span: operation.compensate.span,
-        label: "only tips of level cuts are offset",
-        instead: (
-            "leave the tips where they are planned",
-            Compensate::Nothing.word(),
-        ),
-    };
-    compensated.refused(operation)
-}
-
-/// A swing with which a blade that is off its spine by a little spoils much of its flank.
-fn too_narrow_along(operation: &RoughVcut, swing: Angle) -> Diagnostic {
-    let head = operation.setup.head_span;
-    let word = operation.follow.value.word();
-    let (swing, least) = (show(swing.to_deg()), show(NARROWEST_ALONG.to_deg()));
-    Diagnostic::new(
-        Code::CannotFollow,
-        format!("a swing of {swing} deg is too narrow for `follow = {word}`"),
-        operation.swing.span.unwrap_or(head),
-        format!("cuts that rise and fall take at least {least} deg"),
-    )
-    .and(
-        operation.follow.span.unwrap_or(head),
-        "these cuts rise and fall with the part",
-    )
-    .help(format!("use a `swing` of at least {least} deg, or cut straight"))
+/// What an operation asks for that does not go with how its cuts follow the part.
+pub(crate) fn beside_level(operation: &RoughVcut) -> Option<Diagnostic> {
+    follow::misfit(operation).or_else(|| fitted::beside_fitted(operation))
 }
 
 fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> {
@@ -209,6 +137,7 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
     let standoff = reader.auto(&fields, "standoff");
     let follow = reader.choice(&fields, "follow", Follow::WORDS);
     let compensate = reader.choice(&fields, "compensate", Compensate::WORDS);
+    let follow = follow?.unwrap_or(default(Follow::Straight));
     let operation = RoughVcut {
         setup: setup?,
         blade: blade?,
@@ -228,23 +157,12 @@ fn check(written: Written<'_>, session: &mut Session<'_>) -> Checked<RoughVcut> 
         order: order?,
         sequence: sequence?,
         standoff: standoff?,
-        follow: follow?.unwrap_or(default(Follow::Straight)),
+        follow,
+        family: follow.value.family().unwrap_or(Family::Straight),
         compensate: compensate?.unwrap_or(default(Compensate::Nothing)),
         along: None,
     };
-    if operation.avoid.value == Avoid::Swing && operation.follow.value != Follow::Straight {
-        return Err(session.reports.push(narrower_along(&operation)));
-    }
-    if let Auto::Given(swing) = operation.swing.value
-        && swing < NARROWEST_ALONG
-        && operation.follow.value != Follow::Straight
-    {
-        return Err(session.reports.push(too_narrow_along(&operation, swing)));
-    }
-    if operation.compensate.value == Compensate::Forces && operation.follow.value != Follow::Straight {
-        return Err(session.reports.push(compensated_along(&operation)));
-    }
-    if let Some(refused) = fitted::beside_fitted(&operation) {
+    if let Some(refused) = beside_level(&operation) {
         return Err(session.reports.push(refused));
     }
     match given? {

@@ -46,7 +46,7 @@ use vcutc_backend_api::units::{Area, Duration, Length};
 use vcutc_cancellation::Effort;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_job::Auto;
-use vcutc_job::follow::Follow;
+use vcutc_job::follow::Family;
 use vcutc_job::operation::{self, Ground};
 use vcutc_job::search::RouteSet;
 use vcutc_simulation::surface::Surface;
@@ -492,7 +492,7 @@ fn lattices(bench: &Bench<'_>, asked: &RoughVcut) -> Vec<Lattice> {
 fn is_fitted_open(bench: &Bench<'_>, asked: &RoughVcut) -> bool {
     asked.lattice.value == Auto::Auto
         && asked.residual.value == Auto::Auto
-        && asked.follow.value == Follow::Straight
+        && asked.family == Family::Straight
         && asked.limits.layer.least.is_none()
         && asked.limits.step.least.is_none()
         && asked.limits.scallop.is_some()

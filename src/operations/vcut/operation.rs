@@ -1,14 +1,16 @@
 //! V-shaped roughing as an operation of a job.
 
 use crate::asked::{Avoid, Compensate, Objective, Residual, RoughVcut};
-use crate::choice;
+use crate::check::NARROWEST_ALONG;
 use crate::plan::{PlannedVcut, parameters};
+use crate::{check, choice};
 use core::any::Any;
 use vcutc_backend_api::units::{Angle, Length};
 use vcutc_cancellation::Effort;
+use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::source::Span;
-use vcutc_job::follow::{Along, Follow, Guide};
+use vcutc_job::follow::{Along, Family, Follow, Guide};
 use vcutc_job::operation::less::Leaves;
 use vcutc_job::operation::{Aim, Ground, Laid, Operation, Settled, Swing, Unplanned, Variant, Variation};
 use vcutc_job::{Auto, BladeRef, Order, PlannedOperation, Setup, Sourced};
@@ -16,9 +18,6 @@ use vcutc_process::lower::BLEND;
 
 /// By how many degrees the swing is made smaller, one after the other.
 const SMALLER: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
-
-/// The smallest swing of cuts that are not level ([`vcutc_geometry::spine::Spine::STEEPEST_FLANK`]).
-pub(crate) const NARROWEST_ALONG: Angle = Angle::deg(5.0);
 
 impl RoughVcut {
     /// An operation that is V-shaped roughing.
@@ -145,7 +144,7 @@ impl Operation for RoughVcut {
     }
 
     fn compensating(&self) -> Option<Variant> {
-        if self.compensate.value == Compensate::Forces || self.follow.value != Follow::Straight {
+        if self.compensate.value == Compensate::Forces || self.family != Family::Straight {
             return None;
         }
         let mut operation = self.clone();
@@ -193,6 +192,30 @@ impl Operation for RoughVcut {
         Some(self.follow)
     }
 
+    fn following(&self, family: Family) -> Result<Box<dyn Operation>, Box<Diagnostic>> {
+        let operation = Self {
+            family,
+            ..self.clone()
+        };
+        match check::beside_level(&operation) {
+            Some(refused) => Err(Box::new(refused)),
+            None => Ok(Box::new(operation)),
+        }
+    }
+
+    fn following_best(&self) -> Option<Variant> {
+        if self.follow.value == Follow::Auto {
+            return None;
+        }
+        let mut operation = self.clone();
+        operation.follow.value = Follow::Auto;
+        Some(Variant {
+            advice: "let the cuts follow the part as suits it best: `follow = auto`".to_owned(),
+            edits: self.setup.stated("follow", self.follow.span, Follow::Auto.word()),
+            operation: Box::new(operation),
+        })
+    }
+
     fn go_along(&mut self, guide: &Guide, others: Option<Length>) {
         let angle = self.setup.rake.value - self.blade.half_apex.value;
         // Wider Vs would lay the shank down where cuts fall.
@@ -226,7 +249,9 @@ impl Operation for RoughVcut {
     fn aim(&self) -> Aim {
         match self.objective.value {
             Objective::Time => Aim::Time,
-            Objective::Scallop | Objective::Cuts | Objective::BladeLoad => Aim::Otherwise,
+            Objective::Scallop => Aim::Scallop,
+            Objective::Cuts => Aim::Cuts,
+            Objective::BladeLoad => Aim::Edge,
         }
     }
 

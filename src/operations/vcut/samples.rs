@@ -11,7 +11,7 @@ use vcutc_backend_api::ir::{Edges, Stock};
 use vcutc_backend_api::units::{Angle, AngularSpeed, Length, Speed};
 use vcutc_diagnostics::source::{SourceMap, Span};
 use vcutc_geometry::curve::Point2;
-use vcutc_job::follow::Follow;
+use vcutc_job::follow::{Family, Follow};
 use vcutc_job::search::SearchEffort;
 use vcutc_job::{Auto, CheckedJob, Direction, Order, Part, PlannedJob, Setup, Sourced, StraightBlade};
 
@@ -46,6 +46,7 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
         part: Part::through(profile).unwrap(),
         profile_span: span,
         open: Vec::new(),
+        families: Vec::new(),
         operations: vec![Box::new(RoughVcut {
             setup: Setup {
                 head_span: span,
@@ -85,6 +86,7 @@ pub fn paper_job(profile: Vec<Point2>) -> CheckedJob {
             sequence: given(Auto::Given(Sequence::Rows)),
             standoff: given(Auto::Auto),
             follow: given(Follow::Straight),
+            family: Family::Straight,
             compensate: given(Compensate::Nothing),
             along: None,
         })],

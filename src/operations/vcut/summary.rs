@@ -74,9 +74,7 @@ fn followed(asked: &RoughVcut) -> Option<String> {
     }
     let Some(along) = &asked.along else {
         let why = match asked.follow.value {
-            Follow::Auto => {
-                "hardly anything less would stay otherwise, or the machine cannot pitch the blade"
-            }
+            Follow::Auto => "no other cuts leave much less, or keep to what the job asks as fast",
             _ => "no way that the blade can follow leaves less",
         };
         return Some(format!("straight: {why}"));
@@ -247,8 +245,8 @@ pub(crate) fn parameters(vcut: &PlannedVcut) -> Vec<ParameterFigure> {
         all.push(ParameterFigure::fixed("avoid", &asked.avoid, avoid));
     }
     if asked.follow.value != Follow::Straight {
-        let follow = word(asked.follow.value.word());
-        all.push(ParameterFigure::fixed("follow", &asked.follow, follow));
+        let family = word(asked.family.word());
+        all.push(ParameterFigure::open("follow", &asked.follow.open(), family));
     }
     all.extend(speeds(asked));
     all

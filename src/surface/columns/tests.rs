@@ -132,3 +132,23 @@ proptest! {
         }
     }
 }
+
+/// The steepest place is where the formula is steepest, and what is not steeper than ways may be is not reported.
+#[test]
+fn what_is_steeper_than_ways_is_found() {
+    let angle = |slope: f64| libm::atan(slope).to_degrees();
+    let ramp = over([60, 100], &|x, y| 5.0 + y * (0.5 + x / 1000.0));
+    assert_eq!(ramp.steeper_than_ways(Each::Curved), None);
+    let steeper = over([60, 100], &|x, y| 5.0 + y * (0.9 + x / 1000.0));
+    for (each, most) in [(Each::Straight, 1.5), (Each::Curved, 1.5)] {
+        let found = steeper.steeper_than_ways(each).unwrap();
+        assert!((found.angle.to_deg() - angle(most)).abs() < 0.5, "{found:?}");
+        assert!(found.place[0] > 580.0, "{found:?}");
+    }
+    // A step is between two rows, 10 mm apart; the line nearest to it is flat.
+    let step = over([20, 100], &|_, y| if y < 500.0 { 20.0 } else { 60.0 });
+    let found = step.steeper_than_ways(Each::Curved).unwrap();
+    assert!((found.angle.to_deg() - angle(4.0)).abs() < 1e-6, "{found:?}");
+    assert!((490.0..=500.0).contains(&found.place[1]), "{found:?}");
+    assert_eq!(step.steeper_than_ways(Each::Straight), None);
+}

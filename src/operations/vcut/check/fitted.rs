@@ -4,10 +4,10 @@ use crate::asked::{Avoid, Formulas, Lattice, RoughVcut};
 use vcutc_diagnostics::source::Span;
 use vcutc_diagnostics::{Code, Diagnostic};
 use vcutc_job::Auto;
-use vcutc_job::follow::Follow;
+use vcutc_job::follow::Family;
 
 /// A field that has no meaning for fitted tips, or that asks for others.
-pub(super) fn beside_fitted(operation: &RoughVcut) -> Option<Diagnostic> {
+pub(crate) fn beside_fitted(operation: &RoughVcut) -> Option<Diagnostic> {
     let head = operation.setup.head_span;
     let is_fitted = operation.lattice.value == Auto::Given(Lattice::Fitted);
     let (written, span, why) = misfit(operation).filter(|_| is_fitted)?;
@@ -37,8 +37,8 @@ fn misfit(operation: &RoughVcut) -> Option<(String, Option<Span>, &'static str)>
         let why = "all fitted tips have the swing of the operation";
         return Some((written, operation.avoid.span, why));
     }
-    if operation.follow.value != Follow::Straight {
-        let written = format!("follow = {}", operation.follow.value.word());
+    if operation.family != Family::Straight {
+        let written = format!("follow = {}", operation.family.word());
         return Some((written, operation.follow.span, "fitted tips are cut level"));
     }
     if operation.formulas.value == Formulas::Paper {
