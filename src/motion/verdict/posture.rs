@@ -28,14 +28,42 @@ pub(super) fn lacks_an_axis(
         orientation: held,
     });
     let turned = five_axis.blade_turned(&rig.flange_in_root(&blade_in_work))?;
-    Some(diagnostic(machine, five_axis, place, turned))
-}
-
-fn diagnostic(machine: &Machine, five_axis: &FiveAxis, place: &str, turned: f64) -> Diagnostic {
     let name = &machine.model.name;
     let angle = show(turned.abs().to_degrees());
     let headline =
         format!("`{name}` cannot hold the blade for {place}: its plane would be turned by {angle} deg");
+    Some(if cuts_along_y(held) {
+        along_y(machine, five_axis, headline)
+    } else {
+        along_walls(machine, headline)
+    })
+}
+
+/// How far the normal of a blade that cuts along y may lean that way, which is rounding.
+const UPRIGHT: f64 = 1e-6;
+
+/// Whether the blade cuts along y of the work, which its plane shows. One that follows a wall cuts along that.
+fn cuts_along_y(held: Orientation) -> bool {
+    let [_, [_, along, _], _] = held.matrix();
+    along.abs() < UPRIGHT
+}
+
+/// Walls point in all directions, so it does not help to mount blade or work otherwise.
+fn along_walls(machine: &Machine, headline: String) -> Diagnostic {
+    Diagnostic::new(
+        Code::PostureNeedsAxis,
+        headline,
+        machine.model_span,
+        "lacks a rotary axis that turns the blade about itself: an orientable spindle (C' or S)",
+    )
+    .note("a blade that follows walls turns with them; two rotary axes hold it along one direction")
+    .help(
+        "use a robot, or a machine whose rotary axes swing and rake the blade and that turns it about itself below them: a head with B carrying A, \
+         and `spindle = \"c\"` in its sheet",
+    )
+}
+
+fn along_y(machine: &Machine, five_axis: &FiveAxis, headline: String) -> Diagnostic {
     let tool = machine.tools.first().frame.span.unwrap_or(machine.head_span);
     let base = machine.base.span.unwrap_or(machine.head_span);
     if five_axis.swings_then_rakes() {
