@@ -137,7 +137,7 @@ proptest! {
 #[test]
 fn what_is_steeper_than_ways_is_found() {
     let angle = |slope: f64| libm::atan(slope).to_degrees();
-    let ramp = over([60, 100], &|x, y| 5.0 + y * (0.5 + x / 1000.0));
+    let ramp = over([60, 100], &|x, y| 5.0 + y * (0.5 + x / 2000.0));
     assert_eq!(ramp.steeper_than_ways(Each::Curved), None);
     let steeper = over([60, 100], &|x, y| 5.0 + y * (0.9 + x / 1000.0));
     for (each, most) in [(Each::Straight, 1.5), (Each::Curved, 1.5)] {
