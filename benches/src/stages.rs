@@ -90,9 +90,28 @@ pub fn check(text: &str) -> (SourceMap, CheckedJob) {
 /// A whole job, as `vcutc check` does it.
 #[must_use]
 pub fn compile(text: &str) -> Outcome {
+    compile_from(PATH, &OneText(text))
+}
+
+/// Files of the system.
+struct Disk;
+
+impl Loader for Disk {
+    fn load(&self, path: &str) -> Result<Vec<u8>, LoadError> {
+        std::fs::read(path).map_err(|_| LoadError::NotFound)
+    }
+}
+
+/// The same of a job in a file, with the files that it names.
+#[must_use]
+pub fn compile_file(path: &str) -> Outcome {
+    compile_from(path, &Disk)
+}
+
+fn compile_from(path: &str, loader: &dyn Loader) -> Outcome {
     let request = Request {
-        path: PATH,
-        loader: &OneText(text),
+        path,
+        loader,
         overrides: &[],
         machine: None,
         options: Typed::default(),

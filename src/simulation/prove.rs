@@ -287,7 +287,7 @@ impl Cut {
     /// The cuts of a program, in its order.
     fn all(program: &Program) -> impl Iterator<Item = (OpId, Self)> {
         let ends = program.ends();
-        ends.filter_map(|(id, op, after)| Some((id, Self::of(op, after)?)))
+        ends.filter_map(|(id, op, after)| Some((id, Self::of(op, &after)?)))
     }
 
     const fn side(&self) -> Side {
@@ -298,7 +298,7 @@ impl Cut {
     }
 
     /// The cut that an op is, with the state after it.
-    fn of(op: &Op, after: State) -> Option<Self> {
+    fn of(op: &Op, after: &State) -> Option<Self> {
         let Action::Cut { flank, .. } = op.action else {
             return None;
         };
@@ -345,6 +345,8 @@ struct Player<'p> {
     flanks: Vec<FlankGeometry>,
     /// The operation and the blade at hand.
     at_work: Option<(OperationId, ToolId)>,
+    /// How much edge its cuts may use, in mm; none of a blade without one.
+    usable_edge: Option<f64>,
     half_done: HalfDone,
     findings: Findings,
     /// The deepest entry into the part of what leaves no trace in a surface, slits and chains, and how deep that is.
@@ -379,6 +381,7 @@ impl<'p> Player<'p> {
             section: CrossSection::new(surface),
             flanks: Vec::new(),
             at_work: None,
+            usable_edge: None,
             half_done: HalfDone::default(),
             findings: Findings::default(),
             traceless: None,
@@ -387,7 +390,8 @@ impl<'p> Player<'p> {
             parts: BTreeMap::new(),
             longest_edge: 0.0,
             playing: OpId(0),
-            edges: Vec::new(),
+            // Nearly every other op is a cut.
+            edges: Vec::with_capacity(program.ops.len() / 2),
             counted: None,
             layers: ByLayer::default(),
             along: AlongSpine::default(),
@@ -399,7 +403,7 @@ impl<'p> Player<'p> {
     fn play(&mut self, verified: &VerifiedProgram, show: &mut dyn FnMut(OpId, &mut CrossSection)) {
         // Looked at where there is one, so that programs without chains take no time for them.
         let mut pieces = self.program.segments().filter(|segment| is_piece(segment.op));
-        for (id, op, after) in self.program.ends() {
+        self.program.show_ends(|id, op, after| {
             show(id, &mut self.section);
             self.playing = id;
             if let Some(cut) = Cut::of(op, after) {
@@ -410,7 +414,7 @@ impl<'p> Player<'p> {
             {
                 self.piece(&segment);
             }
-        }
+        });
     }
 
     /// `is_single` says that the cut has no other flank.
@@ -420,7 +424,8 @@ impl<'p> Player<'p> {
             return;
         };
         let side = cut.side();
-        let bound = self.bounds.get(usize::from(cut.operation.0));
+        let bounds = self.bounds;
+        let bound = bounds.get(usize::from(cut.operation.0));
         if let Some(spine) = bound.and_then(|bound| bound.spine) {
             self.note_level(cut, spine);
             return;
@@ -433,7 +438,6 @@ impl<'p> Player<'p> {
             self.single(cut, geometry);
             return;
         }
-        let bound = self.bounds.get(usize::from(cut.operation.0));
         let lower = bound.map_or(0.0, |bound| bound.lower.to_mm());
         let least = match bound.and_then(|bound| bound.compensation) {
             Some(_) => self.edge_under_load(cut, geometry, lower),
@@ -451,6 +455,7 @@ impl<'p> Player<'p> {
     }
 
     /// Where a flank that may lie so much lower comes out. It is taken to be no less high than `least`, in mm.
+    #[inline]
     fn come_out(&mut self, cut: &Cut, side: Side, geometry: FlankGeometry, (lower, least): (f64, f64)) {
         let tip = Point2 {
             z: cut.tip.z - lower,
@@ -641,11 +646,18 @@ impl<'p> Player<'p> {
         }
     }
 
+    /// The next op is of this operation, with this blade.
+    #[inline]
     fn enter(&mut self, operation: OperationId, tool: ToolId) {
-        let before = self.at_work.replace((operation, tool));
-        if before != self.at_work {
-            self.flanks = flanks(self.program, tool);
+        if self.at_work != Some((operation, tool)) {
+            self.change_over(operation, tool);
         }
+    }
+
+    fn change_over(&mut self, operation: OperationId, tool: ToolId) {
+        let before = self.at_work.replace((operation, tool));
+        self.flanks = flanks(self.program, tool);
+        self.usable_edge = self.edge_at_hand();
         if before.is_none_or(|(before, _)| before != operation) {
             self.note_half_done();
             self.note_half_done_of_columns();

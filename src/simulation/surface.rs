@@ -261,6 +261,7 @@ impl Surface {
 
     /// Whether flanks of that slope can never meet material again once they are out: none that was cut before is steeper.
     #[must_use]
+    #[inline]
     pub fn is_final_for(&self, slope: f64) -> bool {
         slope >= self.steepest - 1e-12
     }
@@ -534,6 +535,7 @@ impl Surface {
     }
 
     /// The first corner beyond a flank's exit that stands above it.
+    #[inline]
     fn beyond(&mut self, ray: Ray, side: Side, passed: usize) -> Option<Point2> {
         if self.is_final_for(ray.slope) {
             return None;

@@ -82,7 +82,11 @@ impl Segment<'_> {
     #[must_use]
     #[inline]
     pub const fn end(&self) -> Option<TipPose> {
-        self.after().place.pose()
+        // An op that leads to a pose ends in it, so no state has to be worked out.
+        match self.to {
+            Some(to) => Some(to),
+            None => self.after().place.pose(),
+        }
     }
 
     /// The state of the machine when it ends.
@@ -320,6 +324,16 @@ impl Program {
             state.advance(&op.action);
             Some((id, op, *state))
         })
+    }
+
+    /// Shows what [`Program::ends`] gives, op by op, without a copy of the state for each.
+    #[inline]
+    pub fn show_ends<'p>(&'p self, mut show: impl FnMut(OpId, &'p Op, &State)) {
+        let mut state = State::START;
+        for (id, op) in (0..).map(OpId).zip(&self.ops) {
+            state.advance(&op.action);
+            show(id, op, &state);
+        }
     }
 
     /// The state of the machine after the last op.

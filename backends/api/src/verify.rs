@@ -342,7 +342,7 @@ impl<'p> Walk<'p> {
             return;
         };
         self.rotation(segment);
-        self.turns_clear(segment.before.tool, from.tip, [from.orientation, to]);
+        self.turns_clear(segment.before.tool, &[from.tip], [from.orientation, to]);
     }
 
     fn ending(&mut self, end: State) {
@@ -352,7 +352,7 @@ impl<'p> Walk<'p> {
             Place::Unknown => true,
             Place::Home => self.has_home(),
             Place::Change => false,
-            Place::Pose(pose) => !self.has_home() && self.is_outside(pose.tip, Extent::TIP),
+            Place::Pose(pose) => !self.has_home() && self.is_outside(&[pose.tip], Extent::TIP),
         };
         self.require(rests && drives::is_still(end), Rule::Ending);
     }

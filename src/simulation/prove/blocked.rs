@@ -6,7 +6,8 @@ use vcutc_backend_api::units::Length;
 use vcutc_geometry::curve::Point2;
 
 impl Player<'_> {
-    /// Keeps the cut with most material above its flank, given the first corner that stands in the way.
+    /// Keeps the cut with most material above its flank, given the first corner that stands in the way, if one does.
+    #[inline]
     pub(super) fn note_blocked(
         &mut self,
         first: Option<Point2>,
@@ -14,7 +15,13 @@ impl Player<'_> {
         geometry: FlankGeometry,
         cut: &Cut,
     ) {
-        let Some(first) = first else { return };
+        if let Some(first) = first {
+            self.note_highest(first, tip, geometry, cut);
+        }
+    }
+
+    #[cold]
+    fn note_highest(&mut self, first: Point2, tip: Point2, geometry: FlankGeometry, cut: &Cut) {
         let stands = |corner: &Point2| corner.z - tip.z - (corner.x - tip.x).abs() * geometry.slope;
         let surface = self.section.surface();
         // Nothing is as high as the flank beyond that.

@@ -15,6 +15,7 @@ pub struct UsedEdge {
 
 impl Player<'_> {
     /// Notes how much edge a flank uses.
+    #[inline]
     pub(super) fn use_edge(&mut self, needed: f64, cut: &Cut) {
         let program = self.program;
         self.note_edge(needed, |fault| cut.finding(program, fault));
@@ -36,8 +37,9 @@ impl Player<'_> {
     }
 
     /// Notes a cut that needs more edge than there is.
+    #[inline]
     pub(super) fn note_edge(&mut self, needed: f64, finding: impl Fn(CutFault) -> Finding) {
-        let Some(available) = self.usable_edge() else {
+        let Some(available) = self.usable_edge else {
             return;
         };
         // The plan leaves out nothing below a nanometre; neither does the proof.
@@ -50,8 +52,8 @@ impl Player<'_> {
         }
     }
 
-    /// The blade's edge, or what of it may be used.
-    pub(super) fn usable_edge(&self) -> Option<f64> {
+    /// The edge of the blade at work, or what of it may be used, in mm.
+    pub(super) fn edge_at_hand(&self) -> Option<f64> {
         let (operation, tool) = self.at_work?;
         let blade = self.program.blade(tool)?.straight()?.cutting_length;
         let limit = self.bounds.get(usize::from(operation.0));

@@ -269,7 +269,7 @@ impl<'p> Player<'p> {
         let uncut = self.section.uncut(x, z).max(0.0);
         self.use_edge(uncut * geometry.edge_per_height, cut);
         self.section.slit(x, z);
-        let available = self.usable_edge().map_or(Length::ZERO, Length::mm);
+        let available = self.usable_edge.map_or(Length::ZERO, Length::mm);
         let idle = CutFault::NotFreed {
             needed: Length::mm(f64::INFINITY),
             available,

@@ -38,8 +38,7 @@ impl Walk<'_> {
     /// A move to axis values begins outside of the stock.
     pub(super) fn leaves_for_axis_values(&mut self, from: Place, tool: ToolId) {
         let Some(pose) = from.pose() else { return };
-        let reach = self.on_ways(tool, [pose.orientation; 2], pose.tip.z);
-        let retracted = self.is_outside(pose.tip, reach);
+        let retracted = self.keeps_outside(tool, [pose.orientation; 2], &[pose.tip]);
         self.require(retracted, Rule::AirMoveThroughStock);
     }
 
@@ -50,8 +49,7 @@ impl Walk<'_> {
             && from.orientation != there.orientation
         {
             let postures = [from.orientation, there.orientation];
-            self.turns_clear(segment.before.tool, from.tip, postures);
-            self.turns_clear(segment.before.tool, to, postures);
+            self.turns_clear(segment.before.tool, &[from.tip, to], postures);
         }
     }
 
@@ -74,7 +72,7 @@ impl Walk<'_> {
     }
 
     fn is_above(&mut self, tool: ToolId, pose: TipPose) -> bool {
-        let reach = self.on_ways(tool, [pose.orientation; 2], pose.tip.z);
+        let reach = self.on_ways(tool, [pose.orientation; 2]);
         pose.tip.z - reach.down >= self.program.stock.height.to_mm() - SAME
     }
 
@@ -87,72 +85,66 @@ impl Walk<'_> {
             return;
         };
         let held = [from.orientation, end.orientation];
-        let reach = self.on_ways(segment.before.tool, held, from.tip.z.min(to.z));
-        self.air([from.tip, to], reach);
+        let clear = self.keeps_outside(segment.before.tool, held, &[from.tip, to]);
+        self.require(clear, Rule::AirMoveThroughStock);
     }
 
-    /// The blade's way through the air stays on one outer side of the stock (which is convex, so both ends tell).
-    fn air(&mut self, ends: [Point3; 2], reach: Extent) {
-        let stock = self.program.stock;
-        let [width, depth, height] = [stock.width, stock.depth, stock.height].map(Length::to_mm);
-        let beside = reach.x.is_some_and(|[low, high]| {
-            let left = ends.iter().all(|tip| tip.x + high <= SAME);
-            left || ends.iter().all(|tip| tip.x + low >= width - SAME)
-        });
-        let in_front = ends.iter().all(|tip| tip.y + reach.y[1] <= SAME);
-        let behind = ends.iter().all(|tip| tip.y + reach.y[0] >= depth - SAME);
-        let above = ends.iter().all(|tip| tip.z - reach.down >= height - SAME);
-        self.require(beside || in_front || behind || above, Rule::AirMoveThroughStock);
+    /// The blade stays on one outer side of the stock (which is convex, so the ends of a way tell).
+    fn keeps_outside(&mut self, tool: ToolId, held: [OrientationId; 2], ends: &[Point3]) -> bool {
+        let reach = self.on_ways(tool, held);
+        // How far a straight blade reaches to the sides is computed only where nothing else keeps it outside.
+        self.is_outside(ends, reach)
+            || self
+                .sideways(tool, held, ends)
+                .is_some_and(|x| self.is_outside(ends, Extent { x: Some(x), ..reach }))
     }
 
-    /// How far the blade reaches from its tip on a way through the air, with the tip no lower than this, in mm.
-    fn on_ways(&mut self, tool: ToolId, held: [OrientationId; 2], lowest: f64) -> Extent {
-        match self.program.blade(tool) {
-            Some(blade) if blade.straight().is_none() => {
-                let known = held.map(|id| self.program.orientation(id));
-                match known {
-                    [Some(from), Some(to)] => self.extents.of((tool, held), blade, [from, to]),
-                    _ => Extent::TIP,
-                }
-            }
-            Some(blade) => {
-                // Held alike all along it may pass the stock at its sides too: there its edges count as far up as the stock stands.
-                let below = self.program.stock.height.to_mm() - lowest;
-                let [from, to] = held;
-                let held = self.program.orientation(from).filter(|_| from == to);
-                let across = blade.straight().zip(held);
-                Extent {
-                    x: across.map(|(straight, held)| straight.across(held, below)),
-                    ..Extent::TIP
-                }
-            }
-            None => Extent::TIP,
+    /// How far the blade reaches from its tip on a way through the air; of a straight one the tip alone.
+    fn on_ways(&mut self, tool: ToolId, held: [OrientationId; 2]) -> Extent {
+        let blade = self.program.blade(tool);
+        let Some(round) = blade.filter(|blade| blade.straight().is_none()) else {
+            return Extent::TIP;
+        };
+        match held.map(|id| self.program.orientation(id)) {
+            [Some(from), Some(to)] => self.extents.of((tool, held), round, [from, to]),
+            _ => Extent::TIP,
         }
     }
 
-    pub(super) fn is_outside(&self, tip: Point3, reach: Extent) -> bool {
-        let stock = self.program.stock;
-        let beside = reach
-            .x
-            .is_some_and(|[low, high]| tip.x + high <= SAME || tip.x + low >= stock.width.to_mm() - SAME);
-        beside
-            || tip.y + reach.y[1] <= SAME
-            || tip.y + reach.y[0] >= stock.depth.to_mm() - SAME
-            || tip.z - reach.down >= stock.height.to_mm() - SAME
+    /// How far a straight blade that is held alike all along reaches to the sides, as far up from the tip as the stock stands.
+    fn sideways(&self, tool: ToolId, [from, to]: [OrientationId; 2], ends: &[Point3]) -> Option<[f64; 2]> {
+        let straight = self.program.blade(tool)?.straight()?;
+        let held = self.program.orientation(from).filter(|_| from == to)?;
+        let lowest = ends.iter().map(|tip| tip.z).fold(f64::INFINITY, f64::min);
+        let below = self.program.stock.height.to_mm() - lowest;
+        Some(straight.across(held, below))
     }
 
-    /// The blade is clear of the stock while it turns from one posture to the other with its tip at that point.
-    pub(super) fn turns_clear(&mut self, tool: ToolId, tip: Point3, postures: [OrientationId; 2]) {
+    /// Whether a blade that reaches that far from its tip lies on one outer side of the stock with its tip at any of these places.
+    pub(super) fn is_outside(&self, tips: &[Point3], reach: Extent) -> bool {
+        let stock = self.program.stock;
+        let [width, depth, height] = [stock.width, stock.depth, stock.height].map(Length::to_mm);
+        let beside = |[low, high]: [f64; 2]| {
+            let left = tips.iter().all(|tip| tip.x + high <= SAME);
+            left || tips.iter().all(|tip| tip.x + low >= width - SAME)
+        };
+        tips.iter().all(|tip| tip.y + reach.y[1] <= SAME)
+            || tips.iter().all(|tip| tip.y + reach.y[0] >= depth - SAME)
+            || tips.iter().all(|tip| tip.z - reach.down >= height - SAME)
+            || reach.x.is_some_and(beside)
+    }
+
+    /// The blade is clear of the stock while it turns from one posture to the other with its tip at one of these points.
+    pub(super) fn turns_clear(&mut self, tool: ToolId, tips: &[Point3], postures: [OrientationId; 2]) {
         let program = self.program;
         let held = postures.map(|id| program.orientation(id));
-        let clear = match (program.blade(tool), held) {
-            (Some(blade), [Some(from), Some(to)]) => {
-                let extent = self.extents.of((tool, postures), blade, [from, to]);
-                self.is_clear(tip, extent)
-            }
-            _ => true,
+        let (Some(blade), [Some(from), Some(to)]) = (program.blade(tool), held) else {
+            return;
         };
-        self.require(clear, Rule::TurnInStock);
+        let extent = self.extents.of((tool, postures), blade, [from, to]);
+        for &tip in tips {
+            self.require(self.is_clear(tip, extent), Rule::TurnInStock);
+        }
     }
 
     /// Whether the blade, reaching that far, is clear of the stock with its tip at `tip` [Cui 5].

@@ -2,7 +2,7 @@
 //!
 //! Each size is measured in a process of its own, which this program starts from itself, so that the memory of one does
 //! not disturb another. With `measure <what> <cuts>` only that child runs; `measure instructions <cuts>` runs the stages
-//! once and prints nothing, for a profiler to look at.
+//! once and prints nothing, for a profiler to look at, and so does `measure job <path>` with a whole job.
 
 mod children;
 mod clock;
@@ -31,6 +31,9 @@ fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         [] => tables::print(),
+        ["job", path] => {
+            std::hint::black_box(vcutc_benches::stages::compile_file(path));
+        }
         [what, cuts] => {
             let cuts = cuts.parse().expect("a number of cuts");
             for (name, value) in children::run(what, cuts) {
@@ -38,7 +41,7 @@ fn main() {
             }
         }
         _ => eprintln!(
-            "usage: measure [stages|memory|emission|contour|instructions <cuts>], or kinematics <poses>"
+            "usage: measure [stages|memory|emission|contour|instructions <cuts>], kinematics <poses>, or job <path>"
         ),
     }
 }
