@@ -190,7 +190,8 @@ struct Columns {
 }
 
 fn columns_of(tip: &PlannedTip, swing: Angle) -> Columns {
-    let straight = |kind, swing, bounds| Columns {
+    let kind = tip.shape.kind().noun();
+    let straight = |swing, bounds| Columns {
         kind,
         swing,
         lead: String::new(),
@@ -198,21 +199,20 @@ fn columns_of(tip: &PlannedTip, swing: Angle) -> Columns {
     };
     let swing = || format!("{:.3}", swing.to_deg());
     match tip.shape {
-        CutShape::Plain => straight("cut", swing(), ",,,".to_owned()),
+        CutShape::Plain => straight(swing(), ",,,".to_owned()),
         CutShape::Narrowed { left, right } => straight(
-            "cut",
             format!("{:.4}/{:.4}", left.to_deg(), right.to_deg()),
             ",,,".to_owned(),
         ),
-        CutShape::Slit { top } => straight("slit", swing(), format!(",,{:.3},{top:.3}", tip.tip.z)),
+        CutShape::Slit { top } => straight(swing(), format!(",,{:.3},{top:.3}", tip.tip.z)),
         CutShape::Strip(PlannedStrip { low, high, lead, .. }) => Columns {
-            kind: "strip",
+            kind,
             swing: swing(),
             lead: format!("{:.3}", lead.to_deg()),
             bounds: format!("{:.3},{:.3},{:.3},{:.3}", low.x, high.x, low.z, high.z),
         },
         CutShape::Track { contact, lead, roll } => Columns {
-            kind: "track",
+            kind,
             swing: format!("{:.3}", roll.to_deg()),
             lead: format!("{:.3}", lead.to_deg()),
             bounds: format!("{0:.3},{0:.3},{1:.3},{1:.3}", contact.x, contact.z),

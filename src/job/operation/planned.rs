@@ -9,7 +9,7 @@ use core::any::Any;
 use core::fmt::Debug;
 use std::sync::Arc;
 use vcutc_backend_api::builder::ProgramBuilder;
-use vcutc_backend_api::ir::{OperationId, Program, SourceRef, Stock};
+use vcutc_backend_api::ir::{CutKind, OperationId, Program, SourceRef, Stock};
 use vcutc_backend_api::units::{Angle, Area, Duration, Length};
 use vcutc_diagnostics::Diagnostic;
 use vcutc_geometry::curve::Point2;
@@ -412,6 +412,19 @@ pub enum CutShape {
         /// How far it is turned about the feed, away from the upright; positive where the axis leans towards -x.
         roll: Angle,
     },
+}
+
+impl CutShape {
+    /// What people call it.
+    #[must_use]
+    pub const fn kind(self) -> CutKind {
+        match self {
+            Self::Plain | Self::Narrowed { .. } => CutKind::Cut,
+            Self::Slit { .. } => CutKind::Slit,
+            Self::Strip(_) => CutKind::Strip,
+            Self::Track { .. } => CutKind::Track,
+        }
+    }
 }
 
 /// A strip as it is planned, in mm.

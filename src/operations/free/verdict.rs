@@ -3,6 +3,7 @@
 use crate::asked::FreePocket;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_process::verdict::floors::with_higher_floor;
 use vcutc_process::verdict::words::explained as in_words;
 use vcutc_simulation::prove::{ClearingFault, CutFault, Finding, SlitFault};
 
@@ -32,11 +33,7 @@ pub(crate) fn explained(asked: &FreePocket, finding: Finding) -> Diagnostic {
             }
         }
         CutFault::Slit(SlitFault::Body { by, .. }) => {
-            let floor = asked.floor.value + by;
-            in_words(asked, finding).help(format!(
-                "use a longer blade, or a floor at {} mm or above",
-                show((floor.to_mm() * 100.0).ceil() / 100.0)
-            ))
+            with_higher_floor(in_words(asked, finding), asked.floor.value, by)
         }
         CutFault::Slit(SlitFault::Stays { by, .. }) if by.is_finite() => in_words(asked, finding).help(
             "use a narrower straight blade, a larger hollow radius, or a wider `limits { residual <= ... }`",

@@ -5,6 +5,7 @@ use crate::plan::Plan;
 use vcutc_backend_api::units::Length;
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
+use vcutc_process::verdict::floors::with_higher_floor;
 use vcutc_process::verdict::words::explained as in_words;
 use vcutc_region::distance::Walls;
 use vcutc_region::foot::RESOLUTION;
@@ -17,11 +18,7 @@ pub(crate) fn explained(asked: &SlitWalls, plan: &Plan, finding: Finding) -> Dia
             stays(asked, plan, finding, (by, limit))
         }
         CutFault::Slit(SlitFault::Body { by, .. }) => {
-            let floor = asked.floor.value + by;
-            in_words(asked, finding).help(format!(
-                "use a longer blade, or a floor at {} mm or above",
-                show((floor.to_mm() * 100.0).ceil() / 100.0)
-            ))
+            with_higher_floor(in_words(asked, finding), asked.floor.value, by)
         }
         _ => in_words(asked, finding),
     }

@@ -25,6 +25,15 @@ pub fn above_the_stock(floor: Sourced<Length>, head: Span, stock: Spanned<Stock>
     nothing_above(floor, head, "the stock", stock.node.height).and(stock.span, "the stock")
 }
 
+/// Offers a floor over which the body of a straight blade, `by` below the top of the stock in a slit, is clear of it.
+#[must_use]
+pub fn with_higher_floor(diagnostic: Diagnostic, floor: Length, by: Length) -> Diagnostic {
+    diagnostic.help(format!(
+        "use a longer blade, or a floor at {} mm or above",
+        show(((floor + by).to_mm() * 100.0).ceil() / 100.0)
+    ))
+}
+
 fn nothing_above(floor: Sourced<Length>, head: Span, of_stock: &str, top: Length) -> Diagnostic {
     let top = show(top.to_mm());
     Diagnostic::new(
