@@ -117,6 +117,51 @@ fn moves_of_all_axes_stay_out_of_the_stock_as_sampled() {
     }
 }
 
+/// A bar that leans over an edge of the stock, 7 mm away from it, is beyond no face. It is proven once all of it is above the top or
+/// beside the stock, of a round one with its skin.
+#[test]
+fn solids_are_outside_where_all_of_each_is_beyond_one_face() {
+    let model = kuka();
+    let rig = rig(&model);
+    let still = [0.0, -FRAC_PI_2, FRAC_PI_2, 0.0, 0.5, 0.0];
+    let work_in_blade = rig.blade_in_work(&still).inverse();
+    let ends = |by: DVec3| {
+        let ends = [DVec3::new(-20.0, 200.0, 290.0), DVec3::new(20.0, 200.0, 330.0)];
+        ends.map(|end| work_in_blade.rotation * (end + by) + work_in_blade.position)
+    };
+    let found = |solid: Solid| {
+        let proof = prove_axes(&rig, &still, &still, &[solid], &STOCK);
+        proof.map_err(|breach| match breach.what {
+            AxesViolation::Unproven { lowest, .. } => (false, lowest.z),
+            AxesViolation::Stock { lowest, .. } => (true, lowest.z),
+            AxesViolation::Limit { .. } => panic!("{breach:?}"),
+        })
+    };
+    let flat = |x: f64, z: f64| found(Solid::Hull(ends(DVec3::new(x, 0.0, z)).to_vec()));
+    let round = |x: f64, z: f64| {
+        let ends = ends(DVec3::new(x, 0.0, z));
+        found(Solid::Cylinder { ends, radius: 1.0 })
+    };
+    let is_beside = |proof: Result<(), (bool, f64)>, lowest: f64| {
+        proof.is_err_and(|(is_inside, z)| !is_inside && (z - lowest).abs() < 1e-6)
+    };
+    // Skins reach beyond ends at 45 degrees by so much.
+    let skin = 0.5_f64.sqrt();
+    assert!(is_beside(flat(0.0, 0.0), 290.0));
+    assert!(is_beside(round(0.0, 0.0), 290.0 - skin));
+    assert!(is_beside(flat(0.0, 9.999), 299.999));
+    assert_eq!(flat(0.0, 10.001), Ok(()));
+    assert!(is_beside(round(0.0, 9.999 + skin), 299.999));
+    assert_eq!(round(0.0, 10.001 + skin), Ok(()));
+    assert!(flat(-19.999, 0.0).is_err());
+    assert_eq!(flat(-20.001, 0.0), Ok(()));
+    assert!(round(-19.999 - skin, 0.0).is_err());
+    assert_eq!(round(-20.001 - skin, 0.0), Ok(()));
+    // Farther down it goes through the edge.
+    assert!(flat(0.0, -15.0).is_err_and(|(is_inside, _)| is_inside));
+    assert!(round(0.0, -15.0).is_err_and(|(is_inside, _)| is_inside));
+}
+
 #[test]
 fn points_are_carried_as_forward_kinematics_says() {
     let mut general = beside();
