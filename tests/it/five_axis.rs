@@ -254,6 +254,33 @@ fn a_turn_too_near_the_work_says_how_far_is_enough() {
     assert!(with("8.6 mm").compiled.is_some());
 }
 
+/// A body that is wider than the edges enters the work on the way of the rotary axes, where a turn about one axis would not take it: it
+/// is named, and so is the extension that is enough. Without it nothing is in the way.
+#[test]
+fn a_body_too_near_the_work_says_how_far_is_enough() {
+    let job = read("tests/process/err/VC0528_body_over_the_work.vcut");
+    let with = |extension: &str, body: &str| {
+        let text = job
+            .replace("= 12 mm", extension)
+            .replace("body (10 mm, 7 mm)", body);
+        compile("job.vcut", &Files::default().with("job.vcut", text))
+    };
+    let body = "body (10 mm, 7 mm)";
+    let refused = with("= 12 mm", body);
+    assert_eq!(numbers(&refused.diagnostics), ["VC0528"]);
+    let messages = rendered(&refused.diagnostics, &refused);
+    for words in [
+        "takes the blade above its edges through the work",
+        "`extension = 13.6 mm`",
+    ] {
+        assert!(messages.contains(words), "{messages}");
+    }
+    assert_eq!(numbers(&with("= 13.5 mm", body).diagnostics), ["VC0528"]);
+    assert!(with("= 13.6 mm", body).compiled.is_some());
+    assert!(with("= auto", body).compiled.is_some());
+    assert!(with("= 12 mm", "").compiled.is_some());
+}
+
 /// The user's own sheet states the limit, so the message points there and not only at the model's name in the job.
 #[test]
 fn a_limit_points_at_its_line_in_the_sheet() {

@@ -1,10 +1,10 @@
 //! A blade's body that enters the work, in the user's words, and which change keeps it out.
 //!
-//! At most one change of each kind is offered: a smaller swing, smaller swings only where the blade does not fit, a steeper rake, a
-//! body that begins higher. Each was tried: all but the last planned and proven again, the last replayed on the same program.
+//! At most one change of each kind is offered: for ways, the extension that the compiler chooses; a smaller swing, smaller swings only
+//! where the blade does not fit, a steeper rake, a body that begins higher. Each was tried: all but the last planned and proven again, the last replayed on the same program.
 
 use super::attempts::Attempts;
-use super::changes::{with_narrower_flanks, with_smaller_swing, with_steeper_rake};
+use super::changes::{with_chosen_extension, with_narrower_flanks, with_smaller_swing, with_steeper_rake};
 use super::words::point;
 use super::{Proven, bodies};
 use vcutc_backend_api::ir::{BodyStage, Program, Site, ToolId};
@@ -35,6 +35,11 @@ pub(super) fn explained(
     let diagnostic = enters(planned.asked(), blade, count, contact)?;
     // First, because replays take the least work.
     let higher = higher_body(plan, proven, (blade, contact), attempts);
+    let diagnostic = match contact.during {
+        // Longer cuts change nothing in them.
+        During::Cut => diagnostic,
+        During::Way => with_chosen_extension(diagnostic, planned.asked(), attempts, works_there),
+    };
     let diagnostic = with_smaller_swing(diagnostic, planned, attempts, works_there);
     let diagnostic = with_narrower_flanks(diagnostic, planned, attempts, works_there);
     let diagnostic = with_steeper_rake(diagnostic, planned.asked(), attempts, works_there);

@@ -3,8 +3,8 @@
 use vcutc_backend_api::units::Angle;
 use vcutc_diagnostics::Diagnostic;
 use vcutc_diagnostics::number::show;
-use vcutc_job::PlannedOperation;
 use vcutc_job::operation::{Operation, Trials, Variant, Variation, WorksThere};
+use vcutc_job::{Auto, PlannedOperation};
 
 /// By how many degrees the swing is made smaller, one after the other.
 const SMALLER: [f64; 9] = [2.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0];
@@ -76,6 +76,30 @@ fn widest_swing(now: f64, tried: &mut dyn FnMut(f64) -> Option<Variant>) -> Opti
         }
     }
     Some(widest)
+}
+
+/// Offers the extension that the compiler chooses, where the job gives one and the chosen one works.
+pub(super) fn with_chosen_extension(
+    diagnostic: Diagnostic,
+    asked: &dyn Operation,
+    trials: &mut dyn Trials,
+    works_there: &mut WorksThere<'_>,
+) -> Diagnostic {
+    let given = asked.setup().extension();
+    let (Auto::Given(_), Some(span)) = (given.value, given.span) else {
+        return diagnostic;
+    };
+    let open = |operation: &mut dyn Operation| {
+        if let Some(extension) = &mut operation.setup_mut().extension {
+            extension.value = Auto::Auto;
+        }
+    };
+    let works = trials.proves(&open) && works_there(&[(span, "auto".to_owned())]);
+    if works {
+        diagnostic.fix("let the compiler choose the `extension`: `auto`", span, "auto")
+    } else {
+        diagnostic
+    }
 }
 
 pub(super) fn with_steeper_rake(
