@@ -22,7 +22,7 @@ pub struct LeftOver {
     /// Below what that lies.
     pub below: Below,
     /// How high material stays above the part at most where level cuts are infinitely close, as a grid of its heights shows; where it
-    /// would be much less along a spine.
+    /// would be much less along a spine, or along lines with slopes of their own.
     pub level: Option<Length>,
 }
 
@@ -48,7 +48,8 @@ fn left_by_level_cuts(part: &Part, machine: Option<&Machine>) -> Option<Length> 
     let surface = part.surface().filter(|_| part.guide().is_none())?;
     let (times, least) = MUCH;
     let level = surface.left_by_straight_cuts();
-    let along = part.fitted(Rising::Freely)?.leaves;
+    let along = part.fitted(Rising::Freely).map(|fitted| fitted.leaves);
+    let along = along.into_iter().chain(part.left_by_lines()).reduce(f64::min)?;
     (level > times * along && level > least).then(|| Length::mm(level))
 }
 

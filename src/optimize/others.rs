@@ -33,6 +33,7 @@ pub struct OtherOperation {
 pub(super) fn of(plan: &PlannedJob, subject: Subject<'_>, wanted: Wanted) -> Vec<OtherOperation> {
     let numbered = (1..).zip(plan.operations.iter().map(|planned| &**planned));
     let others = numbered.filter(|(_, planned)| PlannedVcut::of(*planned).is_none());
+    let mut seen = Vec::new();
     let other = |(number, planned): (u16, &dyn PlannedOperation)| {
         let asked = planned.asked();
         let asks_text = !is_rect(asked);
@@ -40,7 +41,7 @@ pub(super) fn of(plan: &PlannedJob, subject: Subject<'_>, wanted: Wanted) -> Vec
             number,
             place: bounds::place(subject.sources, asked.setup().head_span),
             lines: planned.summary(&subject.compiled.report),
-            values: asks_text.then(|| OtherValues::of(asked, subject)),
+            values: asks_text.then(|| OtherValues::of(asked, subject, &mut seen)),
             trade_off: asked
                 .scallop_limit()
                 .filter(|_| asks_text && wanted.against == Against::Scallop)

@@ -93,10 +93,12 @@ fn time_of(compiled: &Compiled) -> Duration {
 }
 
 impl OtherValues {
-    /// Of an operation.
-    pub(super) fn of(operation: &dyn Operation, subject: Subject<'_>) -> Self {
+    /// Of an operation, without the values that have been seen in others: two may share a blade.
+    pub(super) fn of(operation: &dyn Operation, subject: Subject<'_>, seen: &mut Vec<Span>) -> Self {
         let now = subject.time();
-        let changes = changes_of(operation, subject.sources);
+        let mut changes = changes_of(operation, subject.sources);
+        changes.retain(|change| !seen.contains(&change.span));
+        seen.extend(changes.iter().map(|change| change.span));
         let (tried, left) = changes.split_at(changes.len().min(subject.room()));
         let save = |change: &Change| {
             let time = subject.time_with(change.span, &change.other)?;

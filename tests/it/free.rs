@@ -28,7 +28,7 @@ const AIR: f64 = 1.0;
 struct Bay {
     /// Its corners, the first and the last at the open side.
     corners: Vec<Spot>,
-    /// Sides that are open besides, each by the corner where it begins.
+    /// Other sides that are open, each by the corner where it begins.
     open: &'static [usize],
     /// The radius of the disc, and of its shank.
     radius: f64,

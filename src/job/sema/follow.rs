@@ -93,7 +93,10 @@ fn steeper_than_ways(part: &Part, word: Spanned<Family>) -> Option<Diagnostic> {
         Code::SteeperThanCuts,
         format!("the part rises by {angle:.1} deg along y, and these cuts by 45 deg at most"),
         word.span,
-        format!("the part is steepest at x {x:.1} mm, y {y:.1} mm"),
+        match each {
+            Each::Straight => format!("the line nearest to the part is steepest at x {x:.1} mm"),
+            Each::Curved => format!("the part is steepest at x {x:.1} mm, y {y:.1} mm"),
+        },
     )
     .note(format!(
         "up to {leaves:.2} mm stay above the part, however close the cuts are"

@@ -275,6 +275,13 @@ impl Part {
         }
     }
 
+    /// How high material stays at most along straight lines with slopes of their own that are infinitely close, in mm; none where none
+    /// cover it, and where the part is not a surface.
+    #[must_use]
+    pub fn left_by_lines(&self) -> Option<f64> {
+        self.covered(Each::Straight).map(|covered| covered.leaves)
+    }
+
     /// The same part, with every cut that roughs it along its column. None where that does not exist.
     pub(crate) fn along_columns(&self, each: Each, stock: Stock) -> Option<Self> {
         let Shape::Surface(shaded) = &self.shape else {

@@ -22,6 +22,7 @@ pub mod plan;
 mod planned;
 mod proof;
 mod refused;
+mod remedy;
 mod verdict;
 mod words;
 

@@ -4,6 +4,7 @@ use crate::asked::FreePocket;
 use crate::decided::Planned;
 use crate::plan;
 use crate::refused::Refused;
+use crate::remedy::Unfreed;
 use vcutc_diagnostics::source::Span;
 use vcutc_job::follow::Follow;
 use vcutc_job::operation::{Ground, Laid, Operation, Unplanned};
@@ -58,10 +59,9 @@ impl Operation for FreePocket {
                 // No section shows a pocket.
                 after: ground.before,
             }),
-            Err(why) => Err(Box::new(Refused {
-                asked: self,
-                remedy: why.of_the_region().then(|| plan::remedy(self, &ground)).flatten(),
-                why,
+            Err(why) => Err(Box::new(Unfreed {
+                refused: Refused { asked: self, why },
+                ground,
             })),
         }
     }

@@ -2,8 +2,8 @@
 //!
 //! The disc comes in through an open side at depth, where its shank is outside of the stock. It frees strips in rows along that side, one
 //! after the other, so that its shank is always over those before. Around these rows strips along the walls stay, which it frees last,
-//! the one beside the rows first. Corners that are sharper than its rim stand as pillars: slits part them from the strips. Into acute
-//! corners it goes on level by level.
+//! the one beside the rows first. Corners that are sharper than its rim stand as pillars: slits part them from the strips. Acute
+//! corners it enters level by level.
 
 mod crossing;
 mod gentle;
@@ -14,13 +14,13 @@ mod rows;
 mod strips;
 
 use crate::asked::FreePocket;
-use crate::refused::{Remedy, Why};
+use crate::refused::Why;
 use layout::Laid;
 use measures::Measures;
 use vcutc_backend_api::units::{Duration, Length};
 use vcutc_job::operation::Ground;
 use vcutc_job::planned::{PlannedWay, WayEntry, WayKind};
-use vcutc_job::{Auto, Machine, Setup};
+use vcutc_job::{Machine, Setup};
 use vcutc_process::from_above::{THINNEST, highest, layers};
 use vcutc_process::slits::fit::{self, Unfit};
 use vcutc_process::slits::ways::ways as slits_as_planned;
@@ -61,25 +61,6 @@ pub struct Stage {
     pub slits: Vec<Slit>,
     /// The floors from the top, in mm; at least one.
     pub floors: Vec<f64>,
-}
-
-/// Steps and radii that are tried, as shares of those there are.
-const SMALLER: [f64; 3] = [0.8, 0.6, 0.4];
-
-/// The first change that gives a plan.
-pub(crate) fn remedy(asked: &FreePocket, ground: &Ground<'_>) -> Option<Remedy> {
-    let down = |value: Length, share: f64| Length::mm(libm::floor(value.to_mm() * share * 10.0) / 10.0);
-    let most = asked.step.value.or(asked.disc.radius.value / 2.0);
-    let steps = SMALLER.map(|share| Remedy::Step(down(most, share)));
-    let radii = SMALLER.map(|share| Remedy::Radius(down(asked.disc.radius.value, share)));
-    steps.into_iter().chain(radii).find(|remedy| {
-        let mut changed = asked.clone();
-        match remedy {
-            Remedy::Step(step) => changed.step.value = Auto::Given(*step),
-            Remedy::Radius(radius) => changed.disc.radius.value = *radius,
-        }
-        plan(&changed, ground).is_ok()
-    })
 }
 
 /// How many strips along walls are tried at most.

@@ -2,10 +2,8 @@
 
 use crate::asked::{AIR, FreePocket};
 use vcutc_backend_api::units::Length;
-use vcutc_cancellation::{Effort, Wanted};
 use vcutc_diagnostics::number::show;
 use vcutc_diagnostics::{Code, Diagnostic};
-use vcutc_job::operation::{Unplanned, WorksThere};
 use vcutc_process::slits::fit::Unfit;
 use vcutc_process::verdict::floors;
 use vcutc_region::piece::Piece;
@@ -30,7 +28,7 @@ pub(crate) enum Why {
     Island { at: [f64; 2] },
     /// No room for the rows: how far from walls these begin, in mm.
     Narrow { level: f64 },
-    /// There is no room to go on from one row to the next.
+    /// No room to pass from one row to the next.
     Stuck { at: [f64; 2] },
     /// Rows are parted by walls.
     Parted { at: [f64; 2] },
@@ -57,23 +55,23 @@ impl From<Unfit> for Why {
 }
 
 impl Why {
-    /// Whether other measures of strips may help.
-    pub(crate) const fn of_the_region(self) -> bool {
+    /// Where other measures of strips may help: what else may, as the begin of a sentence that offers a crusher.
+    pub(crate) const fn otherwise(self) -> Option<&'static str> {
         match self {
-            Self::Narrow { .. }
-            | Self::Stuck { .. }
-            | Self::Parted { .. }
-            | Self::Met { .. }
-            | Self::Bent { .. }
-            | Self::Shank
-            | Self::Broken { .. } => true,
-            Self::NothingThere { .. }
+            Self::Stuck { .. } | Self::Parted { .. } | Self::Met { .. } => {
+                Some("use a region that is widest at its open side, or ")
+            }
+            Self::Bent { .. } => Some("draw these walls as one line or one arc, or "),
+            Self::Narrow { .. } => Some("use a smaller disc, or "),
+            Self::Shank
+            | Self::Broken { .. }
+            | Self::NothingThere { .. }
             | Self::TooLarge
             | Self::Unfit(_)
             | Self::TooThin
             | Self::Closed
             | Self::Island { .. }
-            | Self::Width { .. } => false,
+            | Self::Width { .. } => None,
         }
     }
 
@@ -90,34 +88,19 @@ impl Why {
     }
 }
 
-/// A change of the job with which there is a plan: it was tried.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Remedy {
-    /// Narrower strips.
-    Step(Length),
-    /// A disc with a smaller edge, and the same body.
-    Radius(Length),
-}
-
 /// An operation without a plan.
+#[derive(Clone, Copy)]
 pub(crate) struct Refused<'j> {
     pub(crate) asked: &'j FreePocket,
     pub(crate) why: Why,
-    /// What gives a plan.
-    pub(crate) remedy: Option<Remedy>,
-}
-
-impl Unplanned for Refused<'_> {
-    fn diagnostics(&self, _: &Wanted, _: &mut Effort, _: &mut WorksThere<'_>) -> Vec<Diagnostic> {
-        vec![self.diagnostic()]
-    }
 }
 
 /// What works in any region with walls.
-const CRUSHER: &str = "clear it with a crusher (`clear pocket`)";
+pub(crate) const CRUSHER: &str = "clear it with a crusher (`clear pocket`)";
 
 impl Refused<'_> {
-    fn diagnostic(&self) -> Diagnostic {
+    /// What to report, without what is tried.
+    pub(crate) fn diagnostic(&self) -> Diagnostic {
         let asked = self.asked;
         let name = &asked.region.name;
         match self.why {
@@ -140,7 +123,7 @@ impl Refused<'_> {
             .help(format!("free the ground around it in regions of their own, or {CRUSHER}")),
             Why::Stuck { at } => self.no_way(
                 format!(
-                    "at {} in `{name}`, `{}` has no room to go on from one row to the next",
+                    "at {} in `{name}`, `{}` has no room to pass from one row to the next",
                     place(at),
                     asked.disc.name
                 ),
@@ -164,7 +147,7 @@ impl Refused<'_> {
                 "no order of strips that was tried keeps the shank over ground that is out",
             ),
             Why::Bent { way } => self.bent(way),
-            Why::Narrow { level } => self.helped(narrow(asked, level), "use a smaller disc, or "),
+            Why::Narrow { level } => narrow(asked, level),
             Why::Width { step, most, least } => width(asked, [step, most, least]),
             Why::Shank => Diagnostic::new(
                 Code::NoWayForDisc,
@@ -201,8 +184,7 @@ impl Refused<'_> {
     fn no_way(&self, message: String, label: &str) -> Diagnostic {
         let asked = self.asked;
         let diagnostic = Diagnostic::new(Code::NoWayForDisc, message, asked.region_span, label);
-        let diagnostic = diagnostic.and(asked.region.span, "defined here");
-        self.helped(diagnostic, "")
+        diagnostic.and(asked.region.span, "defined here")
     }
 
     fn bent(&self, way: Piece) -> Diagnostic {
@@ -220,22 +202,7 @@ impl Refused<'_> {
             asked.region_span,
             "has short walls that turn a little",
         );
-        let diagnostic = diagnostic.and(asked.region.span, "defined here");
-        self.helped(diagnostic, "draw these walls as one line or one arc, or ")
-    }
-
-    /// With what was tried, or else with what may help.
-    fn helped(&self, diagnostic: Diagnostic, otherwise: &str) -> Diagnostic {
-        let asked = self.asked;
-        diagnostic.help(match self.remedy {
-            Some(Remedy::Step(step)) => format!("use `step = {} mm`, or {CRUSHER}", show(step.to_mm())),
-            Some(Remedy::Radius(radius)) => format!(
-                "use a disc like `{}` with a radius of {} mm, or {CRUSHER}",
-                asked.disc.name,
-                show(radius.to_mm())
-            ),
-            None => format!("{otherwise}{CRUSHER}"),
-        })
+        diagnostic.and(asked.region.span, "defined here")
     }
 }
 

@@ -74,7 +74,9 @@ fn followed(asked: &RoughVcut) -> Option<String> {
     }
     let Some(along) = &asked.along else {
         let why = match asked.follow.value {
-            Follow::Auto => "no other cuts leave much less, or keep to what the job asks as fast",
+            Follow::Auto => {
+                "no other cuts that job and machine allow leave much less, or keep to what the job asks as fast"
+            }
             _ => "no way that the blade can follow leaves less",
         };
         return Some(format!("straight: {why}"));

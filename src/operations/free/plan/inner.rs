@@ -1,4 +1,4 @@
-//! How the disc goes on into corners that are sharper than its rim.
+//! How the disc enters corners that are sharper than its rim.
 //!
 //! With the level `L` at the distance `r` from the walls, the rim of a disc whose centre goes along `L` moved outwards by `r - R` reaches
 //! all that lies within `r` of it. So a slit along an arc of the radius `r - o` about a corner of `L` parts what this disc frees there. Along
@@ -14,7 +14,7 @@
 use vcutc_region::outward::{corners, outward};
 use vcutc_region::piece::Piece;
 
-/// Most levels: corners of less than 7 deg are not gone into any farther.
+/// Most levels: corners of less than 7 deg are not entered any farther.
 const MOST: u32 = 16;
 
 /// How many levels more there are than the shank needs, for squares of the proof on both sides of a slit.
@@ -23,7 +23,7 @@ const CARE: f64 = 1.1;
 /// What rounding may take of a level.
 const ROUNDING: f64 = 1e-6;
 
-/// A level on which the disc goes on into corners.
+/// A level on which the disc enters corners.
 #[derive(Clone, Debug)]
 pub(super) struct Inner {
     /// Which one it is, counted from 1, and of how many.
@@ -47,7 +47,7 @@ pub(super) fn share(stage: [u32; 2]) -> f64 {
     f64::from(of.saturating_sub(stage)) / f64::from(of.max(1))
 }
 
-/// On how many levels the disc goes on into the corner about which this arc goes.
+/// On how many levels the disc enters the corner about which this arc goes.
 fn stages(arc: Piece, rings: u32) -> u32 {
     // Half the angle of the corner is what half of the turn lacks to a right angle.
     let further = CARE * f64::from(rings) * (1.0 / libm::cos(arc.sweep / 2.0) - 1.0);

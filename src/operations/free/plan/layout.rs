@@ -76,6 +76,7 @@ pub(super) fn lay(
     let aside = (measures.radius - measures.shank - measures.over).min(f64::from(rings) * measures.step);
     let field = Field {
         front,
+        level,
         centres: &outward(&bound, aside),
         ground: &outward(&bound, measures.radius - measures.over),
         deepest: front.deepest(&outline),
@@ -152,7 +153,7 @@ fn runs(region: &Region, offsets: &mut Offsets, level: f64) -> Result<Vec<Vec<Pi
     Ok(runs.map(|way| way.pieces).collect())
 }
 
-/// The levels on which the disc goes on into the corners of these ways.
+/// The levels on which the disc enters the corners of these ways.
 fn inner_levels(
     region: &Region,
     offsets: &mut Offsets,

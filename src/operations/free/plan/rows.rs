@@ -17,6 +17,8 @@ pub(super) struct Field<'l> {
     pub(super) front: Front,
     /// Bounds where the centre of the disc may be.
     pub(super) centres: &'l [Piece],
+    /// How far from walls the rows begin, in mm.
+    pub(super) level: f64,
     /// Bounds what the rows free.
     pub(super) ground: &'l [Piece],
     /// How far the region goes in, in mm.
@@ -130,7 +132,7 @@ impl Field<'_> {
     fn row(&self, bounds: &[Piece], depth: f64) -> Result<Row, Why> {
         match self.front.row(bounds, depth).as_slice() {
             [ends] => Ok(Row { depth, ends: *ends }),
-            [] => Err(Why::TooLarge),
+            [] => Err(Why::Narrow { level: self.level }),
             [first, ..] => {
                 let at = self.front.place(first[1], depth);
                 Err(Why::Parted { at: [at.x, at.y] })

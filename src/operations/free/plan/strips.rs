@@ -25,7 +25,7 @@ pub(super) struct Strips<'l> {
     pub(super) rings: u32,
     /// The ways of the level that bounds the rows, from open side to open side.
     pub(super) runs: &'l [Vec<Piece>],
-    /// The levels on which the disc goes on into corners, the one nearest to the walls last.
+    /// The levels on which the disc enters corners, the one nearest to the walls last.
     pub(super) inner: &'l [Inner],
 }
 
