@@ -175,7 +175,12 @@ fn of_entries(entries: &[Entry], sources: &SourceMap, changes: &mut Vec<Change>)
                 });
             }
             Entry::Block(block) if block.head_text() == FEED => {
-                changes.extend(block.entries.iter().filter_map(|field| of_speed(field, sources)));
+                changes.extend(
+                    block
+                        .entries
+                        .iter()
+                        .filter_map(|field| larger(field, "feed ", sources)),
+                );
             }
             Entry::Block(block) => of_entries(&block.entries, sources, changes),
             Entry::Field { .. }
@@ -205,10 +210,6 @@ fn of_limit(
         span: value.span,
         other: times(factor, value, sources)?,
     })
-}
-
-fn of_speed(field: &Entry, sources: &SourceMap) -> Option<Change> {
-    larger(field, "feed ", sources)
 }
 
 fn of_size(field: &Entry, blade: &str, sources: &SourceMap) -> Option<Change> {

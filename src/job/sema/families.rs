@@ -218,7 +218,7 @@ impl CheckedJob {
     }
 
     /// The same job with it left open how its cuts follow the part, and what to write where for that; none where its cuts are not level,
-    /// or there is no choice.
+    /// or only one family may be taken.
     #[must_use]
     pub fn following_best(&self) -> Option<(Self, Vec<(Span, String)>)> {
         let surface = self.part.surface().filter(|_| self.part.guide().is_none())?;

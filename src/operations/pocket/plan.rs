@@ -322,12 +322,6 @@ impl Run {
             entry,
         }
     }
-
-    /// Whether the tool leaves it upwards, and not through an open side.
-    #[must_use]
-    pub fn leaves_upwards(&self) -> bool {
-        true
-    }
 }
 
 impl Plan {

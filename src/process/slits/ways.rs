@@ -1,7 +1,6 @@
 //! Slits of a straight blade, as plans show them.
 
 use vcutc_job::planned::{PlannedWay, WayEntry, WayKind};
-use vcutc_region::place::Place;
 use vcutc_region::slits::{Begin, Slit};
 
 /// The slits of a layer by the first blade of an operation, with its bottom and its top, in mm.
@@ -9,10 +8,9 @@ use vcutc_region::slits::{Begin, Slit};
 pub fn ways(slits: &[Slit], layer: u32, heights: [f64; 2]) -> Vec<PlannedWay> {
     let slits = (1_u32..).zip(slits);
     slits
-        .map(|(number, slit)| {
-            let from = slit.pieces.first().map(|piece| piece.way.from);
-            let from = from.unwrap_or(Place::new(0.0, 0.0));
-            PlannedWay {
+        .filter_map(|(number, slit)| {
+            let from = slit.pieces.first()?.way.from;
+            Some(PlannedWay {
                 layer,
                 number,
                 kind: WayKind::Slit,
@@ -24,7 +22,7 @@ pub fn ways(slits: &[Slit], layer: u32, heights: [f64; 2]) -> Vec<PlannedWay> {
                     Begin::Within => WayEntry::Plunge,
                     Begin::Beside => WayEntry::Open,
                 },
-            }
+            })
         })
         .collect()
 }

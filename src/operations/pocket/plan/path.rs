@@ -58,7 +58,7 @@ fn path(run: &Run, layer: Layer, top: f64, ramp: Angle) -> Path {
         };
         pen.piece(leg.piece, layer.floor, pace);
     }
-    if let Some(last) = run.legs.last().filter(|_| run.leaves_upwards()) {
+    if let Some(last) = run.legs.last() {
         pen.stop();
         pen.line(last.piece.to, top, Pace::Travel);
     }
